@@ -1,0 +1,273 @@
+"""From SymPy expressions to numeric functions; from one problem to a stack of a million.
+
+`function` makes a NumPy function of named expressions, `source` writes the same as readable text for a
+paper's `kernels.py`, and `batched` runs a plain scalar solver over a stack, compiled by Numba.
+"""
+
+import functools
+import hashlib
+import importlib.util
+import inspect
+import math
+import os
+import sys
+import tempfile
+import textwrap
+import types
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+COMPILE_FROM = 512
+"""Stacks at least this large are worth the half second that Numba takes to load."""
+
+
+def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> Callable[..., tuple]:
+    """Compile named SymPy expressions into one NumPy function.
+
+    Common subexpressions are evaluated once; every output has the broadcast shape of the arguments, also
+    where its expression is constant; a matrix gains its own axes at the end.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function made.
+    arguments : sequence of sympy.Symbol
+        Its positional arguments, in order.
+    outputs : mapping of str to sympy.Expr or sympy.Matrix
+        What it returns, as a tuple in this order.
+
+    Raises
+    ------
+    ValueError
+        If an expression holds a symbol that is not an argument.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> x = sp.Symbol("x")
+    >>> value, slope = function("f", [x], {"value": x**2, "slope": sp.Integer(2)})([1.0, 3.0])
+    >>> value.tolist(), slope.tolist()
+    ([1.0, 9.0], [2.0, 2.0])
+    """
+    import sympy as sp
+
+    matrices = {key: sp.Matrix(value) if hasattr(value, "shape") else None for key, value in outputs.items()}
+    flat: list = []
+    for key, value in outputs.items():
+        matrix = matrices[key]
+        flat += [sp.sympify(value)] if matrix is None else list(matrix)
+    _require_known_symbols(name, arguments, flat)
+    evaluate = sp.lambdify(list(arguments), flat, modules="numpy", cse=True)
+
+    def call(*values: ArrayLike) -> tuple[NDArray[np.float64], ...]:
+        arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
+        shape = arrays[0].shape if arrays else ()
+        columns = [np.broadcast_to(np.asarray(column, dtype=float), shape) for column in evaluate(*arrays)]
+        results, position = [], 0
+        for matrix in matrices.values():
+            if matrix is None:
+                results.append(columns[position])
+                position += 1
+            else:
+                count = matrix.rows * matrix.cols
+                stacked = np.stack(columns[position : position + count], axis=-1)
+                results.append(stacked.reshape(*shape, *matrix.shape))
+                position += count
+        return tuple(results)
+
+    call.__name__ = call.__qualname__ = name
+    signature = ", ".join(str(argument) for argument in arguments)
+    call.__doc__ = f"{name}({signature})\n\n" + "\n".join(f"{k} = {v}" for k, v in outputs.items())
+    return call
+
+
+def source(name: str, arguments: Sequence, outputs: Mapping[str, object], doc: str) -> str:
+    """Write named scalar SymPy expressions as the text of one Python function.
+
+    The text uses arithmetic and the `math` module only, so that it runs on floats as it is and under Numba.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> x, y = sp.symbols("x y")
+    >>> print(source("f", [x, y], {"value": (x + y) ** 2 / 3}, "A square."))
+    def f(x, y):
+        \"\"\"A square.\"\"\"
+        x0 = x + y
+        value = 1/3*x0*x0
+        return value
+    """
+    import sympy as sp
+
+    expressions = [sp.sympify(value) for value in outputs.values()]
+    _require_known_symbols(name, arguments, expressions)
+    taken = {str(argument) for argument in arguments} | set(outputs)
+    fresh = (sp.Symbol(f"x{i}") for i in range(10_000) if f"x{i}" not in taken)
+    shared, reduced = sp.cse(expressions, symbols=fresh, order="canonical")
+    write = _scalar_printer().doprint
+    lines = [f"{symbol} = {write(expression)}" for symbol, expression in shared]
+    lines += [f"{key} = {write(expression)}" for key, expression in zip(outputs, reduced, strict=True)]
+    lines.append("return " + ", ".join(outputs))
+    head = f"def {name}({', '.join(str(argument) for argument in arguments)}):"
+    text = '"""' + doc + '"""'
+    return "\n".join([head, textwrap.indent("\n".join([text, *lines]), "    ")])
+
+
+def _require_known_symbols(name: str, arguments: Sequence, expressions: Sequence) -> None:
+    unknown = set().union(*(e.free_symbols for e in expressions)) - set(arguments)
+    if unknown:
+        names = ", ".join(sorted(map(str, unknown)))
+        raise ValueError(f"{name}: expressions hold symbols that are not arguments: {names}")
+
+
+@functools.cache
+def _scalar_printer():
+    from sympy.printing.precedence import PRECEDENCE
+    from sympy.printing.pycode import PythonCodePrinter
+
+    class ScalarPrinter(PythonCodePrinter):
+        """Plain Python with small integer powers written as products: three times faster than `**`."""
+
+        def _print_Pow(self, expr, rational=False):
+            base, exponent = expr.base, expr.exp
+            if exponent.is_Integer and 1 < abs(exponent) <= 4:
+                factor = self.parenthesize(base, PRECEDENCE["Pow"])
+                product = "*".join([factor] * abs(int(exponent)))
+                return f"({product})" if exponent > 0 else f"1/({product})"
+            return super()._print_Pow(expr, rational)
+
+        def _print_Mul(self, expr):
+            return super()._print_Mul(expr).replace("*(", "*(")
+
+    return ScalarPrinter({"fully_qualified_modules": False})
+
+
+def batched(kernel: Callable[..., tuple], outputs: int) -> Callable[..., NDArray[np.float64]]:
+    """Run a scalar solver over a stack of problems.
+
+    Small stacks run the plain Python source; large ones the same source compiled by Numba and cached on
+    disk under the hash of that source, so that an edited kernel is never served stale.
+
+    Parameters
+    ----------
+    kernel : function of n floats returning a tuple of floats
+        Written in plain arithmetic and the `math` module; what it calls must be so too.
+    outputs : int
+        How many floats it returns.
+
+    Returns
+    -------
+    function of n equally long 1-D arrays
+        Returns an array (problems, outputs).
+    """
+
+    @functools.wraps(kernel)
+    def run(*columns: NDArray[np.float64]) -> NDArray[np.float64]:
+        count = len(columns[0])
+        result = np.empty((count, outputs))
+        if count < COMPILE_FROM or not has_numba():
+            for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
+                result[i] = kernel(*values)
+        else:
+            compiled_loop(kernel, len(columns), outputs)(
+                result, *(np.ascontiguousarray(column, dtype=float) for column in columns)
+            )
+        return result
+
+    return run
+
+
+@functools.cache
+def has_numba() -> bool:
+    """Whether Numba can be imported; said once if it cannot."""
+    if importlib.util.find_spec("numba") is None:
+        print("pontryagin: numba is not installed; large stacks run as plain Python, slowly", file=sys.stderr)
+        return False
+    return True
+
+
+@functools.cache
+def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> Callable[..., None]:
+    """Numba-compiled loop ``loop(result, *columns)`` over a scalar kernel."""
+    arguments = ", ".join(f"a{i}" for i in range(inputs))
+    items = ", ".join(f"a{i}[i]" for i in range(inputs))
+    targets = ", ".join(f"result[i, {j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
+    signature = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
+    text = _closure_source(kernel) + (
+        '\n\ncolumn = types.Array(types.float64, 1, "C", readonly=True)\n'
+        f'\n\n@njit({signature}, cache=True, nogil=True, error_model="numpy")\n'
+        f"def loop(result, {arguments}):\n"
+        f"    for i in range(result.shape[0]):\n"
+        f"        {targets} = {kernel.__name__}({items})\n"
+    )
+    return _load(text).loop
+
+
+def _closure_source(kernel: Callable) -> str:
+    """The kernel's source and that of everything it calls, as the text of one module."""
+    functions: dict[str, Callable] = {}
+    constants: dict[str, float] = {}
+    imported: set[str] = set()
+
+    def visit(target: Callable) -> None:
+        if target.__name__ in functions:
+            return
+        for name in _names(target.__code__):
+            if name not in target.__globals__:
+                continue
+            value = target.__globals__[name]
+            if isinstance(value, types.FunctionType):
+                visit(value)
+            elif isinstance(value, int | float):
+                constants[name] = value
+            elif getattr(math, name, None) is value:
+                imported.add(name)
+            else:
+                raise TypeError(
+                    f"{target.__name__} uses {name}, which is neither a number nor a plain function"
+                )
+        functions[target.__name__] = target
+
+    visit(kernel)
+    parts = ["from numba import njit, types"]
+    if imported:
+        parts.append("from math import " + ", ".join(sorted(imported)))
+    parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]
+    for target in functions.values():
+        parts.append('\n@njit(cache=True, nogil=True, error_model="numpy")\n' + inspect.getsource(target))
+    return "\n".join(parts)
+
+
+def _names(code: types.CodeType) -> tuple[str, ...]:
+    return code.co_names
+
+
+def _load(text: str) -> types.ModuleType:
+    """Import a module from its text, kept in the user's cache under the hash of the text."""
+    digest = hashlib.sha256(text.encode()).hexdigest()[:20]
+    path = _cache_folder() / f"kernel_{digest}.py"
+    if not path.exists():
+        scratch = path.with_suffix(f".{os.getpid()}.tmp")
+        scratch.write_text(text)
+        scratch.replace(path)
+    spec = importlib.util.spec_from_file_location(f"pontryagin_{path.stem}", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[module.__name__] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@functools.cache
+def _cache_folder() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    folder = Path(base).expanduser() / "pontryagin"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="pontryagin-"))

@@ -1,0 +1,95 @@
+"""Where generated files go, and how they get there whole."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+def repository() -> Path:
+    """Root of the checkout that this package is imported from.
+
+    Returns
+    -------
+    Path
+        The nearest folder above the package that holds ``pyproject.toml``.
+
+    Raises
+    ------
+    ValueError
+        When the package was installed without its checkout.
+
+    Examples
+    --------
+    >>> (repository() / "pyproject.toml").is_file()
+    True
+    """
+    for folder in Path(__file__).resolve().parents:
+        if (folder / "pyproject.toml").is_file():
+            return folder
+    raise ValueError("no checkout of pontryagin around the installed package: work from a clone")
+
+
+def figures_folder() -> Path:
+    """Folder of figures and tables: ``PONTRYAGIN_FIGURES`` if set, else ``figures/`` of the checkout."""
+    chosen = os.environ.get("PONTRYAGIN_FIGURES")
+    return Path(chosen).resolve() if chosen else repository() / "figures"
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Write beside `path` and put the result in its place in one step.
+
+    Whoever reads `path` sees the old file or the new one, never a part of either, whenever the
+    writer is killed.
+
+    Parameters
+    ----------
+    path : Path
+        File to create or replace; its folder is created.
+
+    Yields
+    ------
+    Path
+        The file to write. When the block raises it is removed and `path` stays as it was.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> target = Path(tempfile.mkdtemp()) / "answer.txt"
+    >>> with replacing(target) as draft:
+    ...     _ = draft.write_text("32")
+    >>> target.read_text()
+    '32'
+    """
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
+    try:
+        yield draft
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def write(path: Path, content: str | bytes) -> bool:
+    """Write `content` in one step; a file that already holds it is left untouched.
+
+    Returns
+    -------
+    bool
+        Whether the file changed.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    path = Path(path)
+    if path.is_file() and path.read_bytes() == data:
+        return False
+    with replacing(path) as draft:
+        draft.write_bytes(data)
+    return True
+
+
+def remove_drafts(folder: Path) -> None:
+    """Remove what a killed writer left behind below `folder`."""
+    for draft in Path(folder).rglob(".*.partial*"):
+        draft.unlink(missing_ok=True)

@@ -1,0 +1,158 @@
+"""What a notebook or a module is made of: every file of the package that running it can read.
+
+Imports are followed without running anything. What cannot be decided is counted in: a module that imports
+by a computed name depends on its whole package, one that looks for files depends on those beside it.
+"""
+
+import ast
+import hashlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+_COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
+_COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
+_FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
+_ABOVE_THE_PAPERS = ("report", "cli", "__main__")
+
+
+@dataclass(frozen=True)
+class Source:
+    """The modules of a package in the folder `folder`, by dotted name."""
+
+    folder: Path
+
+    @cached_property
+    def modules(self) -> dict[str, Path]:
+        """Dotted name -> file, for every module and package."""
+        found = {}
+        for path in sorted(self.folder.rglob("*.py")):
+            parts = [self.folder.name, *path.relative_to(self.folder).with_suffix("").parts]
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+        return found
+
+    def below(self, package: str) -> set[str]:
+        """All modules of a package; those above the papers are no paper's business."""
+        above = tuple(f"{self.folder.name}.{name}" for name in _ABOVE_THE_PAPERS)
+        inside = {name for name in self.modules if name == package or name.startswith(package + ".")}
+        return inside if package.startswith(above) else {m for m in inside if not m.startswith(above)}
+
+    def package_of(self, module: str) -> str:
+        """The package that a relative import in `module` starts from."""
+        is_package = self.modules[module].name == "__init__.py"
+        return module if is_package else module.rpartition(".")[0]
+
+
+def closure(source: Source, code: Iterable[str]) -> set[Path]:
+    """Files of the package that pieces of code depend on, directly or through other modules.
+
+    Parameters
+    ----------
+    source : Source
+        The package.
+    code : iterable of str
+        Python text: a notebook's cells, or ``import package.module`` for a module.
+
+    Returns
+    -------
+    set of Path
+        Modules and, for those that look for files, what lies beside them.
+    """
+    open_names = set().union(*(_needed(source, text, source.folder.name) for text in code), set())
+    known: set[str] = set()
+    while open_names:
+        module = open_names.pop()
+        if module in known:
+            continue
+        known.add(module)
+        text = source.modules[module].read_text(encoding="utf-8")
+        open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
+    files = {source.modules[module] for module in known}
+    return files | {data for path in files for data in _data_beside(path)}
+
+
+def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
+    """A key that changes when any part does; a path counts with its place below `root` and its content."""
+    state = hashlib.sha256()
+    for part in parts:
+        if isinstance(part, Path):
+            content = str(part.relative_to(root) if root else part.name).encode() + b"\0" + part.read_bytes()
+        else:
+            content = part.encode() if isinstance(part, str) else part
+        state.update(len(content).to_bytes(8, "big") + content)
+    return state.hexdigest()[:24]
+
+
+def _needed(source: Source, text: str, package: str) -> set[str]:
+    try:
+        tree = ast.parse(text)
+    except SyntaxError:
+        return source.below(source.folder.name)
+    needed: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            needed |= set().union(*(_named(source, alias.name) for alias in node.names))
+        elif isinstance(node, ast.ImportFrom):
+            base = _absolute(node, package)
+            needed |= set().union(*(_named(source, f"{base}.{alias.name}") for alias in node.names))
+            if any(alias.name == "*" for alias in node.names):
+                needed |= source.below(base)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            needed |= _named(source, node.value) if node.value in source.modules else set()
+        elif isinstance(node, ast.Call):
+            needed |= _called(source, node, package)
+    lazy = any(isinstance(node, ast.FunctionDef) and node.name == "__getattr__" for node in tree.body)
+    return needed | (source.below(package) if lazy else set())
+
+
+def _called(source: Source, call: ast.Call, package: str) -> set[str]:
+    function = call.func
+    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+    written = [node.value for node in ast.walk(call) if isinstance(node, ast.Constant)]
+    if name in _COMPUTED:
+        constant = bool(call.args) and isinstance(call.args[0], ast.Constant)
+        exact = constant and str(written[0]) in source.modules
+        return set() if exact else source.below(package)
+    if name in _COMMANDS and any(source.folder.name in str(value) for value in written):
+        return source.below(source.folder.name)
+    return set()
+
+
+def _absolute(node: ast.ImportFrom, package: str) -> str:
+    if node.level == 0:
+        return node.module or ""
+    start = package.split(".")[: len(package.split(".")) - node.level + 1]
+    return ".".join([*start, *([node.module] if node.module else [])])
+
+
+def _named(source: Source, name: str) -> set[str]:
+    parts = name.split(".")
+    prefixes = (".".join(parts[: i + 1]) for i in range(len(parts)))
+    return {prefix for prefix in prefixes if prefix in source.modules}
+
+
+def _parents(source: Source, module: str) -> set[str]:
+    return _named(source, module) - {module}
+
+
+def _data_beside(path: Path) -> set[Path]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    names = {getattr(node, "id", None) or getattr(node, "attr", None) for node in ast.walk(tree)}
+    imported = {
+        alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names
+    }
+    if not _FILE_READERS & (names | imported):
+        return set()
+    beside = (found for found in path.parent.rglob("*") if found.is_file())
+    return {found for found in beside if found.suffix not in {".py", ".pyc"}}
+
+
+def literals(text: str) -> set[str]:
+    """The short strings written in a piece of code; those that name a file are read by it, perhaps."""
+    try:
+        tree = ast.parse(text)
+    except SyntaxError:
+        return set()
+    strings = (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
+    return {s for s in strings if isinstance(s, str) and 0 < len(s) < 200 and "\n" not in s and "\0" not in s}

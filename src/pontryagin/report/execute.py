@@ -1,0 +1,260 @@
+"""Notebooks to executed notebooks, figures and tables: the same bytes every time, and only when needed.
+
+A notebook runs in a kernel of its own, in an environment that leaves nothing to chance. What it drew is kept
+with its outputs under a key made of its code, the package files it depends on and the lock; text between
+the cells is no part of the key. An entry of the cache appears in one step, so a killed run leaves none.
+"""
+
+import os
+import shutil
+import sys
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbformat import NotebookNode
+
+from pontryagin import files
+from pontryagin.report import dependencies
+from pontryagin.report.workspace import Workspace
+
+CELL_TIMEOUT = 1200
+KEPT_ENTRIES = 4
+EPOCH = "1325376000"
+
+Progress = Callable[[str, int, int], None]
+"""Called with a notebook's name, cells done and cells in all."""
+
+
+class CellFailure(RuntimeError):
+    """A cell raised; the message names the notebook, the cell and the error."""
+
+
+@dataclass(frozen=True)
+class Executed:
+    """An executed notebook: its present text, the outputs of its code, and how long the code took."""
+
+    name: str
+    notebook: NotebookNode
+    folder: Path
+    seconds: float
+    fresh: bool
+
+
+def execute_all(
+    workspace: Workspace, paths: list[Path], workers: int, progress: Progress
+) -> list[Executed | CellFailure]:
+    """Execute notebooks, `workers` at a time; a failure is returned in its notebook's place."""
+
+    def one(path: Path) -> Executed | CellFailure:
+        try:
+            return execute(workspace, path, progress)
+        except CellFailure as failure:
+            return failure
+
+    with ThreadPoolExecutor(max_workers=workers) as pool:
+        return list(pool.map(one, paths))
+
+
+def execute(workspace: Workspace, path: Path, progress: Progress = lambda *_: None) -> Executed:
+    """Execute a notebook, or take its outputs from the cache.
+
+    Parameters
+    ----------
+    workspace : Workspace
+        Where the package, the lock and the cache are.
+    path : Path
+        The notebook.
+    progress : callable
+        Told how many of its cells are done.
+
+    Raises
+    ------
+    CellFailure
+        When a cell raises or exceeds the time limit.
+    """
+    notebook = read_notebook(path)
+    entry = workspace.cache / "notebooks" / path.stem / notebook_key(workspace, notebook)
+    fresh = not entry.is_dir()
+    if fresh:
+        _run_into(entry, workspace, path, notebook, progress)
+    kept = nbformat.read(entry / "executed.ipynb", as_version=4)
+    seconds = float((entry / "seconds").read_text())
+    return Executed(path.stem, _with_outputs(notebook, kept), entry / "figures", seconds, fresh)
+
+
+def read_notebook(path: Path) -> NotebookNode:
+    """The notebook without outputs, its cells named by their place."""
+    notebook = nbformat.read(path, as_version=4)
+    for place, cell in enumerate(notebook.cells):
+        cell["id"] = f"cell-{place + 1}"
+        if cell.cell_type == "code":
+            cell["outputs"], cell["execution_count"] = [], None
+    return notebook
+
+
+def notebook_key(workspace: Workspace, notebook: NotebookNode) -> str:
+    """Key of a notebook's outputs: its code, the package files behind it, the lock and the interpreter."""
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    plain = [_plain_python(source) for source in code]
+    parts = dependencies.closure(dependencies.Source(workspace.source), plain)
+    named = _files_named_in(plain, workspace.root)
+    return dependencies.digest(
+        *code, *sorted(parts | named), workspace.lock_text, sys.version, _ENVIRONMENT_KEY, root=workspace.root
+    )
+
+
+def publish(workspace: Workspace, executed: Iterable[Executed]) -> int:
+    """Bring ``figures/`` and ``build/notebooks/`` up to date; returns how many files changed."""
+    changed = 0
+    for result in executed:
+        target = workspace.figures / result.name
+        drawn = {path.name: path for path in result.folder.glob("*")} if result.folder.is_dir() else {}
+        for stale in set(target.glob("*")) - {target / name for name in drawn}:
+            stale.unlink()
+            changed += 1
+        changed += sum(files.write(target / name, path.read_bytes()) for name, path in drawn.items())
+        files.write(workspace.build / "notebooks" / f"{result.name}.ipynb", nbformat.writes(result.notebook))
+    return changed
+
+
+def environment(workspace: Workspace, **more: str) -> dict[str, str]:
+    """Environment of everything that the build runs: fixed hashes, one thread, no user settings."""
+    private = workspace.cache / "settings"
+    return {
+        **os.environ,
+        **_FIXED,
+        "IPYTHONDIR": str(private / "ipython"),
+        "JUPYTER_CONFIG_DIR": str(private / "jupyter"),
+        "MPLCONFIGDIR": str(private / "matplotlib"),
+        "PYTHONPATH": str(workspace.source.parent),
+        **more,
+    }
+
+
+_FIXED = {
+    "PYTHONHASHSEED": "0",
+    "SOURCE_DATE_EPOCH": EPOCH,
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "NUMEXPR_NUM_THREADS": "1",
+    "NUMBA_NUM_THREADS": "1",
+    "RERUN_ANALYTICS": "0",
+    "PYDEVD_DISABLE_FILE_VALIDATION": "1",
+    "LC_ALL": "C.UTF-8",
+    "TZ": "UTC",
+}
+_ENVIRONMENT_KEY = repr(sorted(_FIXED.items()))
+
+
+def _run_into(
+    entry: Path, workspace: Workspace, path: Path, notebook: NotebookNode, progress: Progress
+) -> None:
+    draft = entry.with_name(f".{entry.name}.{os.getpid()}.partial")
+    shutil.rmtree(draft, ignore_errors=True)
+    (draft / "figures").mkdir(parents=True)
+    started = time.perf_counter()
+    _run(workspace, path, notebook, draft / "figures", progress)
+    (draft / "seconds").write_text(f"{time.perf_counter() - started:.1f}")
+    nbformat.write(notebook, draft / "executed.ipynb")
+    draft.replace(entry)
+    _forget_old_entries(entry.parent)
+
+
+def _run(workspace: Workspace, path: Path, notebook: NotebookNode, figures: Path, progress: Progress) -> None:
+    from nbclient.client import NotebookClient
+    from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
+
+    total = len(notebook.cells)
+    reached = [0]
+
+    def done(cell_index: int, **_: Any) -> None:
+        reached[0] = cell_index
+        progress(path.stem, cell_index, total)
+
+    client = NotebookClient(
+        notebook,
+        timeout=CELL_TIMEOUT,
+        record_timing=False,
+        resources={"metadata": {"path": str(path.parent)}},
+        kernel_manager_class=_kernel_manager_class(),
+        on_cell_start=lambda cell, cell_index: done(cell_index),
+    )
+    variables = {"PONTRYAGIN_NOTEBOOK": path.stem, "PONTRYAGIN_FIGURES": str(figures.parent / "drawn")}
+    try:
+        client.execute(env=environment(workspace, **variables))
+    except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
+        raise CellFailure(_describe(path, notebook, reached[0], error)) from None
+    drawn = figures.parent / "drawn" / path.stem
+    if drawn.is_dir():
+        figures.rmdir()
+        drawn.replace(figures)
+    progress(path.stem, total, total)
+
+
+def _kernel_manager_class() -> type:
+    from jupyter_client.kernelspec import KernelSpec
+    from jupyter_client.manager import AsyncKernelManager
+
+    class ThisInterpreter(AsyncKernelManager):
+        """Starts the interpreter that runs the build, whatever kernels the user has installed."""
+
+        @property
+        def kernel_spec(self) -> KernelSpec:
+            argv = [
+                sys.executable,
+                "-Xfrozen_modules=off",
+                "-m",
+                "ipykernel_launcher",
+                "-f",
+                "{connection_file}",
+            ]
+            return KernelSpec(argv=argv, display_name="Python 3", language="python")
+
+    return ThisInterpreter
+
+
+def _describe(path: Path, notebook: NotebookNode, index: int, error: Exception) -> str:
+    cell = notebook.cells[index]
+    raised = [out for out in cell.get("outputs", []) if out.output_type == "error"]
+    what = f"{raised[0].ename}: {raised[0].evalue}" if raised else str(error).strip()
+    source = "\n".join(f"    {line}" for line in cell.source.splitlines())
+    return f"notebooks/{path.name}, cell {index + 1} of {len(notebook.cells)}: {what}\n{source}"
+
+
+def _with_outputs(notebook: NotebookNode, kept: NotebookNode) -> NotebookNode:
+    outputs = [cell for cell in kept.cells if cell.cell_type == "code"]
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    for cell, ran in zip(code, outputs, strict=True):
+        cell["outputs"], cell["execution_count"] = ran.outputs, ran.execution_count
+    notebook.metadata = kept.metadata
+    return notebook
+
+
+def _plain_python(source: str) -> str:
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    return TransformerManager().transform_cell(source)
+
+
+def _files_named_in(code: Iterable[str], root: Path) -> set[Path]:
+    named = set()
+    for text in code:
+        for literal in dependencies.literals(text):
+            path = (root / "notebooks" / literal).resolve()
+            if path.is_file() and path.is_relative_to(root.resolve()):
+                named.add(root / path.relative_to(root.resolve()))
+    return named
+
+
+def _forget_old_entries(folder: Path) -> None:
+    entries = sorted(
+        (e for e in folder.iterdir() if not e.name.startswith(".")), key=lambda e: e.stat().st_mtime
+    )
+    for entry in entries[:-KEPT_ENTRIES]:
+        shutil.rmtree(entry, ignore_errors=True)

@@ -1,0 +1,23 @@
+"""The papers of the project, in the order of the report; a new paper is a line here."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A paper: what the ledger calls it, its folder, and where it was printed."""
+
+    name: str
+    package: str
+    title: str
+    source: str
+
+
+PAPERS = (
+    Paper(
+        "Gorelov & Morozova 2012",
+        "triple_integrator",
+        "Synthesis of optimal control of spacecraft partial rotation by moments method",
+        "Yu. N. Gorelov, M. V. Morozova, 2012 (in Russian)",
+    ),
+)

@@ -1,0 +1,59 @@
+"""Optimal control of the triple integrator (Gorelov & Morozova 2012), as a moment problem.
+
+One channel of a spacecraft's attitude, x1' = x2, x2' = x3 + f(t), x3' = u, is steered between given
+states in a given time with the least energy (L2), the least peak (L-infinity) or the least total impulse
+(L1) of u, or in the least time under a bound on |u|. Krasovskii's maximum principle makes each a moment
+problem: u must have the moments c against the impulse response h(s), and its least norm is the inverse of
+the least dual norm of l'h over l'c = 1.
+
+paper           here                meaning
+--------------  ------------------  -----------------------------------------------------------
+gamma, omega    x1, x2              angle and rate
+m               x3                  relative control moment (control acceleration)
+u               control             rate of the control acceleration
+f               disturbance         disturbing and cross-coupling acceleration
+T               duration            tf - t0
+tf - tau        s                   time to go
+h(tau)          dual function       response of the state at tf to an impulse at tau
+c               moments             what the integral of h u must be
+l, l0           multipliers         coefficients of the dual function; of the minimal element
+rho0            1 / norm            norm of the minimal element
+psi             costate             psi_3 = h
+D, W            gramian             controllability Gramian
+u0              norm                least peak of |u|
+t1, t2          switch_times        zeros of the minimal element
+a0, am, aT      impulses            at the start, in the middle, at the end
+R               norm                total impulse
+"""
+
+from importlib import import_module
+
+_HOMES = {
+    "Maneuver": "maneuver",
+    "minimum_energy": "energy",
+    "minimum_peak": "peak",
+    "minimum_impulse": "impulse",
+    "minimum_norm": "norm",
+    "minimum_time": "time",
+    "maximum_entropy": "entropy",
+    "attitude": "",
+    "coupling": "",
+    "search": "",
+    "derivation": "",
+    "figures": "",
+    "playback": "",
+}
+
+__all__ = list(_HOMES)
+
+
+def __getattr__(name: str):
+    """Public names load their module at first use, so that an import costs nothing it does not need."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    home = _HOMES[name]
+    return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

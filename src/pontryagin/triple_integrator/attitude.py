@@ -1,0 +1,227 @@
+"""The real turn: a rigid body about a fixed axis by a channel's programme, with the torque no channel knows.
+
+The programme moves the angle x1 about the axis e. Euler's equations with w = x2 e need the torque
+M = J e (x3 + f) + x2^2 e x (J e): what the channel commands, and a gyroscopic part across the axis that
+vanishes only where e is a principal axis. It is fed forward, or it is not and the body misses.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.compile import function
+from pontryagin.triple_integrator.disturbance import Panels
+from pontryagin.triple_integrator.kinematics import between, cross, quaternion, rotation_vector
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.validation import vectors
+
+
+class Programme(Protocol):
+    """What `minimum_energy`, `minimum_peak`, `minimum_impulse`, `minimum_norm` and `minimum_time` return."""
+
+    @property
+    def maneuver(self) -> Maneuver: ...
+    @property
+    def breakpoints(self) -> NDArray[np.float64]: ...
+    def control(self, t: ArrayLike) -> NDArray[np.float64]: ...
+    def state(self, t: ArrayLike) -> NDArray[np.float64]: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """A body turned about a fixed axis by a programme; times (k,) as in the programme.
+
+    Attributes
+    ----------
+    body : RigidBody
+    axis : (3,) array
+        Unit axis e, the same in body and inertial axes while the turn goes as planned.
+    programme : solution of one manoeuvre
+        Plans the angle about the axis.
+    feedforward : bool
+        Whether the actuators also give the gyroscopic torque.
+    motion : Motion
+        What Euler's equations make of it; its commands are the planned x1, x2, x3, integrated beside.
+    """
+
+    body: RigidBody
+    axis: NDArray[np.float64]
+    programme: Programme
+    feedforward: bool
+    motion: Motion
+
+    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Quaternion, scalar first, from body to inertial axes, (k, 4)."""
+        return self.motion.attitude(t)
+
+    def planned_attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Quaternion of the turn by x1 about the axis, (k, 4)."""
+        return quaternion(self.motion.commands(t)[:, :1] * self.axis)
+
+    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Angular rate in body axes, (k, 3)."""
+        return self.motion.rate(t)
+
+    def error(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Rotation vector from the planned to the true attitude, rad, (k, 3)."""
+        return rotation_vector(between(self.planned_attitude(t), self.attitude(t)))
+
+    def rate_error(self, t: ArrayLike) -> NDArray[np.float64]:
+        """True less planned angular rate, (k, 3)."""
+        return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
+
+    def angle(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Angle turned about the axis, rad, (k,): the share of the true attitude that is a turn about it."""
+        turn = between(self.planned_attitude(t), self.attitude(t))
+        return self.motion.commands(t)[:, 0] + 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
+
+    def channel_torque(self, t: ArrayLike) -> NDArray[np.float64]:
+        """J e x3: what the programme commands, (k, 3)."""
+        return self.motion.commands(t)[:, 2:] * (self.body.inertia @ self.axis)
+
+    def gyroscopic_torque(self, t: ArrayLike) -> NDArray[np.float64]:
+        """x2^2 e x (J e): what else the planned turn needs, (k, 3)."""
+        return self.motion.commands(t)[:, 1:2] ** 2 * self.gyroscopic_inertia
+
+    def torque(self, t: ArrayLike) -> NDArray[np.float64]:
+        """What the actuators give, (k, 3)."""
+        channel = self.channel_torque(t)
+        return channel + self.gyroscopic_torque(t) if self.feedforward else channel
+
+    def torque_rate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Rate of change of `torque`, (k, 3); between impulses, which make the torque jump by J e du."""
+        x2, x3 = self.motion.commands(t)[:, 1:].T
+        control = self.programme.control(t)
+        channel = np.where(np.isfinite(control), control, 0.0)[:, None] * (self.body.inertia @ self.axis)
+        if not self.feedforward:
+            return channel
+        f = disturbance_of(self.programme.maneuver)
+        acceleration = x3 + np.array([f(time) for time in np.atleast_1d(t)])
+        return channel + (2 * x2 * acceleration)[:, None] * self.gyroscopic_inertia
+
+    @property
+    def gyroscopic_inertia(self) -> NDArray[np.float64]:
+        """e x (J e), (3,): zero about a principal axis."""
+        return cross(self.axis, self.body.inertia @ self.axis)
+
+    @property
+    def attitude_miss(self) -> float:
+        """Angle between the attitude reached and the target, rad."""
+        return float(np.linalg.norm(self.error(self.motion.edges[-1:])))
+
+    @property
+    def rate_miss(self) -> float:
+        """Size of the angular rate left over at the end."""
+        return float(np.linalg.norm(self.rate_error(self.motion.edges[-1:])))
+
+
+def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bool = True) -> Turn:
+    """Turn a rigid body about a fixed axis by a programme, and integrate what it then does.
+
+    The body starts turned by x1(t0) about the axis at the rate x2(t0). A disturbance f of the manoeuvre
+    acts as the torque J e f from outside. The motion is integrated from Euler's equations and the
+    quaternion kinematics, by SciPy; the programme supplies its control and its impulses only.
+
+    Parameters
+    ----------
+    body : RigidBody
+    axis : (3,) array_like
+        Direction of the axis, not zero.
+    programme : solution of one manoeuvre
+        From `minimum_energy`, `minimum_peak`, `minimum_impulse`, `minimum_norm` or `minimum_time`.
+    feedforward : bool
+        Whether the gyroscopic torque is added to the channel's.
+
+    Returns
+    -------
+    Turn
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `axis` is not a direction, or the programme is that of a stack.
+
+    Examples
+    --------
+    >>> from pontryagin.triple_integrator.maneuver import Maneuver
+    >>> from pontryagin.triple_integrator.peak import minimum_peak
+    >>> body = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
+    >>> programme = minimum_peak(Maneuver([0, 0, 0], [1.5, 0, 0], tf=2.0))
+    >>> turn(body, [1, 2, 2], programme).attitude_miss < 1e-10
+    True
+    >>> round(turn(body, [1, 2, 2], programme, feedforward=False).attitude_miss, 4)
+    0.4983
+    """
+    maneuver = single(programme)
+    e = _unit(axis)
+    start, rate, _ = maneuver.x0
+    scales = float(maneuver.duration) ** -np.arange(3.0)
+    commands = Commands(
+        maneuver.x0,
+        _planned_motion(programme),
+        scales,
+        programme.breakpoints,
+        [(time, np.array([0.0, 0.0, jump])) for time, jump in impulses(programme)],
+    )
+    inertia = body.inertia @ e
+    gyroscopic = cross(e, inertia) if feedforward else np.zeros(3)
+    f = disturbance_of(maneuver)
+
+    def torque(t: float, q: NDArray, w: NDArray, planned: NDArray) -> NDArray[np.float64]:
+        return (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
+
+    interval = float(maneuver.t0), float(maneuver.tf)
+    motion = simulate(body, interval, quaternion(start * e), rate * e, commands, torque)
+    return Turn(body, e, programme, bool(feedforward), motion)
+
+
+def single(programme: Programme) -> Maneuver:
+    """The manoeuvre of a programme, refused if it is a stack."""
+    maneuver = programme.maneuver
+    if maneuver.shape != ():
+        raise ValueError(f"programme must be that of one manoeuvre, got a stack of shape {maneuver.shape}")
+    return maneuver
+
+
+def impulses(programme: Any) -> list[tuple[float, float]]:
+    """Impulses of the control, (time, jump of x3); none unless the programme has them."""
+    if not hasattr(programme, "impulses"):
+        return []
+    pairs = zip(programme.impulse_times.tolist(), programme.impulses.tolist(), strict=True)
+    return [(time, jump) for time, jump in pairs if jump != 0.0]
+
+
+def _unit(axis: ArrayLike) -> NDArray[np.float64]:
+    direction = vectors("axis", axis, 3)
+    size = np.linalg.norm(direction)
+    if direction.shape != (3,) or not size > 0:
+        raise ValueError(f"axis must be an array (3,) other than zero, got {direction.tolist()}")
+    return direction / size
+
+
+def _planned_motion(programme: Programme) -> Callable[[float, NDArray], tuple[float, float, float]]:
+    f = disturbance_of(programme.maneuver)
+
+    def rate(t: float, x: NDArray) -> tuple[float, float, float]:
+        return x[1], x[2] + f(t), float(programme.control(t)[0])
+
+    return rate
+
+
+def disturbance_of(maneuver: Maneuver) -> Callable[[float], float]:
+    """The disturbance f as a function of one time."""
+    given: Any = maneuver.disturbance
+    if given is None:
+        return lambda t: 0.0
+    if hasattr(given, "free_symbols"):
+        symbols = sorted(given.free_symbols, key=str)
+        compiled = function("disturbance", symbols, {"f": given})
+        return lambda t: float(compiled(*[t] * len(symbols))[0])
+    if callable(given):
+        panels = Panels(given, float(maneuver.t0), float(maneuver.tf))
+        return lambda t: float(panels.values(np.array([t]))[0])
+    return lambda t: float(given)

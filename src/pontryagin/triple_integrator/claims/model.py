@@ -1,0 +1,223 @@
+"""The introduction, (0.1) to (0.9): the channel and its ends."""
+
+import sympy as sp
+
+from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
+from pontryagin.ledger import Page
+from pontryagin.triple_integrator.derivation import channel, energy
+from pontryagin.triple_integrator.derivation.channel import (
+    control,
+    disturbance,
+    epsilon,
+    gamma,
+    omega,
+    t,
+    tau,
+    torque,
+)
+from pontryagin.triple_integrator.derivation.duality import peak_bound
+from pontryagin.triple_integrator.derivation.model import T, c, s
+
+claim = Page("Gorelov & Morozova 2012")
+
+x10, x20, x30 = channel.initial
+x1f, x2f, x3f = channel.final
+x1, x2, x3 = (sp.Function(f"x_{k}") for k in (1, 2, 3))
+kappa = sp.Symbol("kappa", real=True)
+R = sp.Rational
+
+
+@claim("(0.1)", "rotation about a fixed axis: dγ/dt = ω, dω/dt = ε", verdict="holds")
+def rotation_about_an_axis():
+    def derived():
+        # Rodrigues' matrix gives the rate; along a fixed axis its derivative is the angular acceleration.
+        rate = sp.solve(sp.Eq(channel.rate_of_rotation(), omega(t)), gamma(t).diff(t))[0]
+        axis = sp.Matrix([sp.cos(kappa), sp.sin(kappa), 0])
+        along = sp.simplify((axis.T * (omega(t) * axis).diff(t))[0])
+        return {
+            r"\dot\gamma(t)": rate,
+            r"\dot\omega(t)": sp.solve(sp.Eq(along, epsilon(t)), omega(t).diff(t))[0],
+        }
+
+    return Equality({r"\dot\gamma(t)": omega(t), r"\dot\omega(t)": epsilon(t)}, derived)
+
+
+@claim("(0.2)", "ends of the turn: angle and rate at t0 and tf", verdict="holds")
+def ends_of_the_turn():
+    g0, w0, gf, wf = sp.symbols("gamma_0 omega_0 gamma_f omega_f", real=True)
+    names = {x10: g0, x20: w0, x1f: gf, x2f: wf}
+
+    def derived():
+        state = channel.transfer(kappa).subs(names)
+        start, end = state.subs(tau, 0), state.subs(tau, T)
+        return {
+            r"\gamma(t_0)": start[0],
+            r"\omega(t_0)": start[1],
+            r"\gamma(t_f)": end[0],
+            r"\omega(t_f)": end[1],
+        }
+
+    printed = {r"\gamma(t_0)": g0, r"\omega(t_0)": w0, r"\gamma(t_f)": gf, r"\omega(t_f)": wf}
+    return Equality(printed, derived)
+
+
+@claim(
+    "after (0.2)",
+    "γ0 = 0, 0 < γf ≤ π, ω0 = ωf = 0 is a turn by the angle γf about the body axis, and not a trivial one",
+    verdict="holds",
+)
+def turn_by_an_angle():
+    angle = sp.Symbol("gamma_f", real=True)
+
+    def argument() -> Steps:
+        axis = sp.Matrix([0, 0, 1])
+        turned = channel.rotation(angle, axis)
+        yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
+        yield "its trace is 1 + 2 cos γf: it is a turn by γf", vanishes(turned.trace() - 1 - 2 * sp.cos(angle))
+        back = channel.rotation(angle - 2 * sp.pi, axis)
+        yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
+        rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
+        yield "left to itself at rest, the craft does not turn", vanishes(rest)
+
+    return Proof(argument)
+
+
+@claim(
+    "(0.3)", "angular acceleration = control torque + disturbances, cross-couplings included", verdict="holds"
+)
+def acceleration_is_torque_and_disturbance():
+    applied, external = sp.symbols("M_1 M_d", real=True)
+    inertia = sp.Symbol("J_1", positive=True)
+    acceleration = channel.euler_acceleration(applied, external)
+    rest = acceleration.subs(applied, 0)
+
+    def derived():
+        in_relative_torque = acceleration.subs(applied, inertia * torque(t))
+        return {r"\varepsilon(t)": in_relative_torque - rest + disturbance(t)}
+
+    def argument() -> Steps:
+        rates = sp.symbols("omega_2:4", real=True)
+        yield "what is not control is free of the control torque", not rest.has(applied)
+        yield "it holds the product of the other two rates", rest.diff(*rates) != 0
+        yield "and the external torque", vanishes(rest.diff(external) - 1 / inertia)
+
+    return Proof(argument, Equality({r"\varepsilon(t)": torque(t) + disturbance(t)}, derived))
+
+
+@claim("after (0.3)", "(0.1) and (0.3) make a double integrator: d²γ/dt² = m + f", verdict="holds")
+def double_integrator():
+    def derived():
+        rate = {gamma(t).diff(t): omega(t), omega(t).diff(t): torque(t) + disturbance(t)}
+        return {r"\ddot\gamma(t)": gamma(t).diff(t).subs(rate).diff(t).subs(rate)}
+
+    return Equality({r"\ddot\gamma(t)": torque(t) + disturbance(t)}, derived)
+
+
+@claim("(0.4)", "the control u is the rate of the control torque", verdict="holds")
+def rate_of_the_torque():
+    def derived():
+        built_up = sp.Symbol("m_0") + sp.Integral(control(tau), (tau, channel.t0, t))
+        return {r"\dot m(t)": built_up.diff(t)}
+
+    return Equality({r"\dot m(t)": control(t)}, derived)
+
+
+@claim(
+    "before (0.4)",
+    "electromechanical actuators: the torque m(t) is continuous",
+    verdict="conditional",
+    remark="True for every integrable u. The impulsive programme (4.9), the paper's own answer to problem 3, "
+    "makes m jump: in example 1 by 4γ/T² at once.",
+)
+def torque_is_continuous():
+    def argument() -> Steps:
+        instant, bound = sp.symbols("delta U", positive=True)
+        grown = channel.drive(sp.zeros(3, 1), instant, bound)[2]
+        yield "over a time δ the torque changes by at most the integral of |u|", vanishes(grown - bound * instant)
+        yield "which goes to zero with δ", sp.limit(grown, instant, 0) == 0
+
+    def counterexample() -> Steps:
+        rest = sp.zeros(3, 1)
+        first, middle = 4 * kappa / T**2, -8 * kappa / T**2
+        state = channel.drive(channel.kick(rest, first), T / 2, sp.S.Zero)
+        state = channel.drive(channel.kick(state, middle), T / 2, sp.S.Zero)
+        end = channel.kick(state, first)
+        yield "(4.9) performs the turn of example 1", vanishes(end - sp.Matrix([kappa, 0, 0]))
+        yield "and starts with a jump of m from 0 to 4γ/T²", channel.kick(rest, first)[2] == first
+
+    return Conditional(argument, counterexample=counterexample)
+
+
+@claim("(0.5)", "ends of the control torque", verdict="holds")
+def ends_of_the_torque():
+    m0, mf = sp.symbols("m_0 m_f", real=True)
+
+    def derived():
+        third = channel.transfer(kappa)[2].subs({x30: m0, x3f: mf})
+        return {"m(t_0)": third.subs(tau, 0), "m(t_f)": third.subs(tau, T)}
+
+    return Equality({"m(t_0)": m0, "m(t_f)": mf}, derived)
+
+
+@claim("(0.6)", "the channel is a triple integrator with the disturbance in the second equation", verdict="holds")
+def triple_integrator():
+    names = {gamma(t): x1(t), omega(t): x2(t), torque(t): x3(t)}
+
+    def derived():
+        acceleration = torque(t) + disturbance(t)
+        return {
+            r"\dot x_1(t)": omega(t).subs(names),
+            r"\dot x_2(t)": epsilon(t).subs(epsilon(t), acceleration).subs(names),
+            r"\dot x_3(t)": control(t),
+        }
+
+    printed = {
+        r"\dot x_1(t)": x2(t),
+        r"\dot x_2(t)": x3(t) + disturbance(t),
+        r"\dot x_3(t)": control(t),
+    }
+    return Equality(printed, derived)
+
+
+@claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")
+def bound_on_the_control():
+    def argument() -> Steps:
+        bang = [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
+        state = sp.zeros(3, 1)
+        for duration, level in bang:
+            state = channel.drive(state, duration, sp.Integer(level))
+        yield "the turn by 1 in unit time can be made with u0 = 32", state == sp.Matrix([1, 0, 0])
+        bound = peak_bound(sp.Matrix([1, -R(1, 2), R(3, 32)]), sp.Matrix([1, 0, 0]), sp.S.One)
+        yield "and with no smaller u0", bound == 32
+        least_energy = energy.minimum_energy_control().subs({T: 1, **dict(zip(c, [1, 0, 0], strict=True))})
+        yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
+
+    return Proof(argument, display=r"\lvert u(t) \rvert \le u_0")
+
+
+@claim("(0.8)", "the state at t0", verdict="holds")
+def initial_state():
+    def derived():
+        start = channel.transfer(kappa).subs(tau, 0)
+        return {f"x_{k}(t_0)": start[k - 1] for k in (1, 2, 3)}
+
+    return Equality({"x_1(t_0)": x10, "x_2(t_0)": x20, "x_3(t_0)": x30}, derived)
+
+
+@claim("(0.9)", "the state at tf", verdict="holds")
+def final_state():
+    def derived():
+        end = channel.transfer(kappa).subs(tau, T)
+        return {f"x_{k}(t_f)": end[k - 1] for k in (1, 2, 3)}
+
+    return Equality({"x_1(t_f)": x1f, "x_2(t_f)": x2f, "x_3(t_f)": x3f}, derived)
+
+
+@claim("after (0.9)", "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c", verdict="holds")
+def nontrivial():
+    def argument() -> Steps:
+        gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
+        yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
+        yield "and the gap can be anything: it is onto in xf", gap.jacobian(channel.final) == sp.eye(3)
+
+    return Proof(argument)

@@ -1,0 +1,309 @@
+"""Section 1, (1.1) to (1.11): state equations, Cauchy's formula, the moments and the norms."""
+
+import sympy as sp
+
+from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
+from pontryagin.ledger import Page
+from pontryagin.triple_integrator.derivation import channel, energy
+from pontryagin.triple_integrator.derivation.channel import control, disturbance, t, t0, tau, tf
+from pontryagin.triple_integrator.derivation.duality import conjugate_norm, lengths, levels
+from pontryagin.triple_integrator.derivation.model import (
+    CHAIN,
+    INPUT,
+    T,
+    c,
+    impulse_response,
+    moments_of,
+    multipliers,
+    s,
+    transition,
+)
+
+claim = Page("Gorelov & Morozova 2012")
+
+R = sp.Rational
+x10, x20, x30 = channel.initial
+x1f, x2f, x3f = channel.final
+to_go = tf - tau
+v1, v2 = levels
+T1, T2 = lengths
+p, q = sp.symbols("p q", positive=True)
+
+
+@claim("(1.1)", "state equations in matrix form, with A, b and f(t)", verdict="holds")
+def matrix_form():
+    def derived():
+        x = sp.Matrix([sp.Function(f"x_{k}")(t) for k in (1, 2, 3)])
+        rates = sp.Matrix([x[1], x[2] + disturbance(t), control(t)])
+        # The matrices are the derivatives of the right-hand sides of (0.6).
+        forcing = rates.subs(dict.fromkeys(x, 0)).subs(control(t), 0)
+        return {
+            r"\mathbf{A}": rates.jacobian(x),
+            r"\mathbf{b}": rates.diff(control(t)),
+            r"\mathbf{f}(t)": forcing,
+        }
+
+    printed = {
+        r"\mathbf{A}": sp.Matrix([[0, 1, 0], [0, 0, 1], [0, 0, 0]]),
+        r"\mathbf{b}": sp.Matrix([0, 0, 1]),
+        r"\mathbf{f}(t)": sp.Matrix([0, disturbance(t), 0]),
+    }
+    return Equality(printed, derived)
+
+
+@claim("(1.2)", "ends as vectors: x(t0) = x0, x(tf) = xf", verdict="holds")
+def vector_ends():
+    def derived():
+        path = channel.transfer(sp.Symbol("kappa", real=True))
+        return {r"\mathbf{x}(t_0)": path.subs(tau, 0), r"\mathbf{x}(t_f)": path.subs(tau, T)}
+
+    return Equality({r"\mathbf{x}(t_0)": channel.initial, r"\mathbf{x}(t_f)": channel.final}, derived)
+
+
+@claim("(1.3)", "Cauchy's formula solves (1.1) with x(t0) = x0", verdict="holds")
+def cauchy_formula():
+    def argument() -> Steps:
+        path = channel.cauchy()
+        residual = path.diff(t) - channel.right_hand_side(path)
+        yield "it satisfies the state equations, for any u and f", vanishes(residual.applyfunc(sp.expand).doit())
+        empty = {part: 0 for part in path.subs(t, t0).atoms(sp.Integral) if part.limits[0][1] == part.limits[0][2]}
+        yield "and starts from x0", vanishes(path.subs(t, t0).subs(empty) - channel.initial)
+
+    return Proof(
+        argument,
+        display=r"\mathbf{x}(t) = \Phi(t, t_0)\mathbf{x}_0 + \int_{t_0}^t \Phi(t, \tau)"
+        r"[\mathbf{b}u(\tau) + \mathbf{f}(\tau)]\,d\tau",
+    )
+
+
+@claim("(1.4)", "transition matrix", verdict="holds")
+def transition_matrix():
+    lapse = t - t0
+    printed = sp.Matrix([[1, lapse, lapse**2 / 2], [0, 1, lapse], [0, 0, 1]])
+    return Equality({r"\Phi(t, t_0)": printed}, lambda: {r"\Phi(t, t_0)": transition(lapse)})
+
+
+@claim("(1.5)", "response to the control, Φ(tf, τ) b", verdict="holds")
+def response():
+    printed = sp.Matrix([to_go**2 / 2, to_go, 1])
+    return Equality(
+        {r"\Phi(t_f, \tau)\mathbf{b}": printed},
+        lambda: {r"\Phi(t_f, \tau)\mathbf{b}": transition(to_go) * INPUT},
+    )
+
+
+@claim("(1.6)", "its components h1, h2, h3", verdict="holds")
+def response_components():
+    printed = {r"h_1(\tau)": to_go**2 / 2, r"h_2(\tau)": to_go, r"h_3(\tau)": sp.S.One}
+
+    def derived():
+        # An impulse at tau from rest, and then the free motion.
+        after = channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
+        return dict(zip(printed, after, strict=True))
+
+    return Equality(printed, derived)
+
+
+def ramp() -> tuple[sp.Expr, list[sp.Symbol]]:
+    """A disturbance that is any quadratic in the time after t0, and its coefficients."""
+    coefficients = list(sp.symbols("f_0:3", real=True))
+    return sum(f * tau**k for k, f in enumerate(coefficients)), coefficients
+
+
+@claim("(1.7)", "c = xf − Φ x0 − g", verdict="holds")
+def moments_of_the_manoeuvre():
+    force, _ = ramp()
+    g = channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force)
+    printed = channel.final - transition(T) * channel.initial - g
+    return Equality(
+        {r"\mathbf{c}": printed},
+        lambda: {r"\mathbf{c}": channel.required_moments(force)},
+        display=r"\mathbf{c} = \mathbf{x}_f - \Phi(t_f, t_0)\mathbf{x}_0 - \mathbf{g}(t_f)",
+    )
+
+
+@claim("(1.8)", "what the disturbance adds: g1, g2, g3", verdict="holds")
+def effect_of_the_disturbance():
+    lag = sp.Integral((t - tau) * disturbance(tau), (tau, t0, t))
+    printed = {"g_1(t)": lag, "g_2(t)": sp.Integral(disturbance(tau), (tau, t0, t)), "g_3(t)": sp.S.Zero}
+
+    def derived():
+        kernel = transition(t - tau) * sp.Matrix([0, disturbance(tau), 0])
+        return {f"g_{k + 1}(t)": sp.Integral(kernel[k], (tau, t0, t)).doit(deep=False) for k in range(3)}
+
+    def argument() -> Steps:
+        force, coefficients = ramp()
+        moved = channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force)
+        first = sp.integrate(sp.expand((T - tau) * force), (tau, 0, T))
+        yield "g1 is where a quadratic disturbance takes the channel from rest", vanishes(moved[0] - first)
+        yield "g2 likewise", vanishes(moved[1] - sp.integrate(force, (tau, 0, T)))
+        yield "for each of its three coefficients", all(moved[0].has(f) for f in coefficients)
+
+    return Proof(argument, Equality(printed, derived))
+
+
+@claim("(1.9)", "the control steers x0 to xf exactly when its moments are c", verdict="holds")
+def moment_equation():
+    def argument() -> Steps:
+        coefficients = sp.symbols("u_0:5", real=True)
+        program = sum(u * tau**k for k, u in enumerate(coefficients))
+        force, _ = ramp()
+        end = channel.drive(channel.initial, T, program, force)
+        missed = channel.final - end
+        moments = moments_of(program.subs(tau, T - s))
+        gap = channel.required_moments(force) - moments
+        yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
+        solved = sp.solve(list(gap), coefficients[:3], dict=True)
+        yield "and controls with the moments c exist", len(solved) == 1
+
+    return Proof(
+        argument,
+        display=r"\int_{t_0}^{t_f} \Phi(t_f, \tau)\mathbf{b}\,u(\tau)\,d\tau = \mathbf{c}",
+    )
+
+
+@claim("(1.10)", "the components of c", verdict="holds")
+def moment_components():
+    force, coefficients = ramp()
+    g1 = sum(f * sp.integrate((T - tau) * tau**k, (tau, 0, T)) for k, f in enumerate(coefficients))
+    g2 = sum(f * sp.integrate(tau**k, (tau, 0, T)) for k, f in enumerate(coefficients))
+    printed = {
+        "c_1": x1f - x10 - T * x20 - T**2 * x30 / 2 - g1,
+        "c_2": x2f - x20 - T * x30 - g2,
+        "c_3": x3f - x30,
+    }
+    return Equality(
+        printed,
+        lambda: dict(zip(printed, channel.required_moments(force), strict=True)),
+        display=r"c_1 = x_{1f} - x_{10} - (t_f - t_0)x_{20} - \tfrac12 (t_f - t_0)^2 x_{30} - g_1(t_f),\quad "
+        r"c_2 = x_{2f} - x_{20} - (t_f - t_0)x_{30} - g_2(t_f),\quad c_3 = x_{3f} - x_{30}",
+    )
+
+
+def by_level(power: sp.Expr) -> sp.Expr:
+    """Integral of |u|^power for a control that is v1 for the time T1 and v2 for the time T2."""
+    return T1 * sp.Abs(v1) ** power + T2 * sp.Abs(v2) ** power
+
+
+@claim("before (1.11): norm in L_q", "norm of the control in L_q, 1 ≤ q < ∞", verdict="holds")
+def norm_in_lq():
+    exponents = (sp.S.One, sp.S(2), R(3, 2), sp.S(3))
+    keys = {n: rf"\lVert u \rVert_{{L_{{{n}}}}}" for n in exponents}
+    return Equality(
+        {keys[n]: by_level(n) ** (1 / n) for n in exponents},
+        lambda: {keys[n]: conjugate_norm(n) for n in exponents},
+        display=r"\lVert u(\cdot) \rVert_{L_q} = \left(\int_{t_0}^{t_f} \left| u(\tau) \right|^q d\tau"
+        r"\right)^{1/q}",
+    )
+
+
+@claim(
+    "before (1.11): norm in L_∞",
+    "norm of the control in L_∞",
+    verdict="misprint",
+    remark="Printed: vrai max u(t). Right: vrai max |u(t)|, as in (1.19). Without the modulus the constant "
+    "control −2 would have the norm −2.",
+)
+def norm_in_linf():
+    key = r"\lVert u \rVert_{L_\infty}"
+    two_levels = {v1: -2, v2: 1}
+    printed = sp.Max(v1, v2)
+    return Misprint(
+        {key: printed},
+        lambda: {key: conjugate_norm(sp.oo)},
+        defect={key: sp.Max(v1, v2) - sp.Max(sp.Abs(v1), sp.Abs(v2))},
+        consequence=lambda: Consequence(
+            "norm of a control that is −2 and then 1", printed.subs(two_levels), sp.Integer(2)
+        ),
+        display=r"\lVert u(\cdot) \rVert_{L_\infty} = \operatorname{vrai\,max}_{t \in [t_0, t_f]} u(t)",
+    )
+
+
+@claim("before (1.11): exponents", "the spaces L_p and L_q are conjugate: 1/p + 1/q = 1", verdict="holds")
+def conjugate_exponents():
+    # Hölder's best h is |u|^(q-1) sign u; its norm in L_p is a power of the same integral if p(q-1) = q.
+    return Equality(
+        {"p": sp.solve(sp.Eq(1 / p + 1 / q, 1), p)[0]},
+        lambda: {"p": sp.solve(sp.Eq(p * (q - 1), q), p)[0]},
+        display=r"\frac1p + \frac1q = 1",
+    )
+
+
+@claim("(1.11)", "the moment equalities Φ(h_k) = c_k", verdict="holds")
+def moment_equalities():
+    keys = [rf"\Phi(h_{k}(\cdot))" for k in (1, 2, 3)]
+
+    def derived():
+        return dict(zip(keys, moments_of(energy.minimum_energy_control()), strict=True))
+
+    return Equality(dict(zip(keys, c, strict=True)), derived)
+
+
+@claim(
+    "after (1.11): form of Φ",
+    "every bounded functional on L_p is an integral with some u in L_q",
+    verdict="conditional",
+    remark="True for 1 ≤ p < ∞ (Riesz). For p = ∞ (q = 1, problem 3) it is false: the value at one instant, extended "
+    "from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. It is just "
+    "such functionals that solve problem 3, (4.9).",
+)
+def form_of_the_functional():
+    def argument() -> Steps:
+        # On two levels: the functional v -> w'v is the pairing with u = w/lengths, of the conjugate norm.
+        w1, w2 = sp.symbols("w_1 w_2", real=True)
+        represented = {v1: w1 / T1, v2: w2 / T2}
+        paired = T1 * v1 * (w1 / T1) + T2 * v2 * (w2 / T2)
+        yield "a functional on steps (dense for p < ∞) is the integral with a step function", vanishes(paired - w1 * v1 - w2 * v2)
+        for n in (sp.S(2), R(3, 2), sp.oo):
+            size = conjugate_norm(n).subs(represented, simultaneous=True)
+            yield f"of finite norm in L_{n}", size.has(w1) and not size.has(sp.zoo, sp.nan)
+
+    def counterexample() -> Steps:
+        order, bound = sp.symbols("n U", positive=True)
+        peaked = (1 - tau / T) ** order
+        yield "h_n = (1 − τ/T)^n has the value 1 at τ = 0, for every n", peaked.subs(tau, 0) == 1
+        area = sp.integrate((1 - tau) ** order, (tau, 0, 1))
+        paired = bound * sp.simplify(area)
+        yield "its integral with any u of bound U is at most U T/(n + 1)", vanishes(paired - bound / (order + 1))
+        yield "which goes to 0, not 1; bounded u are dense in L_1", sp.limit(paired, order, sp.oo) == 0
+
+    return Conditional(argument, counterexample=counterexample,
+        display=r"\Phi(h(\cdot)) = \int_{t_0}^{t_f} h(\tau)u(\tau)\,d\tau")
+
+
+@claim(
+    "after (1.11): solvability",
+    "the moment problem of the triple integrator is solvable for every c: h1, h2, h3 are independent",
+    verdict="holds",
+)
+def solvability():
+    def argument() -> Steps:
+        h = impulse_response()
+        wronskian = sp.Matrix([[entry.diff(s, k) for entry in h] for k in range(3)]).det()
+        yield "the Wronskian of h1, h2, h3 does not vanish", wronskian.is_nonzero
+        controllability = sp.Matrix.hstack(INPUT, CHAIN * INPUT, CHAIN**2 * INPUT)
+        yield "b, Ab, A²b span the state space", controllability.rank() == 3
+        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
+        yield "the Gramian is positive definite for every T", all(minor.is_positive for minor in minors)
+        program = energy.minimum_energy_control()
+        yield "a control with the moments c, for every c", vanishes(moments_of(program) - c)
+        dependent = sp.Matrix([s, s, 1])
+        moments = dependent.applyfunc(lambda h: sp.integrate(h * (v1 + v2 * s), (s, 0, T)))
+        yield "with h1 = h2 only c1 = c2 could be met", vanishes(moments[0] - moments[1])
+
+    return Proof(argument)
+
+
+@claim("(1.12)", "the set P of dual functions h = Σ l_k h_k with Σ l_k c_k = 1", verdict="holds")
+def dual_set():
+    def derived():
+        least = energy.stationary()[1]
+        return {r"\sum_k l_k c_k": (least.T * c)[0]}
+
+    def argument() -> Steps:
+        spanned = sp.expand((multipliers.T * impulse_response())[0] - energy.minimal_element())
+        found = sp.solve(sp.Poly(spanned, s).coeffs(), list(multipliers), dict=True)[0]
+        yield "the least element of P is a combination of the h_k", len(found) == 3
+        yield "with l'c = 1", vanishes((multipliers.subs(found).T * c)[0] - 1)
+
+    return Proof(argument, Equality({r"\sum_k l_k c_k": sp.S.One}, derived))

@@ -1,0 +1,321 @@
+"""Three channels of one body: the cross-coupling f(t) taken from the motion, iterated to the target attitude.
+
+A channel is a component of the rotation vector phi; its control acceleration is a component of m, with the
+torque M = J m. Then phi'' = m + f, where f(phi, phi', m) is all that Euler's equations and the kinematics add.
+From one iterate's motion f(t) is known; each channel's moment problem is solved with it as disturbance; the full
+equations are integrated with the controls found; and again, until attitude and rate are reached.
+
+f(phi, k phi', k^2 m) = k^2 f, so that the iteration in t/T does not depend on the duration T.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator.attitude import Programme, disturbance_of, impulses, single
+from pontryagin.triple_integrator.kinematics import (
+    FULL_TURN,
+    between,
+    quaternion,
+    rotation_vector,
+    vector_acceleration_drift,
+    vector_rate_matrix,
+)
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+
+DEGREE = 40
+"""Of the Chebyshev series that holds f on a smooth stretch of the motion."""
+
+NOISE = 1e-11
+"""A miss below this is the integrator's, and tells nothing of the iteration."""
+
+Solver = Callable[[Maneuver], Programme]
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling:
+    """f(t) of one channel: Chebyshev series (p, degree+1) between the edges (p+1,), continuous from the right."""
+
+    edges: NDArray[np.float64]
+    series: NDArray[np.float64]
+
+    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+        """f at the times t, (...) -> (...)."""
+        time = np.asarray(t, dtype=float)
+        index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.series) - 1)
+        low, high = self.edges[index], self.edges[index + 1]
+        place = (2 * time - low - high) / (high - low)
+        return np.asarray(chebyshev.chebval(place, np.moveaxis(self.series[index], -1, 0), tensor=False))
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledManeuver:
+    """A manoeuvre of all three channels that reaches its target through the full equations.
+
+    Attributes
+    ----------
+    body : RigidBody
+    programmes : three solutions
+        Of the channels, in order; those programmed here have the cross-coupling as their disturbance.
+    programmed : tuple of int
+        Which channels were programmed; the motion of the others was given.
+    misses : (n,) array
+        What each iterate's motion misses of the target: the larger of the angle between the attitudes (rad)
+        and T times the error of the angular rate. The first is that of the uncoupled programmes.
+    motion : Motion
+        The last iterate's, from Euler's equations; its commands are m of the programmed channels.
+    """
+
+    body: RigidBody
+    programmes: tuple[Programme, Programme, Programme]
+    programmed: tuple[int, ...]
+    misses: NDArray[np.float64]
+    motion: Motion
+
+    @property
+    def factor(self) -> float:
+        """By what an iteration multiplied the miss: geometric mean over the last three that tell.
+
+        0 where the first iterate's miss was rounding already.
+        """
+        telling = self.misses[self.misses > NOISE][-4:]
+        return float((telling[-1] / telling[0]) ** (1 / (telling.size - 1))) if telling.size > 1 else 0.0
+
+    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Quaternion, scalar first, from body to inertial axes, (k,) -> (k, 4)."""
+        return self.motion.attitude(t)
+
+    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Angular rate in body axes, (k,) -> (k, 3)."""
+        return self.motion.rate(t)
+
+    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Angle, its rate and control acceleration (phi, phi', m) of each channel, (k,) -> (3, k, 3)."""
+        phi, rate = rotation_vector(self.attitude(t)), self.rate(t)
+        phi_rate = np.einsum("kij,kj->ki", vector_rate_matrix(phi), rate)
+        return np.moveaxis(np.stack([phi, phi_rate, self._control_acceleration(t)], axis=-1), 1, 0)
+
+    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+        """u of the programmed channels, (k,) -> (channels, k)."""
+        return np.stack([self.programmes[i].control(t) for i in self.programmed])
+
+    def coupling(self, t: ArrayLike) -> NDArray[np.float64]:
+        """f = phi'' - m of each channel along the motion, (k,) -> (3, k)."""
+        return self._channels.coupling(rotation_vector(self.attitude(t)), self.rate(t), self._control_acceleration(t)).T
+
+    def torque(self, t: ArrayLike) -> NDArray[np.float64]:
+        """J m, (k,) -> (k, 3)."""
+        return self._control_acceleration(t) @ self.body.inertia
+
+    @cached_property
+    def _channels(self) -> "_Channels":
+        return _Channels(self.body, self.programmes, self.programmed)
+
+    def _control_acceleration(self, t: ArrayLike) -> NDArray[np.float64]:
+        phi = rotation_vector(self.attitude(t))
+        return self._channels.control_acceleration(np.atleast_1d(t), phi, self.rate(t), self.motion.commands(t))
+
+
+def couple(
+    body: RigidBody,
+    channels: Sequence[Maneuver | Programme],
+    solve: Solver,
+    tol: float = 1e-9,
+    iterations: int = 60,
+) -> CoupledManeuver:
+    """Programme channels of one body so that its attitude and rate reach the target through the full equations.
+
+    Parameters
+    ----------
+    body : RigidBody
+    channels : three of Maneuver or solution
+        A Maneuver (x1, x2, x3 = phi_i, phi_i', m_i at both ends, no disturbance) is programmed. A solution is
+        the given motion of its channel, held by whatever torque it takes.
+    solve : function Maneuver -> solution
+        `minimum_energy`, `minimum_peak`, `minimum_impulse` or another.
+    tol : float
+        Largest miss accepted, rad.
+    iterations : int
+        Largest number of motions integrated.
+
+    Returns
+    -------
+    CoupledManeuver
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the channels are not three, not of one interval, none is a Maneuver, one has a disturbance of its own
+        or is a stack, or an end is a full turn or more.
+    pontryagin.NotConverged
+        If the miss does not come below `tol`, or the motion leaves |phi| < 2 pi; with the last miss as residual.
+
+    Examples
+    --------
+    >>> from pontryagin.triple_integrator.energy import minimum_energy
+    >>> body = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
+    >>> ends = [0.3, -0.2, 0.4]
+    >>> channels = [Maneuver([0, 0, 0], [angle, 0, 0], tf=2.0) for angle in ends]
+    >>> turn = couple(body, channels, minimum_energy)
+    >>> rotation_vector(turn.attitude(2.0))[0].round(9).tolist(), turn.factor < 0.1
+    ([0.3, -0.2, 0.4], True)
+    """
+    maneuvers, programmed = _checked(channels)
+    couplings: list[Coupling | None] = [None] * 3
+    misses: list[float] = []
+    while len(misses) < iterations:
+        programmes = tuple(
+            solve(_with(maneuvers[i], couplings[i])) if i in programmed else channels[i] for i in range(3)
+        )
+        system = _Channels(body, programmes, programmed)
+        motion = system.move()
+        misses.append(system.miss(motion))
+        if misses[-1] <= tol:
+            return CoupledManeuver(body, programmes, programmed, np.array(misses), motion)
+        couplings = system.couplings_along(motion, misses[-1])
+    raise NotConverged(f"the cross-coupling did not settle in {iterations} iterations", misses[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class _Channels:
+    """The body under one set of programmes: channels S that are programmed, channels G whose motion is given."""
+
+    body: RigidBody
+    programmes: Sequence[Programme]
+    programmed: tuple[int, ...]
+
+    @property
+    def given(self) -> list[int]:
+        return [i for i in range(3) if i not in self.programmed]
+
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """Both ends of the channels, (2, 3, 3)."""
+        maneuvers = [programme.maneuver for programme in self.programmes]
+        return np.array([[m.x0 for m in maneuvers], [m.xf for m in maneuvers]])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        maneuver = self.programmes[0].maneuver
+        return float(maneuver.t0), float(maneuver.tf)
+
+    @cached_property
+    def _disturbances(self) -> list[Callable[[float], float]]:
+        return [disturbance_of(self.programmes[i].maneuver) for i in self.given]
+
+    def drift(self, phi: NDArray, w: NDArray) -> NDArray:
+        """n of phi'' = B^-1 m + n, (..., 3)."""
+        free = self.body.acceleration(w, np.zeros(3))
+        kinematic = vector_acceleration_drift(phi, w)
+        return kinematic + np.einsum("...ij,...j->...i", vector_rate_matrix(phi), free)
+
+    def coupling(self, phi: NDArray, w: NDArray, m: NDArray) -> NDArray:
+        """f = phi'' - m, (..., 3)."""
+        return np.einsum("...ij,...j->...i", vector_rate_matrix(phi), m) - m + self.drift(phi, w)
+
+    def control_acceleration(self, t: NDArray, phi: NDArray, w: NDArray, commands: NDArray) -> NDArray:
+        """m (k, 3) from that of S: channels G take what their given phi'' asks."""
+        if not self.given:
+            return commands
+        m = np.empty(phi.shape)
+        m[:, self.programmed] = commands
+        matrix = vector_rate_matrix(phi)[:, self.given]
+        asked = self._given_acceleration(t) - self.drift(phi, w)[:, self.given]
+        asked -= np.einsum("kij,kj->ki", matrix[:, :, self.programmed], commands)
+        m[:, self.given] = np.linalg.solve(matrix[:, :, self.given], asked[..., None])[..., 0]
+        return m
+
+    def _given_acceleration(self, t: NDArray) -> NDArray:
+        columns = [
+            self.programmes[i].state(t)[:, 2] + np.array([f(time) for time in t])
+            for i, f in zip(self.given, self._disturbances, strict=True)
+        ]
+        return np.stack(columns, axis=-1)
+
+    def move(self) -> Motion:
+        """The motion that the full equations make of the programmes."""
+        start, (first, last) = self.ends[0], self.interval
+        phi = start[:, 0]
+        commands = Commands(
+            start[self.programmed, 2],
+            lambda t, m: np.array([self.programmes[i].control(t)[0] for i in self.programmed]),
+            np.full(len(self.programmed), (last - first) ** -2.0),
+            np.concatenate([programme.breakpoints for programme in self.programmes]).tolist(),
+            self._jumps(),
+        )
+
+        def torque(t: float, q: NDArray, w: NDArray, m: NDArray) -> NDArray:
+            if self.given:
+                m = self.control_acceleration(np.array([t]), rotation_vector(q)[None], w[None], m[None])[0]
+            return self.body.inertia @ m
+
+        return simulate(self.body, (first, last), quaternion(phi), body_rate(start), commands, torque)
+
+    def _jumps(self) -> list[tuple[float, NDArray]]:
+        unit = np.eye(len(self.programmed))
+        return [
+            (time, jump * unit[row])
+            for row, i in enumerate(self.programmed)
+            for time, jump in impulses(self.programmes[i])
+        ]
+
+    def miss(self, motion: Motion) -> float:
+        """The larger of the angle to the target attitude and T times the error of the rate there."""
+        target, (first, last) = self.ends[1], self.interval
+        left = rotation_vector(between(quaternion(target[:, 0]), motion.end[:4]))
+        rate_left = motion.end[4:7] - body_rate(target)
+        return float(max(np.linalg.norm(left), (last - first) * np.linalg.norm(rate_left)))
+
+    def couplings_along(self, motion: Motion, miss: float) -> list[Coupling | None]:
+        """f of the programmed channels along a motion."""
+        nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+        low, high = motion.edges[:-1, None], motion.edges[1:, None]
+        t = ((high + low) / 2 + (high - low) / 2 * nodes).ravel()
+        phi, w = rotation_vector(motion.attitude(t)), motion.rate(t)
+        if np.linalg.norm(phi, axis=-1).max() > 0.99 * FULL_TURN:
+            raise NotConverged("the motion came to a full turn, where rotation vectors end", miss)
+        m = self.control_acceleration(t, phi, w, motion.commands(t))
+        f = self.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
+        fit = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
+        series = np.einsum("dn,pnc->cpd", fit, f)
+        return [Coupling(motion.edges, series[i]) if i in self.programmed else None for i in range(3)]
+
+
+def body_rate(ends: NDArray[np.float64]) -> NDArray[np.float64]:
+    """w = B phi' of channels with states (3, 3)."""
+    return np.linalg.solve(vector_rate_matrix(ends[:, 0]), ends[:, 1])
+
+
+def _with(maneuver: Maneuver, coupling: Coupling | None) -> Maneuver:
+    return Maneuver(maneuver.x0, maneuver.xf, maneuver.tf, maneuver.t0, coupling)
+
+
+def _checked(channels: Sequence[Maneuver | Programme]) -> tuple[list[Maneuver], tuple[int, ...]]:
+    """The manoeuvres of the channels, and which of them are to be programmed."""
+    if len(channels) != 3:
+        raise ValueError(f"channels must be three, got {len(channels)}")
+    for i, channel in enumerate(channels):
+        if not isinstance(channel, Maneuver) and not hasattr(channel, "maneuver"):
+            raise TypeError(f"channels must be manoeuvres or solutions, got {type(channel).__name__} at {i}")
+    programmed = tuple(i for i, channel in enumerate(channels) if isinstance(channel, Maneuver))
+    maneuvers = [channel if isinstance(channel, Maneuver) else single(channel) for channel in channels]
+    if not programmed:
+        raise ValueError("channels must hold a Maneuver to be programmed, got three solutions")
+    if any(maneuver.shape for maneuver in maneuvers):
+        raise ValueError(f"channels must be single manoeuvres, got shapes {[m.shape for m in maneuvers]}")
+    if any(maneuvers[i].disturbance is not None for i in programmed):
+        raise ValueError("channels must have no disturbance of their own: the cross-coupling is theirs")
+    intervals = {(float(m.t0), float(m.tf)) for m in maneuvers}
+    if len(intervals) > 1:
+        raise ValueError(f"channels must be of one interval, got {sorted(intervals)}")
+    for end in ("x0", "xf"):
+        angle = np.linalg.norm([getattr(m, end)[0] for m in maneuvers])
+        if not angle < FULL_TURN:
+            raise ValueError(f"channels must turn by less than 2 pi, got {angle:.6g} at {end}")
+    return maneuvers, programmed

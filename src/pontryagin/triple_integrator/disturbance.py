@@ -1,0 +1,196 @@
+"""The disturbance f(t) and its integrals g2 = int f and g1 = int (t - tau) f, (1.8)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.validation import finite
+
+DEGREE = 24
+PANELS = 4096
+
+Integrals = Callable[[NDArray, NDArray], NDArray]
+"""(t, t0), broadcast -> (..., 2): g1 and g2 from t0 to t."""
+
+
+def integrals(disturbance: object, start: NDArray, end: NDArray) -> Integrals:
+    """The integrals (g1, g2) of a disturbance given as None, a number, a callable or a SymPy expression.
+
+    Parameters
+    ----------
+    disturbance : None, number or array (...), callable f(t), or sympy.Expr in `t`
+        Acceleration, in units of the third state.
+    start, end : (...) arrays
+        Intervals on which it acts.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If it is of another kind, has a wrong shape, an unknown symbol or a value that is not finite.
+    pontryagin.NotConverged
+        If it is not resolved to 1e-13 (a singularity, or more than 4096 panels).
+    """
+    if disturbance is None:
+        return lambda t, t0: np.zeros((*np.broadcast_shapes(np.shape(t), np.shape(t0)), 2))
+    low, high = float(np.min(start)), float(np.max(end))
+    if hasattr(disturbance, "free_symbols"):
+        return _symbolic(disturbance, low, high)
+    if callable(disturbance):
+        return Panels(disturbance, low, high).integrals
+    return _constant(
+        finite("disturbance", disturbance, "None, a number, a callable f(t) or an expression in t")
+    )  # type: ignore[arg-type]
+
+
+def _constant(value: NDArray) -> Integrals:
+    def call(t: NDArray, t0: NDArray) -> NDArray:
+        elapsed = np.asarray(t - t0)
+        level = value[(..., *[None] * (elapsed.ndim - value.ndim))] if value.ndim else value
+        return np.stack([level * elapsed**2 / 2, level * elapsed], axis=-1)
+
+    return call
+
+
+def _symbolic(expression, low: float, high: float) -> Integrals:
+    """Antiderivatives by SymPy, where it finds them and they agree with quadrature; else quadrature."""
+    import sympy as sp
+
+    from pontryagin import compile as compiler
+
+    expression = sp.sympify(expression)
+    foreign = {str(symbol) for symbol in expression.free_symbols} - {"t"}
+    if foreign:
+        raise ValueError(
+            f"disturbance must be an expression in t alone, got symbols {', '.join(sorted(foreign))}"
+        )
+    t = sp.Symbol("t", real=True)
+    expression = expression.subs({symbol: t for symbol in expression.free_symbols})
+    value = compiler.function("disturbance", [t], {"f": expression})
+    panels = Panels(lambda time: value(time)[0], low, high)
+    antiderivatives = _antiderivatives(expression)
+    if antiderivatives is None:
+        return panels.integrals
+    primitive = compiler.function(
+        "primitives", [t], dict(zip(("first", "second"), antiderivatives, strict=True))
+    )
+
+    def exact(time: NDArray, t0: NDArray) -> NDArray:
+        with np.errstate(all="ignore"):
+            first, second = primitive(time)
+            first0, second0 = primitive(t0)
+        return np.stack([second - second0 - first0 * (time - t0), first - first0], axis=-1)
+
+    probe = np.linspace(low, high, 17)
+    by_quadrature = panels.integrals(probe, np.asarray(low))
+    scale = np.abs(by_quadrature).max() + np.finfo(float).tiny
+    difference = np.abs(exact(probe, np.asarray(low)) - by_quadrature).max()
+    return exact if difference <= 1e-11 * scale else panels.integrals
+
+
+@cache
+def _antiderivatives(expression) -> tuple | None:
+    import sympy as sp
+
+    (t,) = expression.free_symbols or {sp.Symbol("t", real=True)}
+    first = sp.integrate(expression, t)
+    second = None if first.has(sp.Integral) else sp.integrate(first, t)
+    if second is None or second.has(sp.Integral) or first.has(sp.I) or second.has(sp.I):
+        return None
+    return first, second
+
+
+@dataclass(frozen=True)
+class Panels:
+    """A function of time as Chebyshev series on panels, halved until each is resolved to rounding."""
+
+    function: Callable
+    low: float
+    high: float
+
+    def values(self, t: NDArray) -> NDArray:
+        """f at the times (k,), called with an array if it takes one and with numbers if not."""
+        try:
+            result = np.asarray(self.function(t), dtype=float)
+        except (TypeError, ValueError):
+            result = np.empty(())
+        if result.shape == ():
+            result = np.asarray([self._at(float(time)) for time in t])
+        if result.shape != t.shape:
+            raise ValueError(
+                f"disturbance must return one number for each time: got shape {result.shape} for times {t.shape}"
+            )
+        if not np.isfinite(result).all():
+            k = int(np.argmin(np.isfinite(result)))
+            raise ValueError(f"disturbance must be finite: f({t[k]:.6g}) = {result[k]}")
+        return result
+
+    def _at(self, time: float) -> float:
+        value = np.asarray(self.function(time), dtype=float)
+        if value.shape != ():
+            raise ValueError(
+                f"disturbance must return one number for each time: got shape {value.shape} for a number"
+            )
+        return float(value)
+
+    @cached_property
+    def series(self) -> tuple[NDArray, NDArray, NDArray]:
+        """Edges (p+1,), and the running integrals (p+1, 2) at them, and coefficients (p, degree+1)."""
+        nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+        invert = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
+        pending, done, area = [(self.low, self.high)], [], 0.0
+        while pending:
+            low, high = pending.pop()
+            middle = (low + high) / 2
+            sample = self.values(low + (high - low) * (nodes + 1) / 2)
+            largest = float(np.abs(sample).max())
+            area = max(area, float((np.abs(sample) * ((high - low) / len(sample))).sum()))
+            coefficients = invert @ sample
+            tail = float(np.abs(coefficients[-3:]).max())
+            if largest < 1e300 and (tail <= 1e-14 * largest or (high - low) * tail <= 1e-15 * area):
+                done.append((low, high, coefficients))
+            elif len(pending) + len(done) > PANELS or not low < middle < high or largest >= 1e300:
+                raise NotConverged(
+                    f"disturbance is not integrable to 1e-13 near t = {middle:.6g}", tail / largest
+                )
+            else:
+                pending += [(middle, high), (low, middle)]
+        edges = np.array([panel[0] for panel in done] + [self.high])
+        coefficients = np.array([panel[2] for panel in done])
+        running = np.zeros((len(done) + 1, 2))
+        for i, panel in enumerate(coefficients):
+            width = edges[i + 1] - edges[i]
+            g1, g2 = _panel_integrals(panel[None], np.array([1.0]), np.array([width]))[0]
+            running[i + 1] = running[i] + [running[i, 1] * width + g1, g2]
+        return edges, running, coefficients
+
+    def integrals(self, t: NDArray, t0: NDArray) -> NDArray:
+        """g1 and g2 from t0 to t, (...) -> (..., 2)."""
+        end, start = self._from_low(np.asarray(t)), self._from_low(np.asarray(t0))
+        between = end - start
+        between[..., 0] -= start[..., 1] * (np.asarray(t) - t0)
+        return between
+
+    def _from_low(self, t: NDArray) -> NDArray:
+        edges, running, coefficients = self.series
+        flat = np.ravel(t)
+        index = np.clip(np.searchsorted(edges, flat, side="right") - 1, 0, len(coefficients) - 1)
+        width = edges[index + 1] - edges[index]
+        elapsed = flat - edges[index]
+        inside = _panel_integrals(coefficients[index], 2 * elapsed / width - 1, width)
+        inside += running[index]
+        inside[:, 0] += running[index, 1] * elapsed
+        return inside.reshape(*np.shape(t), 2)
+
+
+def _panel_integrals(coefficients: NDArray, x: NDArray, width: NDArray) -> NDArray:
+    """g1 and g2 from the left edge of panels (p, degree+1) to the positions x in [-1, 1], (p, 2)."""
+    first = chebyshev.chebint(coefficients, 1, lbnd=-1, axis=1)
+    second = chebyshev.chebint(coefficients, 2, lbnd=-1, axis=1)
+    g2 = chebyshev.chebval(x, first.T, tensor=False) * width / 2
+    g1 = chebyshev.chebval(x, second.T, tensor=False) * (width / 2) ** 2
+    return np.stack([g1, g2], axis=-1)

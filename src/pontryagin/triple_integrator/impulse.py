@@ -1,0 +1,199 @@
+"""Least total impulse (L1): the largest of a few closed forms, and the impulses where its quadratic touches.
+
+Moments mu = (c3, c2/T, 2 c1/T^2) are those of 1, sigma, sigma^2 in sigma = s/T.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import fabs
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.certificate import Certificate
+from pontryagin.compile import batched
+from pontryagin.triple_integrator import trajectory
+from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, reversed_moments, two_impulses
+from pontryagin.triple_integrator.maneuver import Maneuver
+
+REGIMES = ("zero", "moment", "chebyshev", "end", "start")
+ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0
+
+ROUNDING = 4e-15
+"""Relative size below which an impulse, or the distance to the boundary of a regime, is rounding."""
+
+
+def touching_bound(m0, m1, m2):
+    """The family's bound at its stationary x = mu1/mu2, or 0 where that is not between 1 and 2."""
+    square, mixed = m2 * m2, m1 * m2
+    if square == 0.0 or mixed < square * (1.0 - ROUNDING) or mixed > 2.0 * square:
+        return 0.0
+    return fabs(m0 - 2.0 * m1 * (m1 / m2))
+
+
+def solve_impulse(c1, c2, c3, T):
+    """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
+    share = 1.0 / T
+    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
+    n0, n1, n2 = reversed_moments(m0, m1, m2)
+    bound, regime = fabs(m0), MOMENT
+    for candidate, name in (
+        (fabs(pairing(2.0, m0, m1, m2)), CHEBYSHEV),
+        (touching_bound(m0, m1, m2), END),
+        (touching_bound(n0, n1, n2), START),
+    ):
+        if candidate > bound:
+            bound, regime = candidate, name
+    if bound == 0.0:
+        return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
+    place, unique, middle, at_start = 0.5, 1.0, 0.0, 0.0
+    if regime == CHEBYSHEV:
+        at_end, middle, at_start = chebyshev_amplitudes(m0, m1, m2)
+    elif regime == START:
+        at_start, middle = two_impulses(n0, n1, n2)
+        at_end, place = 0.0, max(0.0, 1.0 - n2 / n1)
+    elif m2 == 0.0:
+        at_end = m0
+    else:
+        at_end, middle = two_impulses(m0, m1, m2)
+        place = min(1.0, m2 / m1)
+    smallest = ROUNDING * bound
+    if regime == MOMENT and fabs(m1 - m2) > smallest and m0 * m2 - m1 * m1 > smallest * fabs(m0):
+        unique = 0.0
+    at_end = at_end if fabs(at_end) > smallest else 0.0
+    middle = middle if fabs(middle) > smallest else 0.0
+    at_start = at_start if fabs(at_start) > smallest else 0.0
+    residual = max(
+        fabs(at_end + middle + at_start - m0),
+        fabs(middle * place + at_start - m1),
+        fabs(middle * place * place + at_start - m2),
+    )
+    return place, at_start, middle, at_end, regime, unique, residual / bound, bound
+
+
+solve_stack = batched(solve_impulse, outputs=8)
+
+
+@dataclass(frozen=True, eq=False)
+class ImpulseSolution:
+    """Control of least total impulse: at most three impulses.
+
+    Attributes
+    ----------
+    maneuver : Maneuver
+        What was asked.
+    inner : (...) array
+        Place of the inner impulse, as a share of T to go.
+    amplitudes : (..., 3) array
+        Impulses at the start, inside and at the end; 0 where there is none.
+    regime_index : (...) int array
+        Index into ``REGIMES``.
+    unique : (...) bool array
+        Whether no other control is as cheap. In the interior of the moment cone every u of one sign with
+        the right moments is; the solution holds the one with an impulse at the end and one before it.
+    certificate : Certificate
+        Residual of the moments, relative to the largest; the total impulse; and the largest p.mu found.
+    """
+
+    maneuver: Maneuver
+    inner: NDArray[np.float64]
+    amplitudes: NDArray[np.float64]
+    regime_index: NDArray[np.int8]
+    unique: NDArray[np.bool_]
+    certificate: Certificate
+
+    @property
+    def norm(self) -> NDArray[np.float64]:
+        """The least total impulse, (...)."""
+        return self.certificate.primal_value
+
+    @cached_property
+    def regime(self) -> NDArray[np.str_] | str:
+        """ "zero", "moment", "chebyshev", "end" or "start": where the impulses are, (...)."""
+        names = np.array(REGIMES)[self.regime_index]
+        return names if self.maneuver.shape else str(names)
+
+    @cached_property
+    def _order(self) -> NDArray[np.intp]:
+        return np.argsort(self.amplitudes == 0, axis=-1, kind="stable")
+
+    @cached_property
+    def impulse_times(self) -> NDArray[np.float64]:
+        """Times of the impulses in order, then nan for absent ones, (..., 3)."""
+        m = self.maneuver
+        times = np.stack([m.t0, m.tf - self.inner * m.duration, m.tf], axis=-1)
+        times = np.where(self.amplitudes == 0, np.nan, times)
+        return np.take_along_axis(times, self._order, axis=-1)
+
+    @cached_property
+    def impulses(self) -> NDArray[np.float64]:
+        """Amplitudes at `impulse_times`, 0 for absent ones, (..., 3)."""
+        return np.take_along_axis(self.amplitudes, self._order, axis=-1)
+
+    @property
+    def breakpoints(self) -> NDArray[np.float64]:
+        """Times strictly within one manoeuvre at which an impulse acts, (j,)."""
+        inside = np.where(
+            (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
+        )
+        return trajectory.breakpoints(self.impulse_times * inside)
+
+    @cached_property
+    def multipliers(self) -> NDArray[np.float64]:
+        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+        T, regime = self.maneuver.duration, self.regime_index
+        inside = np.where(regime == START, 1.0 - self.inner, self.inner)
+        x = np.where(regime == CHEBYSHEV, 2.0, np.where(regime <= MOMENT, 0.0, 1.0 / inside))
+        p0, p1, p2 = np.ones_like(x), -4 * x, 2 * x**2
+        start = regime == START
+        p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
+        shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
+        return trajectory.normalised(shape, self.maneuver.moments)
+
+    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+        """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""
+        hits = self.maneuver.times(t)[..., :, None] == self.impulse_times[..., None, :]
+        signs = (hits * np.sign(self.impulses[..., None, :])).sum(axis=-1)
+        return np.where(signs == 0, 0.0, np.inf * np.where(signs == 0, 1.0, signs))
+
+    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+        """x at the times t, (k,) -> (..., k, 3).
+
+        At the instant of an impulse x3 is the value after it, except at the start, where x(t0) = x0.
+        """
+        m = self.maneuver
+        time = m.times(t)
+        driven = trajectory.response(time, self.impulse_times, self.impulses, order=0)
+        return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
+
+    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); impulses act where |psi_3| is largest."""
+        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
+
+
+def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
+    """Control of least total impulse (integral of |u|) that performs the manoeuvre, problem 3, (1.20).
+
+    Parameters
+    ----------
+    maneuver : Maneuver
+        One manoeuvre or a stack of them.
+
+    Returns
+    -------
+    ImpulseSolution
+        Exact to rounding, in every regime; the printed solution (4.10) is the regime "chebyshev".
+
+    Examples
+    --------
+    >>> s = minimum_impulse(Maneuver([0, 0, 0], [1, 0, 0], tf=2.0))
+    >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
+    (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
+    """
+    result = trajectory.over_stack(solve_impulse, solve_stack, maneuver)
+    amplitudes = result[..., 1:4]
+    total = np.abs(amplitudes).sum(axis=-1)
+    certificate = Certificate(result[..., 6], total, result[..., 7])
+    return ImpulseSolution(
+        maneuver, result[..., 0], amplitudes, result[..., 4].astype(np.int8), result[..., 5] != 0, certificate
+    )

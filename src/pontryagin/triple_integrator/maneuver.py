@@ -1,0 +1,112 @@
+"""The manoeuvre: both ends, the time for it, the disturbance, and the moments c they require, (1.10)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.triple_integrator import disturbance as disturbances
+from pontryagin.triple_integrator import kernels
+from pontryagin.validation import common_shape, finite, times, vectors
+
+
+@dataclass(frozen=True, eq=False)
+class Maneuver:
+    """A manoeuvre of the triple integrator x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
+
+    Units are the user's own and consistent: with angle in rad and time in s the control is in rad/s^3.
+
+    Parameters
+    ----------
+    x0, xf : (..., 3) array_like
+        State at the start and at the end: angle, rate, control acceleration.
+    tf, t0 : (...) array_like
+        End and start; ``tf > t0``.
+    disturbance : None, number or (...) array, callable f(t), or SymPy expression in ``t``
+        Acceleration acting beside the control. A callable is integrated to 1e-13.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong kind or shape, is not finite, or ``tf <= t0``.
+
+    Examples
+    --------
+    >>> Maneuver([0, 0, 0], [1, 0, 0], tf=2.0).moments
+    array([1., 0., 0.])
+    >>> import sympy as sp
+    >>> t = sp.Symbol("t")
+    >>> Maneuver([0, 0, 0], [1, 0, 0], tf=2.0, disturbance=6 * t).moments
+    array([ -7., -12.,   0.])
+    """
+
+    x0: NDArray[np.float64]
+    xf: NDArray[np.float64]
+    tf: NDArray[np.float64]
+    t0: NDArray[np.float64] = 0.0  # type: ignore[assignment]
+    disturbance: ArrayLike | Callable | object | None = None
+
+    def __post_init__(self) -> None:
+        x0, xf = vectors("x0", self.x0, 3), vectors("xf", self.xf, 3)
+        tf = finite("tf", self.tf, "a number or an array (...)")
+        t0 = finite("t0", self.t0, "a number or an array (...)")
+        shape = common_shape(
+            x0=x0.shape[:-1], xf=xf.shape[:-1], tf=tf.shape, t0=t0.shape, f=_shape(self.disturbance)
+        )
+        late = ~(tf > t0)
+        if late.any():
+            first, last = (np.broadcast_to(end, late.shape)[late].flat[0] for end in (t0, tf))
+            raise ValueError(f"tf must be later than t0, got t0 = {first} and tf = {last}")
+        set_field = object.__setattr__
+        set_field(self, "x0", np.broadcast_to(x0, (*shape, 3)))
+        set_field(self, "xf", np.broadcast_to(xf, (*shape, 3)))
+        set_field(self, "tf", np.broadcast_to(tf, shape))
+        set_field(self, "t0", np.broadcast_to(t0, shape))
+        if isinstance(self.disturbance, np.ndarray | list | tuple):
+            level = finite("disturbance", self.disturbance, "a number or an array (...)")
+            set_field(self, "disturbance", np.broadcast_to(level, shape))
+        self._integrals  # a disturbance that cannot be integrated is refused here, not later
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Leading shape of the stack; ``()`` for one manoeuvre."""
+        return self.x0.shape[:-1]
+
+    @property
+    def duration(self) -> NDArray[np.float64]:
+        """T = tf - t0, (...)."""
+        return self.tf - self.t0
+
+    @cached_property
+    def _integrals(self) -> disturbances.Integrals:
+        return disturbances.integrals(self.disturbance, self.t0, self.tf)
+
+    @cached_property
+    def moments(self) -> NDArray[np.float64]:
+        """c of (1.10), (..., 3): what the integrals of (s^2/2, s, 1) u must be, s = tf - t."""
+        if self.disturbance is None:
+            g1 = g2 = 0.0
+        else:
+            g1, g2 = np.moveaxis(self._integrals(self.tf, self.t0), -1, 0)
+        ends = [*np.moveaxis(self.x0, -1, 0), *np.moveaxis(self.xf, -1, 0)]
+        return np.stack(kernels.moments(*ends, self.duration, g1, g2), axis=-1)
+
+    def times(self, t: ArrayLike) -> NDArray[np.float64]:
+        """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""
+        return times("t", t, self.t0, self.tf)
+
+    def drift(self, t: ArrayLike) -> NDArray[np.float64]:
+        """The motion without control, Phi(t, t0) x0 + g(t) of (1.3): (k,) -> (..., k, 3)."""
+        time = self.times(t)
+        start = self.t0[..., None]
+        elapsed = time - start
+        x1, x2, x3 = (self.x0[..., None, i] for i in range(3))
+        g = self._integrals(time, start)
+        free = kernels.coast(x1, x2, x3, elapsed)
+        return np.stack(np.broadcast_arrays(free[0] + g[..., 0], free[1] + g[..., 1], free[2]), axis=-1)
+
+
+def _shape(disturbance: object) -> tuple[int, ...]:
+    return np.shape(disturbance) if isinstance(disturbance, np.ndarray | list | tuple) else ()  # type: ignore[arg-type]

@@ -1,0 +1,95 @@
+"""The minimal element (1.13) in L_p, 1 < p < infinity: a smooth convex problem in two unknowns, by Newton.
+
+Time to go is a share s of T here, and the moments are scaled to length one in a basis of polynomials
+orthonormal on [0, 1]. Minimise N(h) = (integral of |h|^p)^(1/p) over the quadratics with <h, moments> = 1.
+Its derivative along the plane is what the moments of |h|^(p-1) sign h miss, so the step that lowers the
+bound is the one that meets the moments.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pontryagin.triple_integrator.newton import minimise
+from pontryagin.triple_integrator.quadrature import (
+    Array,
+    Quadratic,
+    basis_at,
+    first_moments,
+    logistic_rule,
+    orthonormal,
+    second_moments,
+)
+
+CHUNK = 64
+"""Problems solved side by side: their nodes fit a processor's cache."""
+
+STEEP = 30.0
+"""p - 1 or q - 1 beyond which the solution for a third of it is sought first."""
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Quadratics with <h, w> = 1 for unit vectors w (n, 3) of moments in the orthonormal basis."""
+
+    w: Array
+
+    @property
+    def tangent(self) -> Array:
+        """Two orthonormal directions that leave <h, w> as it is, (n, 3, 2)."""
+        return np.swapaxes(np.linalg.svd(self.w[:, None, :])[2][:, 1:, :], 1, 2)
+
+    @property
+    def start(self) -> Quadratic:
+        """The minimal element of L_2, which is w itself."""
+        return Quadratic.of(self.w @ orthonormal())
+
+
+def minimal_elements(w: Array, q: float) -> tuple[Quadratic, Array]:
+    """Minimal elements in L_p, 1/p + 1/q = 1, for unit vectors w (n, 3), and the residuals left (n,)."""
+    solved = [_chunk(w[i : i + CHUNK], q) for i in range(0, len(w), CHUNK)]
+    coefficients = np.concatenate([h.coefficients for h, _ in solved])
+    discriminant = np.concatenate([h.discriminant for h, _ in solved])
+    return Quadratic(coefficients, discriminant), np.concatenate([residual for _, residual in solved])
+
+
+def _chunk(w: Array, q: float) -> tuple[Quadratic, Array]:
+    plane = Plane(w)
+    h = plane.start
+    excess = max(q - 1, 1 / (q - 1))
+    stages = [excess]
+    while stages[0] > STEEP:
+        stages.insert(0, stages[0] / 3)
+    for stage in stages:
+        p = 1 + (stage if q < 2 else 1 / stage)
+        tolerance = 1e-14 if stage == excess else 1e-3
+        h, residual = minimise(lambda h, _, p=p: derivatives(h, p), plane.tangent, h, tolerance)
+    return h, residual
+
+
+def derivatives(h: Quadratic, p: float) -> tuple[Array, Array, Array]:
+    """N, gradient and Hessian of N in the orthonormal basis: (n,), (n, 3), (n, 3, 3)."""
+    rule = logistic_rule()
+    s, values, weights = h.sample(rule)
+    top = np.abs(values).max(axis=(-2, -1), keepdims=True)
+    values = values / top
+    with np.errstate(all="ignore"):
+        curved = weights * np.abs(values) ** (p - 2)
+    curved = np.where(np.isfinite(curved), curved, 0.0)
+    steep = curved * values
+    power = (steep * values).sum(axis=(-2, -1))
+    _add_tails(curved, h, p, rule.step)
+    basis = basis_at(s)
+    gradient = first_moments(basis, steep) / power[:, None]
+    second = second_moments(basis, curved) / power[:, None, None]
+    norm = power ** (1 / p)
+    hessian = (p - 1) * (second - gradient[:, :, None] * gradient[:, None, :])
+    return norm * top[:, 0, 0], gradient * norm[:, None], hessian * (norm / top[:, 0, 0])[:, None, None]
+
+
+def _add_tails(curved: Array, h: Quadratic, p: float, step: float) -> None:
+    """Add what the rule leaves off at zeros, where |h|^(p-2) decays like exp(-(p-1) x) only."""
+    at_zero = h.cuts[1] == 0
+    tail = -np.expm1(-(p - 1) * step)
+    curved[..., 0] = np.where(at_zero[..., :-1], curved[..., 0] / tail, curved[..., 0])
+    curved[..., -1] = np.where(at_zero[..., 1:], curved[..., -1] / tail, curved[..., -1])

@@ -1,0 +1,226 @@
+"""A rigid body under torque: Euler's equations and its attitude, integrated by SciPy and by no channel formula.
+
+Attitudes are unit quaternions, scalar first, that turn body axes into inertial axes; angular rates and torques
+are in body axes.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import OdeSolution, solve_ivp
+
+from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator.kinematics import attitude_rate, cross
+from pontryagin.validation import finite, vectors
+
+TOLERANCE = 1e-13
+"""Local error of the integration, relative and in scaled units."""
+
+INSET = 1e-13
+"""Share of a smooth stretch by which the control is read off its ends, so that it is read inside."""
+
+CommandRate = Callable[[float, NDArray[np.float64]], ArrayLike]
+Torque = Callable[[float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBody:
+    """A rigid spacecraft.
+
+    Parameters
+    ----------
+    inertia : (3, 3) array_like
+        Inertia tensor J about the centre of mass in body axes: symmetric, positive definite, no principal
+        moment greater than the sum of the other two. Only ratios matter to the motion when torque scales too.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `inertia` is anything else.
+
+    Examples
+    --------
+    >>> RigidBody([[2, 0, 0], [0, 3, 0], [0, 0, 4]]).principal_moments
+    array([2., 3., 4.])
+    """
+
+    inertia: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        inertia = finite("inertia", self.inertia, "an array (3, 3)")
+        if inertia.shape != (3, 3):
+            raise ValueError(f"inertia must be an array (3, 3), got shape {inertia.shape}")
+        size = np.abs(inertia).max()
+        if np.abs(inertia - inertia.T).max() > 1e-12 * size:
+            raise ValueError(f"inertia must be symmetric, got {inertia.tolist()}")
+        inertia = (inertia + inertia.T) / 2
+        moments = np.linalg.eigvalsh(inertia)
+        listed = ", ".join(f"{moment:.6g}" for moment in moments)
+        if not moments[0] > 1e-12 * size:
+            raise ValueError(f"inertia must be positive definite, got principal moments {listed}")
+        if moments[2] > (moments[0] + moments[1]) * (1 + 1e-12):
+            raise ValueError(
+                "inertia must be that of a body: no principal moment exceeds the sum of the other two, "
+                f"got principal moments {listed}"
+            )
+        object.__setattr__(self, "inertia", inertia)
+
+    @cached_property
+    def inverse(self) -> NDArray[np.float64]:
+        """J^-1, (3, 3)."""
+        return np.linalg.inv(self.inertia)
+
+    @cached_property
+    def principal_moments(self) -> NDArray[np.float64]:
+        """Eigenvalues of J in increasing order, (3,)."""
+        return np.linalg.eigvalsh(self.inertia)
+
+    def acceleration(self, rate: NDArray[np.float64], torque: NDArray[np.float64]) -> NDArray[np.float64]:
+        """w' = J^-1 (M - w x J w), for rates and torques (..., 3)."""
+        return (torque - cross(rate, rate @ self.inertia)) @ self.inverse
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion of the body, sampled on demand; commands jump at impulses and are continuous from the right.
+
+    Attributes
+    ----------
+    edges : (p+1,) array
+        Ends of the smooth stretches.
+    start, end : (7+n,) arrays
+        Attitude, rate and commands before the first instant's impulse, and after the last one's.
+    """
+
+    edges: NDArray[np.float64]
+    stretches: Sequence[OdeSolution]
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+
+    def at(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Attitude (4), rate (3) and commands (n) at the times t, (k,) -> (k, 7+n)."""
+        time = np.atleast_1d(finite("t", t, "a number or an array (k,) of times"))
+        first, last = self.edges[0], self.edges[-1]
+        if time.ndim != 1 or np.any(time < first) or np.any(time > last):
+            raise ValueError(f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}")
+        index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.stretches) - 1)
+        result = np.empty((time.size, self.start.size))
+        for i in np.unique(index):
+            result[index == i] = self.stretches[i](time[index == i]).T
+        result[time == first] = self.start
+        result[time == last] = self.end
+        return result
+
+    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Quaternion at the times t, (k,) -> (k, 4)."""
+        return self.at(t)[:, :4]
+
+    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Angular rate w in body axes, (k,) -> (k, 3)."""
+        return self.at(t)[:, 4:7]
+
+    def commands(self, t: ArrayLike) -> NDArray[np.float64]:
+        """What the actuators were told, (k,) -> (k, n)."""
+        return self.at(t)[:, 7:]
+
+
+@dataclass(frozen=True, eq=False)
+class Commands:
+    """What drives the actuators: n numbers z with z' = `rate`(t, z), smooth but for the events.
+
+    Attributes
+    ----------
+    start : (n,) array
+        z at the start.
+    rate : function (t, z) -> (n,)
+    scales : (n,) array
+        Size of z at which an error of 1 would be one: sets the integrator's absolute tolerance.
+    breakpoints : sequence of times
+        Where the rate is not smooth.
+    impulses : sequence of (time, jump (n,))
+        Jumps of z.
+    """
+
+    start: NDArray[np.float64]
+    rate: CommandRate
+    scales: NDArray[np.float64]
+    breakpoints: Sequence[float] = ()
+    impulses: Sequence[tuple[float, NDArray[np.float64]]] = ()
+
+
+def simulate(
+    body: RigidBody,
+    interval: tuple[float, float],
+    attitude: ArrayLike,
+    rate: ArrayLike,
+    commands: Commands,
+    torque: Torque,
+) -> Motion:
+    """Integrate Euler's equations and q' = q w / 2 with SciPy's DOP853, anew on each smooth stretch.
+
+    Parameters
+    ----------
+    body : RigidBody
+    interval : (start, end)
+    attitude, rate : (4,), (3,) array_like
+        Quaternion and angular rate at the start.
+    commands : Commands
+        Integrated beside the body.
+    torque : function (t, attitude, rate, commands) -> (3,)
+        All torque on the body, in body axes.
+
+    Returns
+    -------
+    Motion
+
+    Raises
+    ------
+    pontryagin.NotConverged
+        If the integrator gives up.
+    """
+    first, last = interval
+    quaternion, spin = vectors("attitude", attitude, 4), vectors("rate", rate, 3)
+    start = np.concatenate([quaternion, spin, commands.start])
+    instants = [*commands.breakpoints, *(time for time, _ in commands.impulses)]
+    edges = np.unique([first, last, *(time for time in instants if first < time < last)])
+    scales = np.concatenate([np.ones(4), np.full(3, 1 / (last - first)), commands.scales])
+    state, stretches = _after_impulses(start, first, commands), []
+    for a, b in zip(edges[:-1], edges[1:], strict=True):
+        right_hand_side = _right_hand_side(body, commands.rate, torque, a, b)
+        run = solve_ivp(
+            right_hand_side,
+            (a, b),
+            state,
+            method="DOP853",
+            rtol=TOLERANCE,
+            atol=TOLERANCE * scales,
+            dense_output=True,
+        )
+        if not run.success:
+            raise NotConverged(f"the motion was not integrated past t = {run.t[-1]}", float(b - run.t[-1]))
+        stretches.append(run.sol)
+        state = _after_impulses(run.y[:, -1], b, commands)
+    return Motion(edges, stretches, start, state)
+
+
+def _after_impulses(state: NDArray, time: float, commands: Commands) -> NDArray:
+    jumps = [jump for instant, jump in commands.impulses if instant == time]
+    return state if not jumps else np.concatenate([state[:7], state[7:] + np.sum(jumps, axis=0)])
+
+
+def _right_hand_side(body: RigidBody, command_rate: CommandRate, torque: Torque, a: float, b: float) -> Callable:
+    inset = INSET * (b - a)
+
+    def right_hand_side(t: float, y: NDArray) -> NDArray:
+        inside = min(max(t, a + inset), b - inset)
+        q, w, z = y[:4], y[4:7], y[7:]
+        result = np.empty_like(y)
+        result[:4] = attitude_rate(q, w)
+        result[4:7] = body.acceleration(w, torque(inside, q, w, z))
+        result[7:] = command_rate(inside, z)
+        return result
+
+    return right_hand_side

@@ -1,0 +1,392 @@
+"""Least time for |u| <= U: the least admissible root of two quartics in the time.
+
+Units with U = 1 and the typical time of the transfer as unit of time; u, x and f change sign together so
+that c3 = x3f - x30 >= 0. The unknown is z = T - c3 >= 0: in less than c3 not even x3 arrives.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import fabs, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.certificate import Certificate
+from pontryagin.compile import batched
+from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator import trajectory
+from pontryagin.triple_integrator.kernels import (
+    bang_bang_moments,
+    moments,
+    opposite_branch,
+    same_branch,
+    small_parts,
+)
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.peak import place_switches
+from pontryagin.validation import common_shape, finite, positive, vectors
+
+ACCEPT = 1e-12
+"""Largest residual of the moments, relative to the data's own rounding, with which a root is a control."""
+
+RELUCTANT = 1e-9
+"""The same where no root passes: two roots about to merge lose half their digits."""
+
+QUADRATIC = 1e-9
+THIRD = 1.0 / 3.0
+NEVER = 1e300
+
+
+def quartic(z, q0, q1, q2, q3):
+    """3 z^4 + q3 z^3 + q2 z^2 + q1 z + q0."""
+    return q0 + z * (q1 + z * (q2 + z * (q3 + 3.0 * z)))
+
+
+def quartic_slope(z, q1, q2, q3):
+    """Its derivative."""
+    return q1 + z * (2.0 * q2 + z * (3.0 * q3 + 12.0 * z))
+
+
+def root_between(low, high, q0, q1, q2, q3):
+    """The root of the quartic between two points of opposite sign: Newton, kept in the bracket."""
+    rising = quartic(high, q0, q1, q2, q3) > 0.0
+    z = 0.5 * (low + high)
+    for _ in range(200):
+        value, slope = quartic(z, q0, q1, q2, q3), quartic_slope(z, q1, q2, q3)
+        if (value > 0.0) == rising:
+            high = z
+        else:
+            low = z
+        following = z - value / slope if slope != 0.0 else low - 1.0
+        small = fabs(following - z) <= QUADRATIC * fabs(z)
+        if not small and not low < following < high:
+            following = 0.5 * (low + high)
+            small = following == low or following == high
+        z = following
+        if small:
+            break
+    return z
+
+
+def slope_root_between(low, high, q1, q2, q3):
+    """The root of the quartic's derivative between two points of opposite sign."""
+    rising = quartic_slope(high, q1, q2, q3) > 0.0
+    z = 0.5 * (low + high)
+    for _ in range(200):
+        value, slope = quartic_slope(z, q1, q2, q3), 2.0 * q2 + z * (6.0 * q3 + 36.0 * z)
+        if (value > 0.0) == rising:
+            high = z
+        else:
+            low = z
+        following = z - value / slope if slope != 0.0 else low - 1.0
+        small = fabs(following - z) <= QUADRATIC * fabs(z)
+        if not small and not low < following < high:
+            following = 0.5 * (low + high)
+            small = following == low or following == high
+        z = following
+        if small:
+            break
+    return z
+
+
+def stationary_points(top, q1, q2, q3):
+    """The quartic's stationary points in (0, top), ascending; `top` where there are fewer than three."""
+    discriminant = q3 * q3 - 8.0 * q2
+    first, second, third = top, top, top
+    start, start_value, found = 0.0, q1, 0
+    bend1, bend2 = top, top
+    if discriminant > 0.0:
+        root = sqrt(discriminant)
+        half = -(q3 + root) if q3 > 0.0 else root - q3
+        one = half / 12.0
+        two = q2 / (1.5 * half) if half != 0.0 else 0.0
+        bend1, bend2 = min(one, two), max(one, two)
+    for k in range(3):
+        end = bend1 if k == 0 else bend2 if k == 1 else top
+        if not start < end <= top:
+            continue
+        end_value = quartic_slope(end, q1, q2, q3)
+        if (start_value > 0.0) != (end_value > 0.0):
+            point = slope_root_between(start, end, q1, q2, q3)
+            if found == 0:
+                first = point
+            elif found == 1:
+                second = point
+            else:
+                third = point
+            found += 1
+        start, start_value = end, end_value
+    return first, second, third
+
+
+def upper_bound(q0, q1, q2, q3):
+    """No root is larger (Fujiwara)."""
+    return 2.0 * max(
+        fabs(q3) / 3.0, sqrt(fabs(q2) / 3.0), (fabs(q1) / 3.0) ** THIRD, sqrt(sqrt(fabs(q0) / 3.0))
+    )
+
+
+def sized(level, z, ends, f, c3):
+    """Switches a, b, time T and residual of the control that a root z of one branch stands for."""
+    d1, x20, x30, x2f, x3f, place = ends
+    T = c3 + z
+    p3 = level * T - c3
+    r2 = 2.0 * (x2f - x20) - (x3f + x30 + 2.0 * f) * T
+    m = 1.0 - r2 / (T * p3) if p3 != 0.0 else 1.0
+    a, b = place_switches(min(1.0, 0.5 * fabs(p3) / T), m)
+    k1, k2, k3 = bang_bang_moments(level, a, b)
+    c1, c2, _ = moments(0.0, x20, x30, d1, x2f, x3f, T, 0.5 * f * T * T, f * T)
+    rate, drift = fabs(x20) + fabs(x2f), fabs(x30) + fabs(f)
+    size1 = T * T * T + 6.0 * (place + rate * T) + 3.0 * drift * T * T
+    size2 = T * T + 2.0 * rate + 2.0 * drift * T
+    residual = max(
+        fabs(k1 * T * T * T - 6.0 * c1) / size1,
+        fabs(k2 * T * T - 2.0 * c2) / size2,
+        fabs(k3 * T - c3) / (T + fabs(x30) + fabs(x3f)),
+    )
+    return a, b, T, residual
+
+
+def polished(level, z, r20, r21, w0, w1, w2, c3):
+    """Two Newton steps on p3^2 (4 T^2 - p3^2) + 8 p3 w - 12 r2^2, whose parts keep the digits that its
+    coefficients in z lose to cancellation."""
+    for _ in range(2):
+        T = c3 + z
+        p3, p3_slope = (z, 1.0) if level > 0.0 else (-(z + 2.0 * c3), -1.0)
+        r2, w = r20 + r21 * z, w0 + z * (w1 + z * w2)
+        rest = (2.0 * T - p3) * (2.0 * T + p3)
+        value = p3 * (p3 * rest + 8.0 * w) - 12.0 * r2 * r2
+        slope = 2.0 * p3 * p3_slope * rest + p3 * p3 * (8.0 * T - 2.0 * p3 * p3_slope)
+        slope += 8.0 * (p3_slope * w + p3 * (w1 + 2.0 * z * w2)) - 24.0 * r2 * r21
+        step = value / slope if slope != 0.0 else 0.0
+        if fabs(step) > 1e-6 * z:
+            break
+        z -= step
+    return z
+
+
+def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
+    """z, a, b, residual of the least root below `limit` that is a control; z = limit if there is none."""
+    top = min(limit, upper_bound(q0, q1, q2, q3) * (1.0 + 1e-9))
+    low, low_value = 0.0, q0
+    if level > 0.0 and c3 > 0.0:
+        a, b, _, residual = sized(level, 0.0, ends, f, c3)
+        if residual <= 4e-15:
+            return 0.0, a, b, residual
+    first, second, third = stationary_points(top, q1, q2, q3)
+    for k in range(4):
+        high = first if k == 0 else second if k == 1 else third if k == 2 else top
+        if not low < high:
+            continue
+        value = quartic(high, q0, q1, q2, q3)
+        size = fabs(q0) + high * (fabs(q1) + high * (fabs(q2) + high * (fabs(q3) + 3.0 * high)))
+        crosses = (low_value > 0.0) != (value > 0.0)
+        touches = high < top and fabs(value) <= 1e-14 * size
+        if crosses or touches:
+            z = root_between(low, high, q0, q1, q2, q3) if crosses else high
+            z = polished(level, z, small[0], small[1], small[2], small[3], small[4], c3)
+            a, b, _, residual = sized(level, z, ends, f, c3)
+            if residual <= accept:
+                return z, a, b, residual
+        low, low_value = high, value
+    return limit, 0.0, 0.0, 1.0
+
+
+def first_arrival(accept, ends, f, c3):
+    """Level, z, a, b, residual of the least root of either branch that is a control."""
+    d1, x20, x30, x2f, x3f, _ = ends
+    small = small_parts(0.0, x20, x30, d1, x2f, x3f, f, c3)
+    r20, r21, w0, w1, w2 = small
+    q0, q1, q2, q3, _ = same_branch(r20, r21, w0, w1, w2, c3)
+    z, a, b, residual = least_root(1.0, NEVER, accept, ends, f, c3, small, q0, q1, q2, q3)
+    q0, q1, q2, q3, _ = opposite_branch(r20, r21, w0, w1, w2, c3)
+    other, other_a, other_b, other_residual = least_root(-1.0, z, accept, ends, f, c3, small, q0, q1, q2, q3)
+    if other < z:
+        return -1.0, other, other_a, other_b, other_residual
+    return 1.0, z, a, b, residual
+
+
+def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
+    """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T."""
+    d1, d2, c3 = x1f - x10, x2f - x20, x3f - x30
+    if d1 == 0.0 and d2 == 0.0 and c3 == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    sign = -1.0 if c3 < 0.0 else 1.0
+    unit = max(
+        fabs(c3) / U,
+        sqrt(max(fabs(d2), min(fabs(x20), fabs(x2f))) / U),
+        (fabs(d1) / U) ** THIRD,
+        min(fabs(x30 + f), fabs(x3f + f)) / U,
+    )
+    e3 = sign / (U * unit)
+    e2 = e3 / unit
+    e1 = e2 / unit
+    ends = (d1 * e1, x20 * e2, x30 * e3, x2f * e2, x3f * e3, (fabs(x10) + fabs(x1f)) * fabs(e1))
+    force, height = f * e3, fabs(c3) * fabs(e3)
+    level, z, a, b, residual = first_arrival(ACCEPT, ends, force, height)
+    if z == NEVER:
+        level, z, a, b, residual = first_arrival(RELUCTANT, ends, force, height)
+    T = height + z
+    bound = lower_bound(level, a, b, T, ends, force, height)
+    return T * unit, sign * level * U, a, b, residual, bound * unit
+
+
+def lower_bound(level, a, b, T, ends, f, c3):
+    """The time down to which the separating functional (s - aT)(s - bT) proves the target out of reach.
+
+    phi(T') = |l'c(T')| - integral of |l'h| vanishes at T' = T and is positive just before; one Newton step
+    from the rounded value.
+    """
+    d1, x20, x30, x2f, x3f, _ = ends
+    c1, c2, _ = moments(0.0, x20, x30, d1, x2f, x3f, T, 0.5 * f * T * T, f * T)
+    m, product = T * (a + b), T * T * a * b
+    pairing = level * (2.0 * c1 - m * c2 + product * c3)
+    d = T * (a - b)
+    reach = T * T * T / 3.0 - 0.5 * m * T * T + product * T + d * d * d / 3.0
+    slope = level * (-2.0 * (x20 + T * (x30 + f)) + m * (x30 + f)) - (T - T * a) * (T - T * b)
+    if slope == 0.0:
+        return c3
+    return max(c3, T - fabs(pairing - reach) / fabs(slope))
+
+
+solve_stack = batched(solve_time, outputs=6)
+
+
+@dataclass(frozen=True, eq=False)
+class TimeSolution:
+    """Transfer of least duration under |u| <= peak.
+
+    Attributes
+    ----------
+    x0, xf : (..., 3) array
+        Both ends.
+    peak, disturbance : (...) array
+        Bound on |u| and constant force, as asked.
+    duration : (...) array
+        Least time; 0 where the ends agree.
+    levels : (...) array
+        Signed level of the control near both ends of a two-switch programme.
+    shares : (..., 2) array
+        Both switches a >= b as shares of the duration to go; 1 and 0 where they do not happen.
+    certificate : Certificate
+        Residual of the moments, relative to the data; the duration; and the time down to which the
+        separating functional proves the target out of reach.
+    """
+
+    x0: NDArray[np.float64]
+    xf: NDArray[np.float64]
+    peak: NDArray[np.float64]
+    disturbance: NDArray[np.float64]
+    duration: NDArray[np.float64]
+    levels: NDArray[np.float64]
+    shares: NDArray[np.float64]
+    certificate: Certificate
+
+    @cached_property
+    def maneuver(self) -> Maneuver:
+        """The fixed-time manoeuvre of this duration, from t0 = 0.
+
+        Raises
+        ------
+        ValueError
+            Where the ends agree: a manoeuvre takes a positive time.
+        """
+        return Maneuver(self.x0, self.xf, self.duration, disturbance=self.disturbance)
+
+    @property
+    def norm(self) -> NDArray[np.float64]:
+        """The peak of |u|, (...): the bound, or 0 where the ends agree."""
+        return np.abs(self.levels)
+
+    @cached_property
+    def switch_times(self) -> NDArray[np.float64]:
+        """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
+        return trajectory.switch_times(self.duration, self.duration, self.shares)
+
+    @cached_property
+    def first_sign(self) -> NDArray[np.float64]:
+        """Sign of u at the start, (...)."""
+        return trajectory.first_sign(self.levels, self.shares)
+
+    @property
+    def breakpoints(self) -> NDArray[np.float64]:
+        """Switches of one transfer, (j,)."""
+        return trajectory.breakpoints(self.switch_times)
+
+    @cached_property
+    def multipliers(self) -> NDArray[np.float64]:
+        """l0 of the minimal element at this duration, l0'c = 1, (..., 3)."""
+        shape = trajectory.switching_quadratic(self.shares, self.duration)
+        return trajectory.normalised(shape, self.maneuver.moments)
+
+    @property
+    def switch_condition(self) -> NDArray[np.float64]:
+        """As for `PeakSolution`, at this duration."""
+        return trajectory.switch_condition(self.shares)
+
+    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+        """u at the times t, (k,) -> (..., k)."""
+        return trajectory.bang_bang(self.maneuver.times(t), self.switch_times, self.first_sign * self.norm)
+
+    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+        """x at the times t, (k,) -> (..., k, 3)."""
+        m = self.maneuver
+        time = m.times(t)
+        return m.drift(time) + trajectory.bang_bang_response(
+            time, m.t0, self.switch_times, self.first_sign * self.norm
+        )
+
+    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+        """psi at the times t, (k,) -> (..., k, 3)."""
+        return trajectory.costate(self.duration, self.maneuver.times(t), self.multipliers)
+
+
+def minimum_time(
+    x0: ArrayLike, xf: ArrayLike, peak: ArrayLike, disturbance: ArrayLike | None = None
+) -> TimeSolution:
+    """Least time between two states of the triple integrator under |u| <= peak.
+
+    The problem that section 3 calls mutual to the least peak. It is so where one end is an equilibrium;
+    elsewhere the least peak need not fall as the time grows, and this is the first time it meets the bound.
+
+    Parameters
+    ----------
+    x0, xf : (..., 3) array_like
+        Ends.
+    peak : (...) array_like
+        Bound on |u|, positive.
+    disturbance : (...) array_like, optional
+        Constant acceleration beside the control.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong kind, shape or sign, or is not finite.
+    pontryagin.NotConverged
+        If no root of the quartics steers the state to the target to 1e-9.
+
+    Examples
+    --------
+    >>> w = minimum_time([0, 0, 0], [1, 0, 0], peak=32.0)
+    >>> float(w.duration), w.switch_times.tolist(), w.certificate.holds(1e-12)
+    (1.0, [0.25, 0.75], True)
+    """
+    start, end, bound = vectors("x0", x0, 3), vectors("xf", xf, 3), positive("peak", peak)
+    if callable(disturbance) or hasattr(disturbance, "free_symbols"):
+        raise TypeError(f"disturbance must be None or a constant for minimum_time, got {disturbance!r}")
+    force = finite(
+        "disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array (...)"
+    )
+    shape = common_shape(x0=start.shape[:-1], xf=end.shape[:-1], peak=bound.shape, disturbance=force.shape)
+    start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
+    bound, force = (np.broadcast_to(value, shape) for value in (bound, force))
+    if shape:
+        columns = [x[..., i].ravel() for x in (start, end) for i in range(3)]
+        result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
+    else:
+        result = np.array(solve_time(*start.tolist(), *end.tolist(), float(force), float(bound)))
+    duration = result[..., 0]
+    if not (duration < NEVER).all():
+        raise NotConverged("no root of the quartics reaches the target", float(result[..., 4].max()))
+    certificate = Certificate(result[..., 4], duration, result[..., 5])
+    return TimeSolution(start, end, bound, force, duration, result[..., 1], result[..., 2:4], certificate)
