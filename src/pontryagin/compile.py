@@ -172,9 +172,7 @@ def batched(kernel: Callable[..., tuple], outputs: int) -> Callable[..., NDArray
             for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
                 result[i] = kernel(*values)
         else:
-            compiled_loop(kernel, len(columns), outputs)(
-                result, *(np.ascontiguousarray(column, dtype=float) for column in columns)
-            )
+            compiled_loop(kernel, len(columns), outputs)(result, *columns)
         return result
 
     return run
@@ -197,7 +195,7 @@ def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> Ca
     targets = ", ".join(f"result[i, {j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
     signature = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
     text = _closure_source(kernel) + (
-        '\n\ncolumn = types.Array(types.float64, 1, "C", readonly=True)\n'
+        '\n\ncolumn = types.Array(types.float64, 1, "A", readonly=True)\n'
         f'\n\n@njit({signature}, cache=True, nogil=True, error_model="numpy")\n'
         f"def loop(result, {arguments}):\n"
         f"    for i in range(result.shape[0]):\n"

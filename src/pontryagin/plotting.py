@@ -5,23 +5,20 @@ notebook hands it to `show`, which writes ``figures/<notebook>/<name>.svg`` and 
 `show_table` does so for a table, as ``figures/<notebook>/<name>.csv``.
 """
 
-import csv
 import functools
 import io
-import math
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
-from numbers import Integral, Real
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
-import numpy as np
 from cycler import cycler
 from matplotlib.figure import Figure
 
 from pontryagin import files
+from pontryagin.tables import Columns, csv_table, markdown_table
 
 P = ParamSpec("P")
 
@@ -164,7 +161,7 @@ def save(figure: Figure, notebook: str, name: str | None = None) -> Path:
     return path
 
 
-def save_table(columns: Mapping[str, Sequence[Any] | np.ndarray], notebook: str, name: str) -> Path:
+def save_table(columns: Columns, notebook: str, name: str) -> Path:
     """Write ``figures/<notebook>/<name>.csv``, numbers with twelve digits.
 
     Parameters
@@ -177,13 +174,8 @@ def save_table(columns: Mapping[str, Sequence[Any] | np.ndarray], notebook: str,
     ValueError
         When the columns differ in length or a name cannot be a file name.
     """
-    rows = _rows(columns)
-    drawn = io.StringIO()
-    writer = csv.writer(drawn, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([_csv_cell(value) for value in row] for row in rows)
     path = _place(notebook, name, ".csv")
-    files.write(path, drawn.getvalue())
+    files.write(path, csv_table(columns))
     return path
 
 
@@ -202,16 +194,13 @@ def show(figure: Figure, name: str | None = None, caption: str | None = None) ->
     caption : str, optional
         A sentence for under the figure; Markdown with ``$...$``.
     """
-    name = _name_of(figure, name)
-    notebook = current_notebook()
+    name, drawn, notebook = _name_of(figure, name), svg_of(figure), current_notebook()
     if notebook:
-        save(figure, notebook, name)
-    _display({"image/svg+xml": svg_of(figure)}, "figure", notebook, name, caption)
+        files.write(_place(notebook, name, ".svg"), drawn)
+    _display({"image/svg+xml": drawn}, "figure", notebook, name, caption)
 
 
-def show_table(
-    columns: Mapping[str, Sequence[Any] | np.ndarray], name: str, caption: str | None = None
-) -> None:
+def show_table(columns: Columns, name: str, caption: str | None = None) -> None:
     """Save a notebook's table and display it; headings and text entries are Markdown with ``$...$``.
 
     Parameters
@@ -231,27 +220,6 @@ def current_notebook() -> str | None:
     """Name of the notebook that this kernel runs, where its front end says so."""
     path = os.environ.get("PONTRYAGIN_NOTEBOOK") or os.environ.get("JPY_SESSION_NAME")
     return Path(path).stem if path else None
-
-
-def markdown_table(columns: Mapping[str, Sequence[Any] | np.ndarray]) -> str:
-    r"""A Markdown table with numbers to six digits and numeric columns set right.
-
-    Examples
-    --------
-    >>> print(markdown_table({"$q$": [2, 3], "gap": [0.0, 1e-16]}))
-    | $q$ | gap |
-    | --: | --: |
-    | 2 | 0 |
-    | 3 | $1\times 10^{-16}$ |
-    """
-    rows = _rows(columns)
-    numeric = [all(isinstance(row[i], Real) for row in rows) for i in range(len(columns))]
-    lines = [
-        [_markdown_cell(heading) for heading in columns],
-        ["--:" if right else ":--" for right in numeric],
-    ]
-    lines += [[_markdown_cell(value) for value in row] for row in rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _display(data: dict[str, str], kind: str, notebook: str | None, name: str, caption: str | None) -> None:
@@ -274,37 +242,3 @@ def _place(notebook: str, name: str, ending: str) -> Path:
         if not _NAME.fullmatch(value):
             raise ValueError(f"{argument}: got {value!r}; takes lower-case letters, digits, '-', '_' and '.'")
     return files.figures_folder() / notebook / (name + ending)
-
-
-def _rows(columns: Mapping[str, Sequence[Any] | np.ndarray]) -> list[tuple[Any, ...]]:
-    if not columns:
-        raise ValueError("columns: got an empty mapping; takes at least one column")
-    lengths = {heading: len(entries) for heading, entries in columns.items()}
-    if len(set(lengths.values())) > 1:
-        raise ValueError(f"columns: got columns of different lengths {lengths}; takes one length")
-    return list(zip(*columns.values(), strict=True))
-
-
-def _csv_cell(value: Any) -> str:
-    if isinstance(value, Real) and not isinstance(value, (bool, Integral)):
-        return f"{float(value) + 0.0:.12g}"
-    return "" if value is None else str(value)
-
-
-def _markdown_cell(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "yes" if value else "no"
-    if isinstance(value, Integral):
-        return str(int(value)).replace("-", "−")
-    if isinstance(value, Real):
-        return _number(float(value))
-    text = "" if value is None else " ".join(str(value).split())
-    return re.sub(r"(?<!\\)\|", r"\\vert " if "$" in text else r"\\|", text)
-
-
-def _number(value: float) -> str:
-    if not math.isfinite(value):
-        return "—" if math.isnan(value) else "∞" if value > 0 else "−∞"
-    mantissa, _, exponent = f"{value + 0.0:.6g}".partition("e")
-    mantissa = mantissa.replace("-", "−") if not exponent else mantissa
-    return mantissa if not exponent else rf"${mantissa}\times 10^{{{int(exponent)}}}$"

@@ -1,5 +1,7 @@
 """Checks of what users pass in: each names the argument, what it got and what it takes."""
 
+from math import isfinite
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -29,6 +31,8 @@ def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
         else:
             raise TypeError(f"{name} must be {takes}, got {value!r} of type {array.dtype}")
     array = array.astype(float, copy=False)
+    if array.size < 4 and all(map(isfinite, array.ravel().tolist())):
+        return array
     if not np.isfinite(array).all():
         bad = array[~np.isfinite(array)].flat[0]
         where = (

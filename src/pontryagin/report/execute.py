@@ -125,6 +125,7 @@ def publish(workspace: Workspace, executed: Iterable[Executed]) -> int:
 def environment(workspace: Workspace, **more: str) -> dict[str, str]:
     """Environment of everything that the build runs: fixed hashes, one thread, no user settings."""
     private = workspace.cache / "settings"
+    private.mkdir(parents=True, exist_ok=True)
     return {
         **os.environ,
         **_FIXED,
@@ -206,14 +207,8 @@ def _kernel_manager_class() -> type:
 
         @property
         def kernel_spec(self) -> KernelSpec:
-            argv = [
-                sys.executable,
-                "-Xfrozen_modules=off",
-                "-m",
-                "ipykernel_launcher",
-                "-f",
-                "{connection_file}",
-            ]
+            argv = [sys.executable, "-Xfrozen_modules=off", "-m", "ipykernel_launcher", "--log-level=40"]
+            argv += ["-f", "{connection_file}"]
             return KernelSpec(argv=argv, display_name="Python 3", language="python")
 
     return ThisInterpreter

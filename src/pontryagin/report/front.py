@@ -1,17 +1,18 @@
 """The front page: what this is, what the papers' formulas came to, and the ledger entry by entry."""
 
 import json
+import re
 import subprocess
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from pontryagin import files
-from pontryagin.plotting import markdown_table
 from pontryagin.report import dependencies
 from pontryagin.report.execute import environment
 from pontryagin.report.papers import PAPERS, Paper
 from pontryagin.report.workspace import Workspace
+from pontryagin.tables import markdown_table
 
 Entry = Mapping[str, str]
 
@@ -101,10 +102,10 @@ def _ledger(entries: Sequence[Entry]) -> str:
     for name in dict.fromkeys(entry["paper"] for entry in entries):
         chosen = [entry for entry in entries if entry["paper"] == name]
         table = {
-            "place": [entry["label"] for entry in chosen],
-            "what it says": [entry["statement"] for entry in chosen],
+            "place": [_literal(entry["label"]) for entry in chosen],
+            "what it says": [_literal(entry["statement"]) for entry in chosen],
             "verdict": [f"[{entry['verdict']}]{_class(entry['verdict'])}" for entry in chosen],
-            "remark": [entry.get("remark") or "" for entry in chosen],
+            "remark": [_literal(entry.get("remark") or "") for entry in chosen],
         }
         parts.append(f"::: {{.ledger}}\n\n{markdown_table(table)}\n\n: The ledger of {name}.\n\n:::")
     return "\n\n".join(parts)
@@ -112,3 +113,9 @@ def _ledger(entries: Sequence[Entry]) -> str:
 
 def _class(verdict: str) -> str:
     return f"{{.verdict .{verdict.replace(' ', '-')}}}"
+
+
+def _literal(text: str) -> str:
+    """Text that is no Markdown, but for its formulas between dollar signs."""
+    parts = re.split(r"(\$[^$]+\$)", text)
+    return "".join(p if p.startswith("$") else re.sub(r"([\\`*_{}\[\]<>#~^|])", r"\\\1", p) for p in parts)

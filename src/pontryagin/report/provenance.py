@@ -9,10 +9,10 @@ from importlib import metadata
 from typing import Any
 
 from pontryagin import __version__
-from pontryagin.plotting import markdown_table
 from pontryagin.report.assemble import Item
 from pontryagin.report.execute import EPOCH, Executed
 from pontryagin.report.workspace import Workspace
+from pontryagin.tables import markdown_table
 
 PACKAGES = (
     "numpy",
@@ -84,11 +84,11 @@ def commit(workspace: Workspace) -> str:
 
     try:
         if os.path.realpath(git("rev-parse", "--show-toplevel")) != os.path.realpath(workspace.root):
-            return "not a git checkout"
+            return "unknown (not a git checkout)"
         changed = git("status", "--porcelain", "--", "src", "notebooks", "requirements.lock")
-        return git("rev-parse", "--short=12", "HEAD") + (" with local changes" if changed else "")
+        return git("rev-parse", "--short=12", "HEAD") + (", with local changes" if changed else "")
     except (OSError, subprocess.CalledProcessError):
-        return "not a git checkout"
+        return "unknown (not a git checkout)"
 
 
 def seeds(executed: Executed) -> list[str]:

@@ -23,7 +23,7 @@ def render_pdf(document: tree.Node, root: Path, target: Path, title: dict[str, s
     draft = root / "build" / ".report.partial.typ"
     draft.parent.mkdir(parents=True, exist_ok=True)
     try:
-        draft.write_text(text.replace('image("', 'image("/'), encoding="utf-8")
+        draft.write_text(_placed(text), encoding="utf-8")
         pdf = typst.compile(
             str(draft), root=str(root), ignore_system_fonts=True, timestamp=int(EPOCH), pdf_tags=False
         )
@@ -32,6 +32,10 @@ def render_pdf(document: tree.Node, root: Path, target: Path, title: dict[str, s
     finally:
         draft.unlink(missing_ok=True)
     files.write(target, pdf)
+
+
+def _placed(text: str) -> str:
+    return text.replace('image("', 'image("/').replace("align(center)[#table(", "align(left)[#table(")
 
 
 def typst_text(document: tree.Node, title: dict[str, str]) -> str:

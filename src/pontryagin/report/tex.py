@@ -4,11 +4,17 @@ What pandoc converts to something that looks wrong is rewritten here; what it ca
 """
 
 import re
+from itertools import accumulate
 
 _FENCED = {r"\lvert": r"\left|", r"\rvert": r"\right|", r"\overset": r"\stackrel"}
 _NORM = re.compile(r"\\left\s*\\(?:lVert|Vert|\|)|\\right\s*\\(?:rVert|Vert|\|)")
 _BARE_NORM = re.compile(r"(?:\\\||\\Vert\b\s*)(.+?)(?:\\\||\\Vert\b)")
-_BARE_BARS = re.compile(r"(?<![\\lrteg])\|([^|&\\]*(?:\\(?!left|right|middle|big|mid)[^|&\\]*)*)(?<!\\)\|")
+_SIZED = "".join(
+    rf"(?<!\\{c})" for c in ("", "left", "right", "middle", "big", "bigl", "bigr", "Big", "Bigl", "Bigr")
+)
+_BARE_BARS = re.compile(
+    _SIZED + r"\|((?:[^|&\\]|\\(?!left\b|right\b|middle\b|mid\b|[bB]ig))*?)" + _SIZED + r"\|"
+)
 _ROWS = re.compile(r"\\begin\{(cases|array)\}(\{[^}]*\})?(.*?)\\end\{\1\}", re.DOTALL)
 _AMS_BLOCK = re.compile(
     r"^(\\begin\{(align|equation|gather|multline)(\*?)\}.*?\\end\{\2\3\})", re.DOTALL | re.MULTILINE
@@ -37,6 +43,7 @@ def for_typst(formula: str) -> tuple[str, str | None]:
     """
     tag = re.search(r"\\tag\{([^}]*)\}", formula)
     plain = re.sub(r"\\tag\{[^}]*\}|\\!|\\notag\b|\\nonumber\b", "", formula)
+    plain = re.sub(r"\\vert\b\s*(?:\{\})?", "|", plain)
     plain = _NORM.sub(lambda fence: r"\lVert " if fence[0].startswith(r"\left") else r"\rVert ", plain)
     plain = _BARE_NORM.sub(r"\\lVert \1\\rVert", plain)
     plain = re.sub(r"\\(?:lvert|rvert|overset)(?![a-zA-Z])", lambda written: _FENCED[written[0]], plain)
@@ -75,7 +82,15 @@ def of_output(latex: str) -> str:
 
 def _absolute_value(bars: re.Match[str]) -> str:
     inside = bars[1]
-    return rf"\left|{inside}\right|" if inside.strip() and inside.count("{") == inside.count("}") else bars[0]
+    return rf"\left|{inside}\right|" if inside.strip() and _is_closed(inside) else bars[0]
+
+
+def _is_closed(part: str) -> bool:
+    for opening, closing in ("{}", "()"):
+        depth = [0, *accumulate((c == opening) - (c == closing) for c in part)]
+        if min(depth) < 0 or depth[-1]:
+            return False
+    return True
 
 
 def _spread_columns(rows: re.Match[str]) -> str:

@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
-READER = "markdown+lists_without_preceding_blankline-citations-example_lists-fancy_lists"
+READER = (
+    "markdown+lists_without_preceding_blankline-citations-example_lists-fancy_lists-subscript-superscript"
+)
 
 Node = dict[str, Any]
 Visit = Callable[[Node], list[Node] | None]

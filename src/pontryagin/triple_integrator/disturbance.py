@@ -41,10 +41,11 @@ def integrals(disturbance: object, start: NDArray, end: NDArray) -> Integrals:
     if hasattr(disturbance, "free_symbols"):
         return _symbolic(disturbance, low, high)
     if callable(disturbance):
-        return Panels(disturbance, low, high).integrals
-    return _constant(
-        finite("disturbance", disturbance, "None, a number, a callable f(t) or an expression in t")
-    )  # type: ignore[arg-type]
+        panels = Panels(disturbance, low, high)
+        _ = panels.series
+        return panels.integrals
+    takes = "None, a number, a callable f(t) or an expression in t"
+    return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
 
 
 def _constant(value: NDArray) -> Integrals:
@@ -69,7 +70,7 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
             f"disturbance must be an expression in t alone, got symbols {', '.join(sorted(foreign))}"
         )
     t = sp.Symbol("t", real=True)
-    expression = expression.subs({symbol: t for symbol in expression.free_symbols})
+    expression = expression.subs(dict.fromkeys(expression.free_symbols, t))
     value = compiler.function("disturbance", [t], {"f": expression})
     panels = Panels(lambda time: value(time)[0], low, high)
     antiderivatives = _antiderivatives(expression)
@@ -122,7 +123,8 @@ class Panels:
             result = np.asarray([self._at(float(time)) for time in t])
         if result.shape != t.shape:
             raise ValueError(
-                f"disturbance must return one number for each time: got shape {result.shape} for times {t.shape}"
+                f"disturbance must return one number for each time: got shape {result.shape} "
+                f"for times {t.shape}"
             )
         if not np.isfinite(result).all():
             k = int(np.argmin(np.isfinite(result)))

@@ -2,13 +2,39 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import fabs, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
+from pontryagin.compile import batched
 from pontryagin.triple_integrator import kernels, trajectory
+from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.maneuver import Maneuver
+
+
+def solve_energy(c1, c2, c3, T):
+    """Coefficients of 1, s, s^2 in u, scaled residual, norm, lower bound."""
+    k1, k2, k3 = c1 / T / T / T, c2 / T / T, c3 / T
+    scale = max(6.0 * fabs(k1), 2.0 * fabs(k2), fabs(k3))
+    if scale == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    k1, k2, k3 = k1 / scale, k2 / scale, k3 / scale
+    u0, u1, u2 = energy_control(k1, k2, k3, 1.0)
+    residual = max(
+        6.0 * fabs(u0 / 6.0 + u1 / 8.0 + u2 / 10.0 - k1),
+        2.0 * fabs(u0 / 2.0 + u1 / 3.0 + u2 / 4.0 - k2),
+        fabs(u0 + u1 / 2.0 + u2 / 3.0 - k3),
+    )
+    squared = u0 * u0 + u0 * u1 + (u1 * u1 + 2.0 * u0 * u2) / 3.0 + u1 * u2 / 2.0 + u2 * u2 / 5.0
+    l1, l2, l3 = energy_multipliers(k1, k2, k3, 1.0)
+    bound = fabs(l1 * k1 + l2 * k2 + l3 * k3) / sqrt(gramian_form(l1, l2, l3, 1.0))
+    size = scale * sqrt(T)
+    return u0 * scale, u1 * scale / T, u2 * scale / T / T, residual, sqrt(squared) * size, bound * size
+
+
+solve_stack = batched(solve_energy, outputs=6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +69,8 @@ class EnergySolution:
     def multipliers(self) -> NDArray[np.float64]:
         """l0 = D^-1 c / (c'D^-1 c), (..., 3); zeros where c = 0."""
         m = self.maneuver
-        parts = kernels.energy_multipliers(*np.moveaxis(m.moments, -1, 0), m.duration)
+        c1, c2, c3 = np.moveaxis(m.moments, -1, 0)
+        parts = kernels.energy_multipliers(c1, c2, c3, m.duration)
         return trajectory.normalised(np.stack(parts, axis=-1), m.moments)
 
     def control(self, t: ArrayLike) -> NDArray[np.float64]:
@@ -89,21 +116,6 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     >>> s.control([0, 0.5, 1]).round(12).tolist(), s.certificate.holds(1e-12)
     ([60.0, -30.0, 60.0], True)
     """
-    T, c = maneuver.duration, maneuver.moments
-    c1, c2, c3 = c[..., 0] / T**3, c[..., 1] / T**2, c[..., 2] / T
-    scale = np.maximum(np.maximum(6 * np.abs(c1), 2 * np.abs(c2)), np.abs(c3))
-    unit = np.where(scale == 0, 1.0, scale)
-    c1, c2, c3 = c1 / unit, c2 / unit, c3 / unit
-    u0, u1, u2 = kernels.energy_control(c1, c2, c3, 1.0)
-    moments = [u0 / 6 + u1 / 8 + u2 / 10, u0 / 2 + u1 / 3 + u2 / 4, u0 + u1 / 2 + u2 / 3]
-    residual = np.max(
-        [6 * np.abs(moments[0] - c1), 2 * np.abs(moments[1] - c2), np.abs(moments[2] - c3)], axis=0
-    )
-    squared = u0 * u0 + u0 * u1 + (u1 * u1 + 2 * u0 * u2) / 3 + u1 * u2 / 2 + u2 * u2 / 5
-    l = kernels.energy_multipliers(c1, c2, c3, 1.0)
-    form = kernels.gramian_form(*l, 1.0)
-    bound = np.abs(l[0] * c1 + l[1] * c2 + l[2] * c3) / np.sqrt(np.where(form > 0, form, 1.0))
-    size = scale * np.sqrt(T)
-    certificate = Certificate(residual, np.sqrt(squared) * size, bound * size)
-    coefficients = np.stack([u0, u1 / T, u2 / T**2], axis=-1) * scale[..., None]
-    return EnergySolution(maneuver, coefficients, certificate)
+    result = trajectory.over_stack(solve_energy, solve_stack, maneuver)
+    certificate = Certificate(result[..., 3], result[..., 4], result[..., 5])
+    return EnergySolution(maneuver, result[..., :3], certificate)

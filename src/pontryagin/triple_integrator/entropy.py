@@ -81,7 +81,7 @@ class EntropySolution:
 
     @property
     def entropy(self) -> Array:
-        """Entropy of |u|/|c3| relative to a constant control, (...): at most 0, which that has; 0 where c = 0."""
+        """Entropy of |u|/|c3| relative to a constant control: at most 0, (...); 0 where c = 0."""
         c1, c2, c3 = np.moveaxis(self.maneuver.moments, -1, 0)
         T = self.maneuver.duration
         still = c3 == 0
@@ -184,7 +184,7 @@ def _require_inside(moving: NDArray[np.bool_], c3: Array, mean: Array, square: A
 
 
 def _exponent(w: Array) -> Array:
-    """Coefficients of the exponent whose density has the moments w (n, 3), w0 = 1, in the orthonormal basis."""
+    """Coefficients of the exponent whose density has the orthonormal moments w (n, 3), w0 = 1."""
 
     def derivatives(h: Quadratic, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
         """Of log (integral of exp h) - <h, w>."""

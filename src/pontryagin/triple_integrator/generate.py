@@ -8,7 +8,10 @@ from pontryagin.compile import source
 from pontryagin.files import write
 from pontryagin.triple_integrator.derivation import energy, impulse, model, peak, time
 
-HEADER = '''"""Numeric kernels of the triple integrator. Generated from the derivation by `make kernels`; do not edit."""
+HEADER = '''"""Numeric kernels of the triple integrator.
+
+Generated from the derivation by `make kernels`; do not edit.
+"""
 '''
 
 G1, G2 = sp.symbols("g1 g2", real=True)

@@ -1,4 +1,7 @@
-"""Numeric kernels of the triple integrator. Generated from the derivation by `make kernels`; do not edit."""
+"""Numeric kernels of the triple integrator.
+
+Generated from the derivation by `make kernels`; do not edit.
+"""
 
 
 def coast(x10, x20, x30, T):

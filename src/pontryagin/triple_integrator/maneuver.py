@@ -14,7 +14,7 @@ from pontryagin.validation import common_shape, finite, times, vectors
 
 @dataclass(frozen=True, eq=False)
 class Maneuver:
-    """A manoeuvre of the triple integrator x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
+    """A manoeuvre of x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
 
     Units are the user's own and consistent: with angle in rad and time in s the control is in rad/s^3.
 
@@ -52,22 +52,24 @@ class Maneuver:
         x0, xf = vectors("x0", self.x0, 3), vectors("xf", self.xf, 3)
         tf = finite("tf", self.tf, "a number or an array (...)")
         t0 = finite("t0", self.t0, "a number or an array (...)")
-        shape = common_shape(
-            x0=x0.shape[:-1], xf=xf.shape[:-1], tf=tf.shape, t0=t0.shape, f=_shape(self.disturbance)
-        )
+        if not tf.ndim == t0.ndim == 0 or not x0.ndim == xf.ndim == 1 or _shape(self.disturbance):
+            x0, xf, tf, t0 = self._broadcast(x0, xf, tf, t0)
         late = ~(tf > t0)
         if late.any():
-            first, last = (np.broadcast_to(end, late.shape)[late].flat[0] for end in (t0, tf))
+            first, last = (end[late].flat[0] for end in (t0, tf))
             raise ValueError(f"tf must be later than t0, got t0 = {first} and tf = {last}")
-        set_field = object.__setattr__
-        set_field(self, "x0", np.broadcast_to(x0, (*shape, 3)))
-        set_field(self, "xf", np.broadcast_to(xf, (*shape, 3)))
-        set_field(self, "tf", np.broadcast_to(tf, shape))
-        set_field(self, "t0", np.broadcast_to(t0, shape))
-        if isinstance(self.disturbance, np.ndarray | list | tuple):
-            level = finite("disturbance", self.disturbance, "a number or an array (...)")
-            set_field(self, "disturbance", np.broadcast_to(level, shape))
-        self._integrals  # a disturbance that cannot be integrated is refused here, not later
+        fields = self.__dict__
+        fields["x0"], fields["xf"], fields["tf"], fields["t0"] = x0, xf, tf, t0
+        _ = self._integrals  # a disturbance of the wrong kind is refused here, not later
+
+    def _broadcast(self, x0: NDArray, xf: NDArray, tf: NDArray, t0: NDArray) -> tuple[NDArray, ...]:
+        force = _shape(self.disturbance)
+        shape = common_shape(x0=x0.shape[:-1], xf=xf.shape[:-1], tf=tf.shape, t0=t0.shape, disturbance=force)
+        if force:
+            level = finite("disturbance", self.disturbance, "a number or an array (...)")  # type: ignore[arg-type]
+            self.__dict__["disturbance"] = np.broadcast_to(level, shape)
+        ends = (np.broadcast_to(x, (*shape, 3)) for x in (x0, xf))
+        return (*ends, *(np.broadcast_to(time, shape) for time in (tf, t0)))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -86,12 +88,15 @@ class Maneuver:
     @cached_property
     def moments(self) -> NDArray[np.float64]:
         """c of (1.10), (..., 3): what the integrals of (s^2/2, s, 1) u must be, s = tf - t."""
-        if self.disturbance is None:
-            g1 = g2 = 0.0
-        else:
-            g1, g2 = np.moveaxis(self._integrals(self.tf, self.t0), -1, 0)
-        ends = [*np.moveaxis(self.x0, -1, 0), *np.moveaxis(self.xf, -1, 0)]
-        return np.stack(kernels.moments(*ends, self.duration, g1, g2), axis=-1)
+        if not self.shape and self.disturbance is None:
+            ends = [*self.x0.tolist(), *self.xf.tolist()]
+            return np.array(kernels.moments(*ends, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
+        g = 0.0 if self.disturbance is None else self._integrals(self.tf, self.t0)
+        g1, g2 = (g, g) if np.ndim(g) == 0 else (g[..., 0], g[..., 1])  # type: ignore[index]
+        ends = [x[..., i] for x in (self.x0, self.xf) for i in range(3)]
+        c = np.empty((*self.shape, 3))
+        c[..., 0], c[..., 1], c[..., 2] = kernels.moments(*ends, self.duration, g1, g2)  # type: ignore[call-arg]
+        return c
 
     def times(self, t: ArrayLike) -> NDArray[np.float64]:
         """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""

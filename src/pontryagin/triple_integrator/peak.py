@@ -108,7 +108,7 @@ def place_switches(d, m):
 
 
 def solve_peak(c1, c2, c3, T):
-    """Signed level v, switches a >= b (shares of T to go; 1 or 0 where none), scaled residual, lower bound."""
+    """Signed level v, switches a >= b (shares of T to go; 1 or 0 if none), scaled residual, bound."""
     k1, k2, k3 = 6.0 * c1 / T / T / T, 2.0 * c2 / T / T, c3 / T
     scale = max(fabs(k1), fabs(k2), fabs(k3))
     if scale == 0.0:

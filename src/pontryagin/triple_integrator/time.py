@@ -119,6 +119,16 @@ def stationary_points(top, q1, q2, q3):
     return first, second, third
 
 
+def sign_changes(q0, q1, q2, q3):
+    """Sign changes among the coefficients: no positive root if 0, exactly one if 1 (Descartes)."""
+    changes, last = 0, 1.0
+    for q in (q3, q2, q1, q0):
+        if q * last < 0.0:
+            changes += 1
+            last = -last
+    return changes
+
+
 def upper_bound(q0, q1, q2, q3):
     """No root is larger (Fujiwara)."""
     return 2.0 * max(
@@ -173,7 +183,10 @@ def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
         a, b, _, residual = sized(level, 0.0, ends, f, c3)
         if residual <= 4e-15:
             return 0.0, a, b, residual
-    first, second, third = stationary_points(top, q1, q2, q3)
+    changes = sign_changes(q0, q1, q2, q3)
+    if changes == 0:
+        return limit, 0.0, 0.0, 1.0
+    first, second, third = (top, top, top) if changes == 1 else stationary_points(top, q1, q2, q3)
     for k in range(4):
         high = first if k == 0 else second if k == 1 else third if k == 2 else top
         if not low < high:
@@ -374,17 +387,17 @@ def minimum_time(
     start, end, bound = vectors("x0", x0, 3), vectors("xf", xf, 3), positive("peak", peak)
     if callable(disturbance) or hasattr(disturbance, "free_symbols"):
         raise TypeError(f"disturbance must be None or a constant for minimum_time, got {disturbance!r}")
-    force = finite(
-        "disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array (...)"
-    )
-    shape = common_shape(x0=start.shape[:-1], xf=end.shape[:-1], peak=bound.shape, disturbance=force.shape)
-    start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
-    bound, force = (np.broadcast_to(value, shape) for value in (bound, force))
-    if shape:
+    force = finite("disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array")
+    if start.ndim == end.ndim == 1 and bound.ndim == force.ndim == 0:
+        result = np.array(solve_time(*start.tolist(), *end.tolist(), float(force), float(bound)))  # type: ignore[call-arg]
+    else:
+        shape = common_shape(
+            x0=start.shape[:-1], xf=end.shape[:-1], peak=bound.shape, disturbance=force.shape
+        )
+        start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
+        bound, force = (np.broadcast_to(value, shape) for value in (bound, force))
         columns = [x[..., i].ravel() for x in (start, end) for i in range(3)]
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
-    else:
-        result = np.array(solve_time(*start.tolist(), *end.tolist(), float(force), float(bound)))
     duration = result[..., 0]
     if not (duration < NEVER).all():
         raise NotConverged("no root of the quartics reaches the target", float(result[..., 4].max()))

@@ -16,8 +16,8 @@ def over_stack(
     c = maneuver.moments
     if c.ndim == 1:
         return np.array(kernel(*c.tolist(), float(maneuver.duration)))
-    columns = [c[..., i].ravel() for i in range(3)]
-    result = stack(*columns, np.broadcast_to(maneuver.duration, maneuver.shape).ravel())
+    flat = c.reshape(-1, 3)
+    result = stack(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
     return result.reshape(*maneuver.shape, -1)
 
 

@@ -21,7 +21,7 @@ INPUT = sp.Matrix([0, 0, 1])
 
 def transition(duration: sp.Expr = T) -> sp.Matrix:
     """Phi = exp(A t) of the chain of three integrators, (1.4)."""
-    return (CHAIN * duration).exp()
+    return (CHAIN * T).exp().subs(T, duration)
 
 
 def impulse_response() -> sp.Matrix:

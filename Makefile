@@ -1,0 +1,117 @@
+# Everything this project does, by name; `make help` lists it.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+VENV := .venv
+BIN := $(VENV)/bin
+PY := $(BIN)/python
+CORES := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+
+export PYTHONHASHSEED := 0
+export RERUN_ANALYTICS := 0
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+# A venv is good for one lock and one pyproject: their checksum is the stamp's name.
+stamp = $(VENV)/.installed-$(1)-$(firstword $(shell cat requirements.lock $(2) pyproject.toml | cksum))
+READY := $(call stamp,base,)
+EXTRA := $(call stamp,extra,requirements-extra.lock)
+
+.PHONY: help
+help: ## this list
+	@echo "pontryagin: optimal spacecraft control from four papers, derived, solved and certified"
+	@echo
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | \
+	  while IFS='|' read -r name text; do printf '%-18s %s\n' "$$name" "$$text"; done
+	@echo
+	@echo "The first use installs what is pinned in requirements.lock into .venv; later ones need no network."
+
+.PHONY: report
+report: $(READY) ## the whole report: build/report/index.html, pontryagin.pdf and the players
+	@$(PY) -m pontryagin.report
+
+.PHONY: test
+test: $(READY) ## all tests and the examples in the docstrings
+	@echo "== tests on $(CORES) core(s)"
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest $(if $(filter-out 1,$(CORES)),-n $(CORES))
+
+.PHONY: notebooks
+notebooks: $(READY) ## execute the notebooks that changed, into build/notebooks
+	@$(PY) -m pontryagin.report notebooks
+
+.PHONY: figures
+figures: $(READY) ## bring figures/ (SVG and CSV) up to date
+	@$(PY) -m pontryagin.report figures
+
+.PHONY: lab
+lab: $(EXTRA) ## open the notebooks in JupyterLab
+	@$(BIN)/jupyter lab --notebook-dir=notebooks
+
+.PHONY: kernels
+kernels: $(READY) ## generate the solvers' kernels from the derivations
+	@echo "== kernels from the derivations"
+	@$(PY) -m pontryagin.triple_integrator.generate
+
+.PHONY: bench
+bench: $(EXTRA) ## measure the solvers side by side with others'
+	@echo "== benchmarks"
+	@$(PY) -m benchmarks
+
+.PHONY: lint
+lint: $(READY) ## style and types
+	@echo "== ruff"
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+	@echo "== mypy"
+	@$(BIN)/mypy
+
+.PHONY: play
+play: $(READY) ## replay the recordings in the browser
+	@$(PY) -m pontryagin.report recordings
+	@$(PY) -m pontryagin.report.play
+
+.PHONY: clean
+clean: ## remove what was built; .venv and figures/ stay
+	@rm -rf build .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	@find src tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	@echo "removed build/ and the caches"
+
+# --- the environment -------------------------------------------------------------------------------
+
+.PRECIOUS: $(VENV)/.installed-%
+
+$(READY): | $(VENV)/bin/python
+	@$(PY) -m pip --version >/dev/null 2>&1 || python3 -m venv --clear $(VENV)
+	@echo "== installing what requirements.lock pins into $(VENV) (a minute or so, once)"
+	@$(call install,requirements.lock)
+	@$(call finish,$@,base)
+
+$(EXTRA): $(READY)
+	@echo "== adding what requirements-extra.lock pins (JupyterLab and the benchmarks' peers)"
+	@$(call install,requirements-extra.lock)
+	@$(call finish,$@,extra)
+
+$(VENV)/bin/python:
+	@command -v python3 >/dev/null || { echo "python3 was not found: install Python 3.11 or later" >&2; exit 1; }
+	@python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "python3 is $$(python3 -V 2>&1 | cut -d" " -f2): pontryagin needs Python 3.11 or later" >&2; exit 1; }
+	@echo "== creating $(VENV) with $$(python3 -V)"
+	@python3 -m venv $(VENV) || { rm -rf $(VENV); \
+	  echo "python3 cannot create a virtual environment: install its venv module (python3-venv)" >&2; exit 1; }
+
+# uv where it can be had, pip where it cannot; both check every hash of the lock.
+define install
+{ [ -x $(BIN)/uv ] || $(PY) -m pip install -q uv || echo "   uv cannot be had here: pip does it, more slowly" >&2; }; \
+if [ -x $(BIN)/uv ]; then \
+  $(BIN)/uv pip install -q --python $(PY) --require-hashes -r $(1); \
+  $(BIN)/uv pip install -q --python $(PY) --no-deps --no-build-isolation --offline -e .; \
+else \
+  $(PY) -m pip install -q --require-hashes -r $(1); \
+  $(PY) -m pip install -q --no-deps --no-build-isolation --no-index -e .; \
+fi
+endef
+
+define finish
+rm -f $(VENV)/.installed-$(2)-*; touch $(1)
+endef

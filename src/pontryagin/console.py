@@ -1,0 +1,191 @@
+"""What the papers' command lines share: values from text, files, tables, and one word for each mistake.
+
+Every refusal is a `typer.BadParameter` that names the option as it was typed; `pontryagin.cli` prints it in
+one line and exits with 2.
+"""
+
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import typer
+
+from pontryagin import expression, files
+
+Report = Mapping[str, Mapping[str, Any]]
+"""Headings, and under each its quantities: what a table shows and JSON holds."""
+
+FIGURES = (".svg", ".pdf", ".png")
+RECORDINGS = (".rrd",)
+
+
+def refusal(option: str, message: str) -> typer.BadParameter:
+    """What is wrong with an option's value."""
+    return typer.BadParameter(message, param_hint=f"'{option}'")
+
+
+def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:
+    """A finite number such as ``0.5``, ``1e-3`` or ``pi/4``."""
+    try:
+        value = expression.read(text)
+    except ValueError as reason:
+        raise refusal(option, f"takes {takes}, got {text!r}: {reason}") from None
+    if not value >= at_least:
+        raise refusal(option, f"takes {takes}, got {text!r}")
+    return value
+
+
+def positive(option: str, text: str) -> float:
+    """A finite number greater than 0."""
+    return number(option, text, "a positive number", at_least=math.nextafter(0.0, 1.0))
+
+
+def vector(option: str, text: str, length: int) -> list[float]:
+    """Numbers between commas."""
+    takes = f"{length} numbers with commas between"
+    parts = text.split(",")
+    if len(parts) != length:
+        raise refusal(option, f"takes {takes}, got {text!r}")
+    return [number(option, part, takes) for part in parts]
+
+
+def formula(option: str, text: str, variable: str) -> Any:
+    """A number, or a SymPy expression in one variable."""
+    try:
+        return expression.read(text, variable)
+    except ValueError as reason:
+        raise refusal(option, str(reason)) from None
+
+
+def required(given: Mapping[str, object], why: str = "") -> None:
+    """Refuse the first option that is None."""
+    for option, value in given.items():
+        if value is None:
+            raise typer.BadParameter(f"is missing{why}", param_hint=f"'{option}'")
+
+
+def excluded(by: str, given: Mapping[str, object]) -> None:
+    """Refuse the first option that was given beside the one it does not go with."""
+    for option, value in given.items():
+        if value:
+            raise refusal(option, f"does not go with {by}")
+
+
+@contextmanager
+def blaming(options: Mapping[str, str]) -> Iterator[None]:
+    """Give errors that begin with an argument's name to the option that it came from."""
+    try:
+        yield
+    except (TypeError, ValueError) as reason:
+        name = str(reason).partition(" ")[0].strip(":")
+        if name not in options:
+            raise
+        raise refusal(options[name], str(reason)) from reason
+
+
+def ending(option: str, path: Path, takes: tuple[str, ...]) -> None:
+    """Refuse a file name whose ending is none of `takes`."""
+    if path.suffix.lower() not in takes:
+        raise refusal(option, f"takes a file name ending in {' or '.join(takes)}, got '{path}'")
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Name the option where a file cannot be written, and the file where it can."""
+    try:
+        yield
+    except OSError as reason:
+        raise refusal(option, f"cannot write '{path}': {reason.strerror or reason}") from reason
+    typer.echo(f"wrote {path}", err=True)
+
+
+def emit(option: str, target: str, text: str) -> None:
+    """Write a text to a file, or for ``-`` to standard output."""
+    if target == "-":
+        typer.echo(text.removesuffix("\n"))
+        return
+    with writing(option, Path(target)):
+        files.write(Path(target), text)
+
+
+def save_figure(option: str, path: Path, draw: Callable[[], Any]) -> None:
+    """Draw a figure and write it as SVG, PDF or PNG."""
+    figure = draw()
+    with writing(option, path):
+        if path.suffix.lower() == ".svg":
+            from pontryagin.plotting import svg_of
+
+            files.write(path, svg_of(figure))
+        else:
+            with files.replacing(path) as draft:
+                figure.savefig(draft, dpi=200, metadata={"CreationDate": None} if _is_pdf(path) else {})
+
+
+def _is_pdf(path: Path) -> bool:
+    return path.suffix.lower() == ".pdf"
+
+
+def plain(value: Any) -> Any:
+    """Arrays as lists and numbers as Python's own, for JSON; what is not finite becomes None.
+
+    Examples
+    --------
+    >>> plain({"t": np.array([0.5, np.nan]), "unique": np.True_})
+    {'t': [0.5, None], 'unique': True}
+    """
+    if isinstance(value, Mapping):
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value if isinstance(value, bool | int | float | str | None) else str(value)
+
+
+def to_json(report: Mapping[str, Any]) -> str:
+    """A JSON object, a key a line; numbers with all their digits."""
+    return json.dumps(plain(report), ensure_ascii=False, indent=1, allow_nan=False)
+
+
+def words(value: Any) -> str:
+    """A value for a table's cell, numbers to twelve digits.
+
+    Examples
+    --------
+    >>> words([0.5, float("nan"), -0.0]), words(True), words(None)
+    ('0.5, none, 0', 'yes', 'none')
+    """
+    value = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+    match value:
+        case list() | tuple():
+            return ", ".join(words(item) for item in value) or "none"
+        case bool():
+            return "yes" if value else "no"
+        case None:
+            return "none"
+        case float():
+            return "none" if math.isnan(value) else f"{value + 0.0:.12g}"
+    return str(value)
+
+
+def show(title: str, report: Report) -> None:
+    """Print a table: quantities under their headings."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=title, title_justify="left", show_header=False, pad_edge=False)
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for heading, quantities in report.items():
+        table.add_section()
+        table.add_row(Text(heading, style="bold"), "")
+        for name, value in quantities.items():
+            table.add_row(Text(f"  {name.replace('_', ' ')}"), Text(words(value)))
+    Console().print(table)

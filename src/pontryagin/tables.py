@@ -1,0 +1,112 @@
+"""Tables given by columns: as CSV for files, as Markdown for notebooks and the report."""
+
+import csv
+import io
+import math
+import re
+from collections.abc import Mapping, Sequence
+from numbers import Integral, Real
+from typing import Any, TypeAlias
+
+import numpy as np
+
+Columns: TypeAlias = Mapping[str, Sequence[Any] | np.ndarray]
+"""Heading and entries of each column; all columns have one length."""
+
+
+def csv_table(columns: Columns) -> str:
+    """The table as CSV, numbers with twelve digits.
+
+    Parameters
+    ----------
+    columns : mapping of str to sequences of one length
+        Heading and entries of each column.
+
+    Raises
+    ------
+    ValueError
+        When there is no column or the columns differ in length.
+
+    Examples
+    --------
+    >>> print(csv_table({"q": [1, 2], "norm": [16.0, 1 / 3]}), end="")
+    q,norm
+    1,16
+    2,0.333333333333
+    """
+    drawn = io.StringIO()
+    writer = csv.writer(drawn, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([_csv_cell(value) for value in row] for row in rows_of(columns))
+    return drawn.getvalue()
+
+
+def markdown_table(columns: Columns) -> str:
+    r"""The table as Markdown, numbers with six digits, numeric columns set right.
+
+    Headings and text entries are Markdown themselves, with ``$...$`` for formulas.
+
+    Parameters
+    ----------
+    columns : mapping of str to sequences of one length
+        Heading and entries of each column.
+
+    Raises
+    ------
+    ValueError
+        When there is no column or the columns differ in length.
+
+    Examples
+    --------
+    >>> print(markdown_table({"$q$": [2, 3], "gap": [0.0, 1e-16]}))
+    | $q$ | gap |
+    | --: | --: |
+    | 2 | 0 |
+    | 3 | $1\times 10^{-16}$ |
+    """
+    rows = rows_of(columns)
+    right = [bool(rows) and all(_is_number(row[i]) for row in rows) for i in range(len(columns))]
+    lines = [
+        [_markdown_cell(heading) for heading in columns],
+        ["--:" if set_right else ":--" for set_right in right],
+    ]
+    lines += [[_markdown_cell(value) for value in row] for row in rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def rows_of(columns: Columns) -> list[tuple[Any, ...]]:
+    """The rows of a table given by columns; raises `ValueError` when there are none or they do not match."""
+    if not columns:
+        raise ValueError("columns: got an empty mapping; takes at least one column")
+    lengths = {heading: len(entries) for heading, entries in columns.items()}
+    if len(set(lengths.values())) > 1:
+        raise ValueError(f"columns: got columns of different lengths {lengths}; takes one length")
+    return list(zip(*columns.values(), strict=True))
+
+
+def _csv_cell(value: Any) -> str:
+    if _is_number(value) and not isinstance(value, Integral):
+        return f"{float(value) + 0.0:.12g}"
+    return "" if value is None else str(value)
+
+
+def _markdown_cell(value: Any) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    if isinstance(value, Integral):
+        return str(int(value)).replace("-", "−")
+    if isinstance(value, Real):
+        return _number(float(value))
+    text = "" if value is None else " ".join(str(value).split())
+    return re.sub(r"(?<!\\)\|", lambda _: r"\vert{}" if "$" in text else r"\|", text)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _number(value: float) -> str:
+    if not math.isfinite(value):
+        return "—" if math.isnan(value) else "∞" if value > 0 else "−∞"
+    mantissa, _, exponent = f"{value + 0.0:.6g}".partition("e")
+    return rf"${mantissa}\times 10^{{{int(exponent)}}}$" if exponent else mantissa.replace("-", "−")

@@ -1,0 +1,2 @@
+from pontryagin.triple_integrator.figures.programmes import solution_figure, three_programmes
+from pontryagin.triple_integrator.figures.duality import dual_functions

@@ -1,0 +1,87 @@
+"""Names, colours and axis labels that the figures of this paper share."""
+
+from typing import Any
+
+import numpy as np
+
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
+from pontryagin.triple_integrator.energy import EnergySolution
+from pontryagin.triple_integrator.impulse import ImpulseSolution
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.norm import NormSolution
+from pontryagin.triple_integrator.peak import PeakSolution
+from pontryagin.triple_integrator.time import TimeSolution
+
+Solution = EnergySolution | PeakSolution | ImpulseSolution | NormSolution | TimeSolution
+
+TIME = "$t$, s"
+STATES = ("angle $x_1$, rad", "rate $x_2$, rad/s", "acceleration $x_3$, rad/s²")
+CONTROL = "control $u$, rad/s³"
+
+NAMES = {
+    EnergySolution: "least energy, $L_2$",
+    PeakSolution: r"least peak, $L_\infty$",
+    ImpulseSolution: "least total impulse, $L_1$",
+    TimeSolution: "least time",
+}
+COLOURS = {
+    EnergySolution: BLUE,
+    PeakSolution: RED,
+    ImpulseSolution: GREEN,
+    NormSolution: PURPLE,
+    TimeSolution: ORANGE,
+}
+
+
+def name(solution: Solution) -> str:
+    """What a programme makes least."""
+    if isinstance(solution, NormSolution):
+        return f"least $L_q$ norm, $q = {solution.q:g}$"
+    return NAMES[type(solution)]
+
+
+def colour(solution: Solution) -> str:
+    """The colour of a kind of programme."""
+    return COLOURS.get(type(solution), INK)
+
+
+def value(solution: Solution) -> str:
+    """The least value, with its symbol."""
+    if isinstance(solution, TimeSolution):
+        return rf"$T = {float(solution.duration):.4g}$ s"
+    symbol = {
+        EnergySolution: r"$\Vert u\Vert_2 = {}$ rad s$^{{-5/2}}$",
+        PeakSolution: r"$\max\,|u| = {}$ rad/s³",
+        ImpulseSolution: r"$\int\,|u|\,dt = {}$ rad/s²",
+    }.get(type(solution), r"$\Vert u\Vert_q = {}$")
+    return symbol.format(number(float(solution.norm)))
+
+
+def number(x: float) -> str:
+    """Four digits for mathtext, a power of ten where it takes one."""
+    mantissa, _, exponent = f"{x + 0.0:.4g}".partition("e")
+    return mantissa if not exponent else rf"{mantissa}\cdot 10^{{{int(exponent)}}}"
+
+
+def single(solution: Any) -> Maneuver:
+    """The manoeuvre of a solution of one problem.
+
+    Raises
+    ------
+    ValueError
+        If it is a stack, which one figure cannot show.
+    """
+    maneuver = solution.maneuver if hasattr(solution, "maneuver") else solution
+    if maneuver.shape:
+        raise ValueError(f"solution: got a stack of shape {maneuver.shape}, takes that of one manoeuvre")
+    return maneuver
+
+
+def instants(solution: Solution, count: int = 400) -> np.ndarray:
+    """Times (k,) over the manoeuvre with both sides of every instant where the programme is not smooth, the ends too."""
+    m = single(solution)
+    even = np.linspace(float(m.t0), float(m.tf), count)
+    cuts = solution.breakpoints
+    ends = [np.nextafter(float(m.t0), np.inf), np.nextafter(float(m.tf), -np.inf)]
+    beside = np.concatenate([np.nextafter(cuts, -np.inf), cuts, ends])
+    return np.unique(np.clip(np.concatenate([even, beside]), m.t0, m.tf))

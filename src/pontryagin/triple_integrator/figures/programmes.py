@@ -1,0 +1,133 @@
+"""Programmes and the motions they make, one solution or three side by side."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pontryagin.plotting import INK, styled, subplots
+from pontryagin.triple_integrator.energy import minimum_energy
+from pontryagin.triple_integrator.figures import labels
+from pontryagin.triple_integrator.figures.labels import Solution
+from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.peak import minimum_peak
+
+
+@styled
+def three_programmes(maneuver: Maneuver) -> Figure:
+    """Control and states of the least energy, the least peak and the least impulse, side by side.
+
+    Parameters
+    ----------
+    maneuver : Maneuver
+        One manoeuvre.
+
+    Examples
+    --------
+    >>> three_programmes(Maneuver([0, 0, 0], [1, 0, 0], tf=1.0)).get_label()
+    'three-programmes'
+    """
+    labels.single(maneuver)
+    solutions = [solve(maneuver) for solve in (minimum_energy, minimum_peak, minimum_impulse)]
+    figure, axes = subplots(4, 3, height=6.6, sharex=True, sharey="row")
+    for column, solution in zip(axes.T, solutions, strict=True):
+        column[0].set_title(f"{labels.name(solution)}\n{labels.value(solution)}", color=labels.colour(solution))
+        draw_control(column[0], solution, peak=max(finite_peak(s) for s in solutions))
+        for state, ax in zip((2, 1, 0), column[1:], strict=True):
+            draw_state(ax, solution, state)
+        column[-1].set_xlabel(labels.TIME)
+    axes[0, 0].set_ylabel(labels.CONTROL)
+    for state, ax in zip((2, 1, 0), axes[1:, 0], strict=True):
+        ax.set_ylabel(labels.STATES[state])
+    figure.align_ylabels(axes[:, 0])
+    return figure
+
+
+@styled
+def solution_figure(solution: Solution) -> Figure:
+    """Control and states of one solution against time.
+
+    Parameters
+    ----------
+    solution : EnergySolution, PeakSolution, ImpulseSolution, NormSolution or TimeSolution
+        What a solver returned for one manoeuvre.
+
+    Raises
+    ------
+    ValueError
+        If it is the solution of a stack.
+    """
+    labels.single(solution)
+    figure, axes = subplots(2, 2, height=4.6, sharex=True)
+    panels = axes.ravel()
+    draw_control(panels[0], solution, finite_peak(solution))
+    panels[0].set_ylabel(labels.CONTROL)
+    if isinstance(solution, ImpulseSolution):
+        panels[0].set_yticks([0.0])
+    for ax, state in zip(panels[1:], (2, 1, 0), strict=True):
+        draw_state(ax, solution, state)
+        ax.set_ylabel(labels.STATES[state])
+    for ax in axes[-1]:
+        ax.set_xlabel(labels.TIME)
+    figure.suptitle(f"{labels.name(solution)}: {labels.value(solution)}", color=labels.colour(solution))
+    return figure
+
+
+def draw_control(ax: Axes, solution: Solution, peak: float) -> None:
+    """u(t); impulses as arrows in proportion to their size, the largest as high as `peak`."""
+    t = labels.instants(solution)
+    u, colour = solution.control(t), labels.colour(solution)
+    ax.axhline(0, color=INK, linewidth=0.6)
+    if isinstance(solution, ImpulseSolution):
+        draw_impulses(ax, solution.impulse_times, solution.impulses, peak, colour)
+        ax.set_title("impulses, rad/s²", loc="right", fontsize=9.5, color=colour, y=0.86)
+    else:
+        ax.plot(t, u, color=colour)
+        ax.fill_between(t, u, color=colour, alpha=0.12, linewidth=0)
+    m = solution.maneuver
+    margin = 0.08 * float(m.duration)
+    ax.set_xlim(float(m.t0) - margin, float(m.tf) + margin)
+
+
+def draw_impulses(
+    ax: Axes, times: Sequence[float] | np.ndarray, sizes: Sequence[float] | np.ndarray, peak: float, colour: str
+) -> None:
+    """Impulses as arrows from the axis, each with its size in rad/s²."""
+    present = [(time, size) for time, size in zip(times, sizes, strict=True) if size]
+    largest = max((abs(size) for _, size in present), default=1.0)
+    for time, size in present:
+        height = 0.85 * peak * size / largest
+        arrow = {"arrowstyle": "-|>,head_length=0.5,head_width=0.2", "color": colour, "linewidth": 2.0}
+        ax.annotate("", (time, height), (time, 0), arrowprops={**arrow, "shrinkA": 0, "shrinkB": 0})
+        ax.annotate(
+            f"${labels.number(size)}$",
+            (time, height),
+            xytext=(0, 4 if size > 0 else -4),
+            textcoords="offset points",
+            ha="center",
+            va="bottom" if size > 0 else "top",
+            color=colour,
+            fontsize=9.5,
+        )
+    ax.update_datalim([(times[0], -1.1 * peak), (times[0], 1.1 * peak)] if present else [])
+    ax.autoscale_view()
+
+
+def draw_state(ax: Axes, solution: Solution, state: int) -> None:
+    """One of x1, x2, x3 against time, with its ends; x3 is drawn with its jumps at impulses."""
+    m = solution.maneuver
+    t = labels.instants(solution)
+    x = solution.state(t)[:, state]
+    if state == 2:
+        ax.axhline(0, color=INK, linewidth=0.6)
+    ax.plot(t, x, color=labels.colour(solution))
+    ends = [float(m.t0), float(m.tf)], [m.x0[state], m.xf[state]]
+    ax.plot(*ends, "o", color=INK, markersize=4, clip_on=False)
+
+
+def finite_peak(solution: Solution) -> float:
+    """Largest modulus of the part of a control that is a function; 1 where there is none."""
+    u = np.abs(solution.control(labels.instants(solution)))
+    return float(np.max(u[np.isfinite(u)], initial=0.0)) or 1.0

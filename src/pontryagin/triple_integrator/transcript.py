@@ -1,0 +1,108 @@
+"""A solution in words and numbers: what the command line prints as a table or as JSON."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Report = dict[str, dict[str, Any]]
+
+
+class Account(NamedTuple):
+    """What is told of a kind of solution: its solver, a title, and attributes in order."""
+
+    solver: str
+    title: str
+    quantities: tuple[str, ...]
+
+
+SWITCHES = ("switch_times", "first_sign", "switch_condition")
+
+ACCOUNTS = {
+    "EnergySolution": Account(
+        "minimum_energy", "Least energy, the L2 norm of u", ("norm", "coefficients", "multipliers")
+    ),
+    "PeakSolution": Account(
+        "minimum_peak", "Least peak, the L-infinity norm of u", ("norm", *SWITCHES, "multipliers")
+    ),
+    "ImpulseSolution": Account(
+        "minimum_impulse",
+        "Least total impulse, the L1 norm of u",
+        ("norm", "regime", "unique", "impulse_times", "impulses", "multipliers"),
+    ),
+    "NormSolution": Account(
+        "minimum_norm", "Least L_q norm of u", ("q", "norm", "peak", "breakpoints", "multipliers")
+    ),
+    "TimeSolution": Account(
+        "minimum_time", "Least time under a bound on |u|", ("duration", "norm", *SWITCHES, "multipliers")
+    ),
+}
+
+
+def account(solution: Any) -> Account:
+    """What is told of a solution of this kind."""
+    return ACCOUNTS[type(solution).__name__]
+
+
+def transcript(solution: Any) -> Report:
+    """One solution as headings with their quantities, named as the attributes of the library.
+
+    Parameters
+    ----------
+    solution : EnergySolution, PeakSolution, ImpulseSolution, NormSolution or TimeSolution
+        Of one problem, not of a stack.
+
+    Returns
+    -------
+    dict of dicts
+        ``problem`` (what was asked), ``solution`` (the attributes that `ACCOUNTS` lists), ``states`` (at the
+        start and at the end, propagated by the control) and ``certificate``.
+
+    Examples
+    --------
+    >>> from pontryagin.triple_integrator import minimum_time
+    >>> told = transcript(minimum_time([0, 0, 0], [1, 0, 0], peak=32.0))
+    >>> told["solution"]["duration"].tolist(), told["states"]["end"].round(12).tolist()
+    (1.0, [1.0, 0.0, 0.0])
+    """
+    kind = account(solution)
+    moving = kind.solver != "minimum_time" or solution.duration > 0
+    return {
+        "problem": {"solver": kind.solver, **_problem(solution, kind)},
+        "solution": {name: _told(solution, name, moving) for name in kind.quantities},
+        "states": _states(solution) if moving else {"start": solution.x0, "end": solution.xf},
+        "certificate": certificate_of(solution),
+    }
+
+
+def certificate_of(solution: Any) -> dict[str, Any]:
+    """The four numbers of a certificate by name."""
+    names = ("primal_residual", "primal_value", "dual_value", "gap")
+    return {name: getattr(solution.certificate, name) for name in names}
+
+
+def samples(solution: Any, count: int) -> dict[str, Any]:
+    """Control, state and costate at evenly spaced times: ``t`` (k,), ``control`` (k,), the rest (k, 3)."""
+    m = solution.maneuver
+    t = np.linspace(m.t0, m.tf, count)
+    return {name: t if name == "t" else getattr(solution, name)(t) for name in _SAMPLED}
+
+
+_SAMPLED = ("t", "control", "state", "costate")
+
+
+def _problem(solution: Any, kind: Account) -> dict[str, Any]:
+    if kind.solver == "minimum_time":
+        return {name: getattr(solution, name) for name in ("x0", "xf", "peak", "disturbance")}
+    m = solution.maneuver
+    names = ("x0", "xf", "t0", "tf", "duration", "disturbance", "moments")
+    return {name: getattr(m, name) for name in names}
+
+
+def _told(solution: Any, name: str, moving: bool) -> Any:
+    return getattr(solution, name) if moving or name != "multipliers" else np.zeros(3)
+
+
+def _states(solution: Any) -> dict[str, Any]:
+    m = solution.maneuver
+    start, end = solution.state(np.array([float(m.t0), float(m.tf)]))
+    return {"start": start, "end": end}
