@@ -32,8 +32,8 @@ def number(option: str, text: str, takes: str = "a number", at_least: float = -m
     """A finite number such as ``0.5``, ``1e-3`` or ``pi/4``."""
     try:
         value = expression.read(text)
-    except ValueError as reason:
-        raise refusal(option, f"takes {takes}, got {text!r}: {reason}") from None
+    except ValueError:
+        value = math.nan
     if not value >= at_least:
         raise refusal(option, f"takes {takes}, got {text!r}")
     return value
@@ -46,11 +46,13 @@ def positive(option: str, text: str) -> float:
 
 def vector(option: str, text: str, length: int) -> list[float]:
     """Numbers between commas."""
-    takes = f"{length} numbers with commas between"
-    parts = text.split(",")
-    if len(parts) != length:
-        raise refusal(option, f"takes {takes}, got {text!r}")
-    return [number(option, part, takes) for part in parts]
+    try:
+        values = [expression.read(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != length:
+        raise refusal(option, f"takes {length} numbers with commas between, got {text!r}")
+    return values
 
 
 def formula(option: str, text: str, variable: str) -> Any:

@@ -66,8 +66,8 @@ def _numbers(row: list[str], header: list[str], places: list[int], line: int, fi
     for place in places:
         try:
             values.append(expression.read(row[place]))
-        except ValueError as reason:
-            raise ValueError(f"line {line}: {header[place]} takes a number: {reason}") from None
+        except ValueError:
+            raise ValueError(f"line {line}: {header[place]} takes a number, got {row[place]!r}") from None
     named = dict(zip((header[place] for place in places), values, strict=True))
     if fixed_time and not named["tf"] > named.get("t0", 0.0):
         raise ValueError(f"line {line}: tf must be later than t0, got {named.get('t0', 0.0)} and {named['tf']}")

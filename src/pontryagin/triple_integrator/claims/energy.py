@@ -21,7 +21,6 @@ R = sp.Rational
 c1, c2, c3 = c
 to_go = tf - tau
 turn = sp.Symbol("gamma_T", positive=True)
-quadratic = sp.Symbol("Q", positive=True)
 
 
 def inverse_form() -> sp.Expr:
@@ -116,7 +115,7 @@ def minimal_element():
 @claim("before (2.2): conditions", "max ∫h0 u = 1 with ‖u‖ = 1/ρ0 is met by u = μ h0, μ > 0", verdict="holds")
 def conditions_on_the_optimum():
     def argument() -> Steps:
-        square, dot, own = sp.symbols("H P U", positive=True)
+        square = sp.Symbol("H", positive=True)
         # Of u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N, the pairing is mu H.
         factor, rest = sp.symbols("mu N", nonnegative=True)
         pairing = factor * square

@@ -1,2 +1,4 @@
 from pontryagin.triple_integrator.figures.programmes import solution_figure, three_programmes
 from pontryagin.triple_integrator.figures.duality import dual_functions
+from pontryagin.triple_integrator.figures.regimes import impulse_regimes
+from pontryagin.triple_integrator.figures.overpayment import printed_impulses

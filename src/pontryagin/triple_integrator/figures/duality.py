@@ -38,7 +38,7 @@ def dual_functions(maneuver: Maneuver) -> Figure:
         ax.axhline(0, color=INK, linewidth=0.6)
         ax.plot(t, solution.costate(t)[:, 2], color=labels.colour(solution))
         ax.set_xlabel(labels.TIME)
-    axes[0].set_ylabel("dual function $h_0$, s³/rad")
+    axes[0].set_ylabel("dual function $h_0$, s²/rad")
     _shade_to_zero(axes[0], t, energy.costate(t)[:, 2], labels.colour(energy))
     _shade_to_zero(axes[1], t, peak.costate(t)[:, 2], labels.colour(peak))
     _mark_signs(axes[1], t, peak.costate(t)[:, 2], labels.colour(peak))
@@ -75,15 +75,14 @@ def _mark_touching(ax: Axes, impulse) -> None:
     ax.axhspan(-bound, bound, color=colour, alpha=0.12, linewidth=0)
     for side, words in ((bound, r"$+\rho_0$"), (-bound, r"$-\rho_0$")):
         ax.axhline(side, color=colour, linewidth=0.9, linestyle="--")
+        place = {"xytext": (4, -4), "va": "top"} if side > 0 else {"xytext": (4, 3), "va": "bottom"}
         ax.annotate(
             words,
-            (1, side),
+            (0.12, side),
             xycoords=("axes fraction", "data"),
-            xytext=(-2, 3 if side > 0 else -3),
             textcoords="offset points",
-            ha="right",
-            va="bottom" if side > 0 else "top",
             color=colour,
+            **place,
         )
     times = impulse.impulse_times[impulse.impulses != 0]
     ax.plot(times, impulse.costate(times)[:, 2], "o", color=colour, markersize=6, clip_on=False)

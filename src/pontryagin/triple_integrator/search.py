@@ -1,0 +1,308 @@
+"""The paper's own numerical routes to the least peak, (3.6) to (3.19), and where they arrive.
+
+Both look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus as
+long as 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F is a number without meaning, and
+where c0 of (3.5) vanishes it is infinite. Within that domain, on one side of c0 = 0, |F| has one stationary
+point at most (the norm is convex in l), so that a search fails in one of a few ways, which `survey` counts.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize, minimize_scalar
+
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.peak import minimum_peak
+
+ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
+"""Minimise |F| over t1 and t2, free (BFGS) or within 0 <= t1 <= t2 <= T (SLSQP), from T/4 and 3T/4; minimise
+F as printed, or |F|, over lambda~ by Brent's method from 0; or |F| over all lambda~ that put both zeros within
+the manoeuvre, on a grid and from its best three points."""
+
+REASONS = ("singular", "sign", "outside", "boundary", "elsewhere")
+"""Why a search fails, the first that applies: it runs to c0 = 0; the curvature has the wrong sign, on the
+wrong side of c0 = 0; a zero lies outside the manoeuvre, or they have merged; one lies at an end; else."""
+
+AGREES = 1e-6
+"""Relative difference up to which a level found is the certified least one."""
+
+GRID = 201
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """Where a route arrives.
+
+    Attributes
+    ----------
+    route : str
+        One of ``ROUTES``.
+    peak : float
+        1/|F|, the route's u0; nan where F is infinite.
+    switch_times : (2,) array
+        Its t1 and t2.
+    curvature : float
+        Its alpha_m: from (3.13) for the zeros, from (3.16) put right for lambda~.
+    evaluations : int
+        How often F was evaluated, once for a value with its gradient.
+    reason : str
+        Empty if `peak` is the least peak, as certified by `minimum_peak`; else one of ``REASONS``.
+    """
+
+    route: str
+    peak: float
+    switch_times: NDArray[np.float64]
+    curvature: float
+    evaluations: int
+    reason: str
+
+    @property
+    def right(self) -> bool:
+        """Whether the level found is the least peak."""
+        return not self.reason
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What the routes find over directions of the moments.
+
+    Attributes
+    ----------
+    directions : (n, 3) array
+        Unit vectors (6 c1/T^3, 2 c2/T^2, c3/T).
+    results : dict of str to tuple of SearchResult
+        By route, one for each direction.
+    """
+
+    directions: NDArray[np.float64]
+    results: dict[str, tuple[SearchResult, ...]]
+
+    def share_right(self, route: str) -> float:
+        """Share of the directions on which a route finds the least peak."""
+        return float(np.mean([result.right for result in self.results[route]]))
+
+    def table(self) -> dict[str, list]:
+        """One row for each route: shares of the directions by outcome, and the mean number of evaluations."""
+        counts = {route: Counter(result.reason for result in found) for route, found in self.results.items()}
+        total = len(self.directions)
+        columns: dict[str, list] = {"route": list(counts)}
+        for reason in ("", *REASONS):
+            columns[reason or "right"] = [count[reason] / total for count in counts.values()]
+        columns["evaluations"] = [
+            float(np.mean([result.evaluations for result in found])) for found in self.results.values()
+        ]
+        return columns
+
+
+def search(maneuver: Maneuver, route: str) -> SearchResult:
+    """Follow one of the paper's routes to the least peak of one manoeuvre, and judge where it arrives.
+
+    Parameters
+    ----------
+    maneuver : Maneuver
+        One manoeuvre with c other than 0.
+    route : str
+        One of ``ROUTES``.
+
+    Raises
+    ------
+    ValueError
+        If the route is unknown, c = 0, or the manoeuvre is a stack.
+
+    Examples
+    --------
+    >>> found = search(Maneuver([0, 0, 0], [1, 0, 0], tf=2.0), "zeros")
+    >>> round(found.peak, 9), found.switch_times.round(6).tolist(), found.right
+    (4.0, [0.5, 1.5], True)
+    """
+    if route not in ROUTES:
+        raise ValueError(f"route must be one of {', '.join(ROUTES)}, got {route!r}")
+    if maneuver.shape:
+        raise ValueError(f"maneuver must be a single manoeuvre, got a stack of shape {maneuver.shape}")
+    T = float(maneuver.duration)
+    k = maneuver.moments * np.array([6.0, 2.0, 1.0]) / T ** np.array([3.0, 2.0, 1.0])
+    size = float(np.abs(k).max())
+    if size == 0.0:
+        raise ValueError("maneuver must have moments c other than 0, got c = 0")
+    unit = k / size / np.array([6.0, 2.0, 1.0])
+    follow = _by_zeros if route.startswith("zeros") else _by_multiplier
+    zeros, curvature, evaluations = follow(unit, route)
+    with np.errstate(all="ignore"):
+        area, _, _, c0 = (float(part) for part in area_from_zeros()(*zeros, *unit, 1.0))
+    certified = minimum_peak(Maneuver(np.zeros(3), unit, tf=1.0))
+    peak = size / abs(area) if area and np.isfinite(area) else np.nan
+    reason = _judge(zeros, area, float(certified.norm), float(certified.multipliers[0]), c0)
+    times = float(maneuver.t0) + T * zeros
+    return SearchResult(route, peak, times, curvature / size / T**3, evaluations, reason)
+
+
+def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> Survey:
+    """Follow the routes from random directions of (6 c1/T^3, 2 c2/T^2, c3/T), uniform on the sphere.
+
+    Parameters
+    ----------
+    count : int
+        How many directions.
+    seed : int
+        Of NumPy's default generator.
+    routes : sequence of str
+        Some of ``ROUTES``.
+
+    Examples
+    --------
+    >>> survey(count=20, routes=["multiplier within"]).share_right("multiplier within")
+    1.0
+    """
+    directions = np.random.default_rng(seed).normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    maneuvers = [Maneuver(np.zeros(3), k / np.array([6.0, 2.0, 1.0]), tf=1.0) for k in directions]
+    return Survey(directions, {route: tuple(search(m, route) for m in maneuvers) for route in routes})
+
+
+def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: float) -> str:
+    """Empty if 1/|area| is the least peak and the zeros lie within [0, 1]; else why not."""
+    inside = 0 <= zeros[0] < zeros[1] <= 1
+    if not np.isfinite(area) or abs(c0) < 1e-6:
+        return "singular"
+    if inside and abs(abs(area) * least - 1) <= AGREES:
+        return ""
+    if c0 * curvature < 0:
+        return "sign"
+    if not inside:
+        return "outside"
+    return "boundary" if zeros[0] < 1e-6 or zeros[1] > 1 - 1e-6 else "elsewhere"
+
+
+@cache
+def area_from_zeros() -> Callable[..., tuple]:
+    """(t1, t2, c1, c2, c3, T) -> F of (3.6) with l from (3.5), its derivatives by t1 and t2, and c0."""
+    import sympy as sp
+
+    from pontryagin.compile import function
+    from pontryagin.triple_integrator.derivation import parabola
+    from pontryagin.triple_integrator.derivation.channel import tf
+
+    t1, t2, c, T = parabola.t1, parabola.t2, parabola.c, parabola.T
+    area = sp.cancel(parabola.objective((t1, t2), c, T))
+    c0 = sp.expand(1 / parabola.multipliers_from_zeros()[0]).subs(tf, T)
+    outputs = {"F": area, "F1": sp.diff(area, t1), "F2": sp.diff(area, t2), "c0": c0}
+    return function("area_from_zeros", [t1, t2, *c, T], outputs)
+
+
+@cache
+def zeros_from_multiplier() -> Callable[..., tuple]:
+    """(lambda~, c1, c2, c3, T) -> t1 and t2 of (3.19), and alpha_m of (3.16)."""
+    from pontryagin.compile import function
+    from pontryagin.triple_integrator.derivation import parabola
+
+    curve = parabola.curve()
+    apex, half_width = curve[parabola.apex], curve[parabola.half_width]
+    outputs = {
+        "t1": apex - half_width,
+        "t2": apex + half_width,
+        "alpha": parabola.curvature_on_the_curve().subs(curve),
+    }
+    return function("zeros_from_multiplier", [parabola.slope, *parabola.c, parabola.T], outputs)
+
+
+def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
+    """Zeros, curvature and evaluations of the two-variable minimisation (3.6)."""
+
+    def area(zeros: NDArray) -> tuple[float, NDArray]:
+        with np.errstate(all="ignore"):
+            value, *slopes = (float(part) for part in area_from_zeros()(*zeros, *c, 1.0)[:3])
+        return abs(value), np.sign(value) * np.array(slopes)
+
+    start = np.array([0.25, 0.75])
+    if route == "zeros":
+        found = minimize(area, start, jac=True, method="BFGS", options={"gtol": 1e-9})
+    else:
+        apart = {"type": "ineq", "fun": lambda t: t[1] - t[0], "jac": lambda t: np.array([-1.0, 1.0])}
+        found = minimize(
+            area,
+            start,
+            jac=True,
+            method="SLSQP",
+            bounds=[(0.0, 1.0)] * 2,
+            constraints=[apart],
+            options={"ftol": 1e-14, "maxiter": 300},
+        )
+    zeros = np.asarray(found.x, dtype=float)
+    return zeros, 0.5 / float(area_from_zeros()(*zeros, *c, 1.0)[3]), int(found.nfev)
+
+
+def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
+    """Zeros, curvature and evaluations of the one-variable minimisation (3.15) to (3.19)."""
+
+    def area(multiplier: NDArray | float) -> NDArray:
+        with np.errstate(all="ignore"):
+            t1, t2, _ = zeros_from_multiplier()(multiplier, *c, 1.0)
+            return area_from_zeros()(t1, t2, *c, 1.0)[0]
+
+    if route == "multiplier within":
+        multiplier, evaluations = _least_on_a_grid(lambda x: np.abs(area(x)), *multiplier_range(c))
+    else:
+        value = area if route == "multiplier" else lambda x: np.abs(area(x))
+        found = minimize_scalar(lambda x: float(value(x)), bracket=(0.0, 0.01))
+        multiplier, evaluations = float(found.x), int(found.nfev)
+    with np.errstate(all="ignore"):
+        t1, t2, curvature = zeros_from_multiplier()(multiplier, *c, 1.0)
+    return np.array([float(t1), float(t2)]), float(curvature), evaluations
+
+
+def multiplier_range(c: NDArray) -> tuple[float, float]:
+    """All lambda~ with 0 <= t1 < t2 <= T that can be optimal, for T = 1: an interval around 0.
+
+    Both conditions are concave quadratics in lambda~ that are positive at 0, over T + lambda~ c3 > 0; and
+    |lambda~| is the inverse of the least peak, which no |k| exceeds.
+    """
+    reach = 1.0 / float(np.abs(c * np.array([6.0, 2.0, 1.0])).max())
+    limits = [-reach, reach]
+    if c[2] != 0:
+        limits.append(-1.0 / c[2])
+    for numerator in _conditions()(*c, 1.0):
+        roots = np.roots(numerator)
+        limits += [float(root.real) for root in roots if abs(root.imag) <= 1e-12 * abs(root)]
+    return max(x for x in limits if x < 0), min(x for x in limits if x > 0)
+
+
+@cache
+def _conditions() -> Callable[..., tuple]:
+    """(c1, c2, c3, T) -> coefficients in lambda~ of the numerators of t1 and T - t2 over T + lambda~ c3."""
+    import sympy as sp
+
+    from pontryagin.compile import function
+    from pontryagin.triple_integrator.derivation import parabola
+
+    curve, T = parabola.curve(), parabola.T
+    apex, half_width = curve[parabola.apex], curve[parabola.half_width]
+    span = T + parabola.slope * parabola.c[2]
+    outputs = {}
+    for name, distance in (("start", apex - half_width), ("end", T - apex - half_width)):
+        numerator = sp.Poly(sp.cancel(distance * span), parabola.slope)
+        outputs[name] = sp.Matrix([[numerator.coeff_monomial(parabola.slope**i) for i in (2, 1, 0)]])
+    raw = function("conditions", [*parabola.c, T], outputs)
+    return lambda *values: tuple(np.ravel(part) for part in raw(*values))
+
+
+def _least_on_a_grid(value: Callable[[NDArray], NDArray], low: float, high: float) -> tuple[float, int]:
+    """Place of the least value on [low, high], refined from the three lowest dips of a grid."""
+    x = np.linspace(low, high, GRID)
+    y = value(x)
+    y = np.where(np.isfinite(y), y, np.inf)
+    padded = np.concatenate([[np.inf], y, [np.inf]])
+    dips = np.flatnonzero((y <= padded[:-2]) & (y <= padded[2:]))
+    best, least, evaluations = float(x[np.argmin(y)]), float(y.min()), GRID
+    for i in dips[np.argsort(y[dips])][:3]:
+        bounds = (x[max(i - 1, 0)], x[min(i + 1, GRID - 1)])
+        found = minimize_scalar(
+            lambda t: float(value(t)), bounds=bounds, method="bounded", options={"xatol": 1e-12}
+        )
+        evaluations += int(found.nfev)
+        if found.fun < least:
+            best, least = float(found.x), float(found.fun)
+    return best, evaluations
