@@ -29,8 +29,16 @@ sys.stdout.write(plotting.svg_of(parabola()))
 """
 
 # Machado, Oliveira and Fernandes (2009): what severe deuteranopes and protanopes see of linear RGB.
-DEUTERANOPIA = [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]]
-PROTANOPIA = [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+DEUTERANOPIA = [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.01182, 0.04294, 0.968881],
+]
+PROTANOPIA = [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.003882, -0.048116, 1.051998],
+]
 
 
 @plotting.styled
@@ -77,9 +85,12 @@ def test_a_styled_figure_does_not_depend_on_the_callers_settings():
 
 
 def test_the_style_is_applied_for_good_when_asked_for():
+    with mpl.rc_context(plotting.STYLE):
+        wanted = {key: mpl.rcParams[key] for key in plotting.STYLE}
     with mpl.rc_context():
+        assert {key: mpl.rcParams[key] for key in wanted} != wanted
         plotting.apply_style()
-        assert all(mpl.rcParams[key] == value for key, value in plotting.STYLE.items() if key != "font.family")
+        assert {key: mpl.rcParams[key] for key in wanted} == wanted
 
 
 def test_a_figure_and_a_table_are_kept_under_their_notebook(tmp_path, monkeypatch):

@@ -114,7 +114,8 @@ Part = str | None
 def ledger(
     paper: Annotated[Part, typer.Option(metavar="NAME", help="A paper, by (part of) its name.")] = None,
     verdict: Annotated[
-        Part, typer.Option(metavar="VERDICT", help="holds, misprint, false, conditional, unreadable, not checked.")
+        Part,
+        typer.Option(metavar="VERDICT", help="holds, misprint, false, conditional, unreadable, not checked."),
     ] = None,
     csv: Annotated[Part, typer.Option(metavar="FILE", help="Write CSV, to - for standard output.")] = None,
     json: Annotated[Part, typer.Option(metavar="FILE", help="Write JSON, to - for standard output.")] = None,
@@ -158,5 +159,5 @@ def report(
     from pontryagin.report import build
 
     if stage not in build.STAGES:
-        raise console.refusal("STAGE", f"takes {', '.join(build.STAGES)}, got {stage!r}")
+        raise console.Refusal("STAGE", f"takes {', '.join(build.STAGES)}, got {stage!r}")
     return build.main([stage, "--workers", str(workers)])

@@ -204,13 +204,40 @@ def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> Ca
     return _load(text).loop
 
 
+@functools.cache
+def compiled(kernel: Callable, signature: str) -> Callable:
+    """Compile a plain function of arrays by Numba for one signature, cached on disk like `batched`.
+
+    Parameters
+    ----------
+    kernel : function
+        Written in plain arithmetic, loops over arrays, the `math` module and ``np.empty`` and its kin.
+    signature : str
+        Its types in Numba's notation, such as ``"void(float64[::1], float64[:, ::1])"``.
+
+    Returns
+    -------
+    function
+        The compiled kernel, or the kernel itself where Numba is not installed.
+    """
+    if not has_numba():
+        return kernel
+    text = _closure_source(kernel) + (
+        f"\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model=\"numpy\")"
+        f"({kernel.__name__}.py_func)\n"
+    )
+    return _load(text).compiled
+
+
 def _closure_source(kernel: Callable) -> str:
     """The kernel's source and that of everything it calls, as the text of one module."""
     functions: dict[str, Callable] = {}
     constants: dict[str, float] = {}
     imported: set[str] = set()
+    arrays = False
 
     def visit(target: Callable) -> None:
+        nonlocal arrays
         if target.__name__ in functions:
             return
         for name in _names(target.__code__):
@@ -223,6 +250,8 @@ def _closure_source(kernel: Callable) -> str:
                 constants[name] = value
             elif getattr(math, name, None) is value:
                 imported.add(name)
+            elif value is np:
+                arrays = True
             else:
                 raise TypeError(
                     f"{target.__name__} uses {name}, which is neither a number nor a plain function"
@@ -231,6 +260,8 @@ def _closure_source(kernel: Callable) -> str:
 
     visit(kernel)
     parts = ["from numba import njit, types"]
+    if arrays:
+        parts.append("import numpy as np")
     if imported:
         parts.append("from math import " + ", ".join(sorted(imported)))
     parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]

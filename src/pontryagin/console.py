@@ -1,12 +1,13 @@
 """What the papers' command lines share: values from text, files, tables, and one word for each mistake.
 
-Every refusal is a `typer.BadParameter` that names the option as it was typed; `pontryagin.cli` prints it in
-one line and exits with 2.
+Every `Refusal` names the option as it was typed; `pontryagin.cli` prints it in one line and exits with 2.
 """
 
+import csv
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -23,9 +24,13 @@ FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
 
 
-def refusal(option: str, message: str) -> typer.BadParameter:
-    """What is wrong with an option's value."""
-    return typer.BadParameter(message, param_hint=f"'{option}'")
+class Refusal(typer.TyperException):
+    """What is wrong with an option, in a line that begins with its name."""
+
+    exit_code = 2
+
+    def __init__(self, option: str, message: str) -> None:
+        super().__init__(f"{option}{'' if message.startswith(':') else ' '}{message}")
 
 
 def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:
@@ -35,7 +40,7 @@ def number(option: str, text: str, takes: str = "a number", at_least: float = -m
     except ValueError:
         value = math.nan
     if not value >= at_least:
-        raise refusal(option, f"takes {takes}, got {text!r}")
+        raise Refusal(option, f"takes {takes}, got {text!r}")
     return value
 
 
@@ -51,7 +56,7 @@ def vector(option: str, text: str, length: int) -> list[float]:
     except ValueError:
         values = []
     if len(values) != length:
-        raise refusal(option, f"takes {length} numbers with commas between, got {text!r}")
+        raise Refusal(option, f"takes {length} numbers with commas between, got {text!r}")
     return values
 
 
@@ -60,21 +65,28 @@ def formula(option: str, text: str, variable: str) -> Any:
     try:
         return expression.read(text, variable)
     except ValueError as reason:
-        raise refusal(option, str(reason)) from None
+        raise Refusal(option, f": {reason}") from None
 
 
-def required(given: Mapping[str, object], why: str = "") -> None:
+def required(given: Mapping[str, object]) -> None:
     """Refuse the first option that is None."""
     for option, value in given.items():
         if value is None:
-            raise typer.BadParameter(f"is missing{why}", param_hint=f"'{option}'")
+            raise Refusal(option, "is missing")
 
 
 def excluded(by: str, given: Mapping[str, object]) -> None:
     """Refuse the first option that was given beside the one it does not go with."""
     for option, value in given.items():
         if value:
-            raise refusal(option, f"does not go with {by}")
+            raise Refusal(option, f"does not go with {by}")
+
+
+def together(given: Mapping[str, object], other: str, there: bool) -> None:
+    """Refuse the first option that was given without the one it needs."""
+    for option, value in given.items():
+        if value and not there:
+            raise Refusal(option, f"goes with {other} only")
 
 
 @contextmanager
@@ -83,16 +95,27 @@ def blaming(options: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except (TypeError, ValueError) as reason:
-        name = str(reason).partition(" ")[0].strip(":")
+        name = re.split(r"[ :]", str(reason), maxsplit=1)[0]
         if name not in options:
             raise
-        raise refusal(options[name], str(reason)) from reason
+        raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
 
 
-def ending(option: str, path: Path, takes: tuple[str, ...]) -> None:
+def ending(option: str, path: Path | None, takes: tuple[str, ...]) -> None:
     """Refuse a file name whose ending is none of `takes`."""
-    if path.suffix.lower() not in takes:
-        raise refusal(option, f"takes a file name ending in {' or '.join(takes)}, got '{path}'")
+    if path is not None and path.suffix.lower() not in takes:
+        raise Refusal(option, f"takes a file name ending in {' or '.join(takes)}, got {path}")
+
+
+@contextmanager
+def reading(option: str, path: Path) -> Iterator[None]:
+    """Name the file that cannot be read, or whose content is refused."""
+    try:
+        yield
+    except OSError as reason:
+        raise Refusal(option, f"cannot read {path}: {reason.strerror or reason}") from reason
+    except (ValueError, csv.Error) as reason:
+        raise Refusal(option, f": {path}, {reason}") from reason
 
 
 @contextmanager
@@ -101,7 +124,7 @@ def writing(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise refusal(option, f"cannot write '{path}': {reason.strerror or reason}") from reason
+        raise Refusal(option, f"cannot write {path}: {reason.strerror or reason}") from reason
     typer.echo(f"wrote {path}", err=True)
 
 
@@ -114,21 +137,16 @@ def emit(option: str, target: str, text: str) -> None:
         files.write(Path(target), text)
 
 
-def save_figure(option: str, path: Path, draw: Callable[[], Any]) -> None:
-    """Draw a figure and write it as SVG, PDF or PNG."""
-    figure = draw()
+def save_figure(option: str, path: Path, figure: Any) -> None:
+    """Write a Matplotlib figure as SVG, PDF or PNG by the ending of its name."""
+    from pontryagin.plotting import svg_of
+
     with writing(option, path):
         if path.suffix.lower() == ".svg":
-            from pontryagin.plotting import svg_of
-
             files.write(path, svg_of(figure))
-        else:
-            with files.replacing(path) as draft:
-                figure.savefig(draft, dpi=200, metadata={"CreationDate": None} if _is_pdf(path) else {})
-
-
-def _is_pdf(path: Path) -> bool:
-    return path.suffix.lower() == ".pdf"
+            return
+        with files.replacing(path) as draft:
+            figure.savefig(draft, dpi=200)
 
 
 def plain(value: Any) -> Any:
@@ -150,9 +168,17 @@ def plain(value: Any) -> Any:
     return value if isinstance(value, bool | int | float | str | None) else str(value)
 
 
-def to_json(report: Mapping[str, Any]) -> str:
-    """A JSON object, a key a line; numbers with all their digits."""
-    return json.dumps(plain(report), ensure_ascii=False, indent=1, allow_nan=False)
+def to_json(report: Report) -> str:
+    """A JSON object of objects, a quantity a line; numbers with all their digits."""
+    headings = []
+    for heading, quantities in report.items():
+        lines = (f"  {_dumped(name)}: {_dumped(value)}" for name, value in quantities.items())
+        headings.append(f" {_dumped(heading)}: {{\n" + ",\n".join(lines) + "\n }")
+    return "{\n" + ",\n".join(headings) + "\n}"
+
+
+def _dumped(value: Any) -> str:
+    return json.dumps(plain(value), ensure_ascii=False, allow_nan=False)
 
 
 def words(value: Any) -> str:
@@ -176,13 +202,14 @@ def words(value: Any) -> str:
     return str(value)
 
 
-def show(title: str, report: Report) -> None:
-    """Print a table: quantities under their headings."""
+def show(title: str, report: Report, conclusion: str = "") -> None:
+    """Print a table, quantities under their headings, and a sentence below it."""
+    from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=title, title_justify="left", show_header=False, pad_edge=False)
+    table = Table(box=box.SIMPLE, show_header=False, pad_edge=False)
     table.add_column(no_wrap=True)
     table.add_column(overflow="fold")
     for heading, quantities in report.items():
@@ -190,4 +217,5 @@ def show(title: str, report: Report) -> None:
         table.add_row(Text(heading, style="bold"), "")
         for name, value in quantities.items():
             table.add_row(Text(f"  {name.replace('_', ' ')}"), Text(words(value)))
-    Console().print(table)
+    console = Console(highlight=False)
+    console.print(Text(title, style="bold"), table, Text(conclusion), sep="\n")

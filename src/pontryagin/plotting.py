@@ -134,7 +134,7 @@ def subplots(rows: int = 1, columns: int = 1, height: float = 3.4, **options: An
 def svg_of(figure: Figure) -> str:
     """The figure as SVG, the same bytes every time it is drawn."""
     drawn = io.StringIO()
-    with mpl.rc_context({key: STYLE[key] for key in STYLE if key.startswith(("svg.", "savefig."))}):
+    with mpl.rc_context(STYLE):
         figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": None})
     return re.sub(r"[ \t]+$", "", drawn.getvalue(), flags=re.MULTILINE)
 

@@ -235,8 +235,13 @@ def _layout(columns: Sequence[Sequence[View]]) -> Any:
     import rerun.blueprint as rrb
 
     def panel(view: View) -> Any:
-        kind = {Scene: rrb.Spatial3DView, Plot: rrb.TimeSeriesView, Events: rrb.TextLogView}[type(view)]
-        return kind(origin=view.entity, name=view.title)
+        place = {"origin": view.entity, "name": view.title}
+        if isinstance(view, Plot):
+            return rrb.TimeSeriesView(**place, plot_legend=rrb.Corner2D.RightTop)
+        if isinstance(view, Events):
+            words = rrb.archetypes.TextLogColumns(text_log_columns=["Body"])
+            return rrb.TextLogView(**place, columns=words)
+        return rrb.Spatial3DView(**place)
 
     stacks = [rrb.Vertical(*[panel(view) for view in column]) for column in columns]
     time = rrb.TimePanel(timeline=TIMELINE, loop_mode="all", play_state="playing", state="collapsed")

@@ -98,7 +98,8 @@ def _markdown_cell(value: Any) -> str:
     if isinstance(value, Real):
         return _number(float(value))
     text = "" if value is None else " ".join(str(value).split())
-    return re.sub(r"(?<!\\)\|", lambda _: r"\vert{}" if "$" in text else r"\|", text)
+    bar = r"\vert{}" if "$" in text else r"\|"
+    return re.sub(r"(?<!\\)((?:\\\\)*)\|", lambda found: found[1] + bar, text)
 
 
 def _is_number(value: Any) -> bool:

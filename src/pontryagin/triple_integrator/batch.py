@@ -29,8 +29,8 @@ class Problems(NamedTuple):
         return np.stack([self.columns[name] for name in names], axis=-1)
 
 
-def read(path: Path, fixed_time: bool) -> Problems:
-    """Read ``x10, x20, x30, x1f, x2f, x3f`` and for a fixed time ``tf`` and, if there, ``t0``.
+def read(path: Path, least_time: bool) -> Problems:
+    """Read ``x10, x20, x30, x1f, x2f, x3f`` and, unless the time is sought, ``tf`` and ``t0`` if it is there.
 
     Raises
     ------
@@ -42,24 +42,26 @@ def read(path: Path, fixed_time: bool) -> Problems:
     with path.open(newline="", encoding="utf-8-sig") as file:
         reader = csv.reader(file)
         header = [name.strip() for name in next(reader, [])]
-        wanted = [*START, *END, *(["tf"] if fixed_time else [])]
+        wanted = [*START, *END, *([] if least_time else ["tf"])]
         missing = [name for name in wanted if name not in header]
         if missing:
             raise ValueError(f"line 1: column {missing[0]} is missing, takes {', '.join(wanted)}")
-        if fixed_time and "t0" in header:
+        if not least_time and "t0" in header:
             wanted.append("t0")
         places = [header.index(name) for name in wanted]
         rows, numbers = [], []
         for row in reader:
             if row:
                 rows.append(row)
-                numbers.append(_numbers(row, header, places, reader.line_num, fixed_time))
+                numbers.append(_numbers(row, header, places, reader.line_num, least_time))
     if not rows:
         raise ValueError("line 2: there is no problem")
     return Problems(header, rows, dict(zip(wanted, np.array(numbers).T, strict=True)))
 
 
-def _numbers(row: list[str], header: list[str], places: list[int], line: int, fixed_time: bool) -> list[float]:
+def _numbers(
+    row: list[str], header: list[str], places: list[int], line: int, least_time: bool
+) -> list[float]:
     if len(row) != len(header):
         raise ValueError(f"line {line}: {len(row)} entries under {len(header)} columns")
     values = []
@@ -69,8 +71,10 @@ def _numbers(row: list[str], header: list[str], places: list[int], line: int, fi
         except ValueError:
             raise ValueError(f"line {line}: {header[place]} takes a number, got {row[place]!r}") from None
     named = dict(zip((header[place] for place in places), values, strict=True))
-    if fixed_time and not named["tf"] > named.get("t0", 0.0):
-        raise ValueError(f"line {line}: tf must be later than t0, got {named.get('t0', 0.0)} and {named['tf']}")
+    if not least_time and not named["tf"] > named.get("t0", 0.0):
+        raise ValueError(
+            f"line {line}: tf must be later than t0, got {named.get('t0', 0.0)} and {named['tf']}"
+        )
     return values
 
 

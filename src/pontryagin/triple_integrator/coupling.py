@@ -5,7 +5,10 @@ torque M = J m. Then phi'' = m + f, where f(phi, phi', m) is all that Euler's eq
 From one iterate's motion f(t) is known; each channel's moment problem is solved with it as disturbance; the full
 equations are integrated with the controls found; and again, until attitude and rate are reached.
 
-f(phi, k phi', k^2 m) = k^2 f, so that the iteration in t/T does not depend on the duration T.
+f(phi, k phi', k^2 m) = k^2 f, so that the iteration in t/T does not depend on the duration T. Along a motion
+x_i(tf) = Phi x_i(t0) + g(f) + c_i exactly, so that each iteration takes the miss of the last motion off the moments
+c_i. For a spherical body and a turn from rest to rest by theta the last miss is multiplied by |1 - B^-1| =
+`spherical_factor`, theta/2 for small theta, whatever the norm; unequal moments of inertia change it by a share.
 """
 
 from collections.abc import Callable, Sequence
@@ -28,12 +31,16 @@ from pontryagin.triple_integrator.kinematics import (
 )
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.validation import finite
 
 DEGREE = 40
 """Of the Chebyshev series that holds f on a smooth stretch of the motion."""
 
 NOISE = 1e-11
 """A miss below this is the integrator's, and tells nothing of the iteration."""
+
+GROWN = 100.0
+"""A miss (rad) from which no iterate comes back."""
 
 Solver = Callable[[Maneuver], Programme]
 
@@ -73,7 +80,7 @@ class CoupledManeuver:
     """
 
     body: RigidBody
-    programmes: tuple[Programme, Programme, Programme]
+    programmes: tuple[Programme, ...]
     programmed: tuple[int, ...]
     misses: NDArray[np.float64]
     motion: Motion
@@ -178,8 +185,32 @@ def couple(
         misses.append(system.miss(motion))
         if misses[-1] <= tol:
             return CoupledManeuver(body, programmes, programmed, np.array(misses), motion)
+        if not misses[-1] <= GROWN:
+            raise NotConverged("the cross-coupling grows from one iterate to the next", misses[-1])
         couplings = system.couplings_along(motion, misses[-1])
     raise NotConverged(f"the cross-coupling did not settle in {iterations} iterations", misses[-1])
+
+
+def spherical_factor(angle: ArrayLike) -> NDArray[np.float64]:
+    """Factor by which an iteration multiplies the miss of a spherical body's turn from rest to rest.
+
+    |1 - x cot x + i x| with x = angle/2: the eigenvalues of 1 - B^-1. It is 1 at an angle of 1.896 rad (108.6
+    degrees): where it is greater, an iteration for nearly equal moments of inertia leads away from the target.
+
+    Parameters
+    ----------
+    angle : (...) array_like
+        Angle of the turn, rad, more than 0 and less than 2 pi.
+
+    Examples
+    --------
+    >>> spherical_factor([0.2, 1.896]).round(3).tolist()
+    [0.1, 1.0]
+    """
+    x = finite("angle", angle, "a number or an array (...)") / 2
+    if not np.all((x > 0) & (x < np.pi)):
+        raise ValueError(f"angle must be more than 0 and less than 2 pi, got {angle}")
+    return np.hypot(1 - x / np.tan(x), x)
 
 
 @dataclass(frozen=True, eq=False)

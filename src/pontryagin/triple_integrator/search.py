@@ -1,9 +1,9 @@
 """The paper's own numerical routes to the least peak, (3.6) to (3.19), and where they arrive.
 
-Both look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus as
-long as 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F is a number without meaning, and
-where c0 of (3.5) vanishes it is infinite. Within that domain, on one side of c0 = 0, |F| has one stationary
-point at most (the norm is convex in l), so that a search fails in one of a few ways, which `survey` counts.
+Both look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus as long
+as 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F is a number without meaning, and where
+c0 of (3.5) vanishes it is infinite. Within the domain |F| is stationary at the optimum only, because the norm
+is convex on the plane l'c = 1; so a search that fails has left it, met its boundary or a pole.
 """
 
 from collections import Counter
@@ -13,19 +13,19 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize, minimize_scalar
+from scipy.optimize import Bounds, LinearConstraint, minimize, minimize_scalar
 
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import minimum_peak
 
 ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
 """Minimise |F| over t1 and t2, free (BFGS) or within 0 <= t1 <= t2 <= T (SLSQP), from T/4 and 3T/4; minimise
-F as printed, or |F|, over lambda~ by Brent's method from 0; or |F| over all lambda~ that put both zeros within
-the manoeuvre, on a grid and from its best three points."""
+F as printed, or |F|, over lambda~ by Brent's method from 0; or minimise |F| over all lambda~ that put both
+zeros within the manoeuvre, on a grid and from its best three points."""
 
 REASONS = ("singular", "sign", "outside", "boundary", "elsewhere")
 """Why a search fails, the first that applies: it runs to c0 = 0; the curvature has the wrong sign, on the
-wrong side of c0 = 0; a zero lies outside the manoeuvre, or they have merged; one lies at an end; else."""
+wrong side of c0 = 0; a zero lies outside the manoeuvre; one lies at an end, or they have merged; else."""
 
 AGREES = 1e-6
 """Relative difference up to which a level found is the certified least one."""
@@ -46,7 +46,11 @@ class SearchResult:
     switch_times : (2,) array
         Its t1 and t2.
     curvature : float
-        Its alpha_m: from (3.13) for the zeros, from (3.16) put right for lambda~.
+        Its alpha_m by (3.13), which makes l'c = 1.
+    curvature_by_multiplier : float
+        Its alpha_m by (3.16), put right, where the route is one over lambda~; else nan. It equals the other
+        at the least peak, unless F does not depend on lambda~ (c2 = c3 = 0, as in example 2): then lambda~,
+        and with it this number, is arbitrary.
     evaluations : int
         How often F was evaluated, once for a value with its gradient.
     reason : str
@@ -57,6 +61,7 @@ class SearchResult:
     peak: float
     switch_times: NDArray[np.float64]
     curvature: float
+    curvature_by_multiplier: float
     evaluations: int
     reason: str
 
@@ -130,14 +135,15 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
         raise ValueError("maneuver must have moments c other than 0, got c = 0")
     unit = k / size / np.array([6.0, 2.0, 1.0])
     follow = _by_zeros if route.startswith("zeros") else _by_multiplier
-    zeros, curvature, evaluations = follow(unit, route)
+    zeros, by_multiplier, evaluations = follow(unit, route)
     with np.errstate(all="ignore"):
         area, _, _, c0 = (float(part) for part in area_from_zeros()(*zeros, *unit, 1.0))
-    certified = minimum_peak(Maneuver(np.zeros(3), unit, tf=1.0))
+        alpha, by_multiplier = (part / (size * T**3) for part in (0.5 / np.float64(c0), by_multiplier))
+    certified = minimum_peak(Maneuver(np.zeros(3), unit, tf=np.asarray(1.0)))
     peak = size / abs(area) if area and np.isfinite(area) else np.nan
     reason = _judge(zeros, area, float(certified.norm), float(certified.multipliers[0]), c0)
     times = float(maneuver.t0) + T * zeros
-    return SearchResult(route, peak, times, curvature / size / T**3, evaluations, reason)
+    return SearchResult(route, peak, times, float(alpha), by_multiplier, evaluations, reason)
 
 
 def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> Survey:
@@ -159,22 +165,22 @@ def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> S
     """
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
-    maneuvers = [Maneuver(np.zeros(3), k / np.array([6.0, 2.0, 1.0]), tf=1.0) for k in directions]
+    maneuvers = [Maneuver(np.zeros(3), k / np.array([6.0, 2.0, 1.0]), tf=np.asarray(1.0)) for k in directions]
     return Survey(directions, {route: tuple(search(m, route) for m in maneuvers) for route in routes})
 
 
 def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: float) -> str:
     """Empty if 1/|area| is the least peak and the zeros lie within [0, 1]; else why not."""
-    inside = 0 <= zeros[0] < zeros[1] <= 1
     if not np.isfinite(area) or abs(c0) < 1e-6:
         return "singular"
-    if inside and abs(abs(area) * least - 1) <= AGREES:
+    room = min(zeros[0], 1 - zeros[1], zeros[1] - zeros[0])
+    if room >= -1e-9 and abs(abs(area) * least - 1) <= AGREES:
         return ""
     if c0 * curvature < 0:
         return "sign"
-    if not inside:
+    if room < -1e-9:
         return "outside"
-    return "boundary" if zeros[0] < 1e-6 or zeros[1] > 1 - 1e-6 else "elsewhere"
+    return "boundary" if room < 1e-6 else "elsewhere"
 
 
 @cache
@@ -210,7 +216,7 @@ def zeros_from_multiplier() -> Callable[..., tuple]:
 
 
 def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
-    """Zeros, curvature and evaluations of the two-variable minimisation (3.6)."""
+    """Zeros and evaluations of the two-variable minimisation (3.6)."""
 
     def area(zeros: NDArray) -> tuple[float, NDArray]:
         with np.errstate(all="ignore"):
@@ -221,22 +227,20 @@ def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
     if route == "zeros":
         found = minimize(area, start, jac=True, method="BFGS", options={"gtol": 1e-9})
     else:
-        apart = {"type": "ineq", "fun": lambda t: t[1] - t[0], "jac": lambda t: np.array([-1.0, 1.0])}
         found = minimize(
             area,
             start,
             jac=True,
             method="SLSQP",
-            bounds=[(0.0, 1.0)] * 2,
-            constraints=[apart],
+            bounds=Bounds([0.0, 0.0], [1.0, 1.0]),
+            constraints=LinearConstraint([[-1.0, 1.0]], 0.0, np.inf),
             options={"ftol": 1e-14, "maxiter": 300},
         )
-    zeros = np.asarray(found.x, dtype=float)
-    return zeros, 0.5 / float(area_from_zeros()(*zeros, *c, 1.0)[3]), int(found.nfev)
+    return np.asarray(found.x, dtype=float), np.nan, int(found.nfev)
 
 
 def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
-    """Zeros, curvature and evaluations of the one-variable minimisation (3.15) to (3.19)."""
+    """Zeros, alpha_m and evaluations of the one-variable minimisation (3.15) to (3.19)."""
 
     def area(multiplier: NDArray | float) -> NDArray:
         with np.errstate(all="ignore"):

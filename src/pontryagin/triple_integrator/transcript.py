@@ -43,6 +43,11 @@ def account(solution: Any) -> Account:
     return ACCOUNTS[type(solution).__name__]
 
 
+def moves(solution: Any) -> bool:
+    """Whether any time passes: a least time is 0 where the ends agree."""
+    return account(solution).solver != "minimum_time" or bool(solution.duration > 0)
+
+
 def transcript(solution: Any) -> Report:
     """One solution as headings with their quantities, named as the attributes of the library.
 
@@ -65,7 +70,7 @@ def transcript(solution: Any) -> Report:
     (1.0, [1.0, 0.0, 0.0])
     """
     kind = account(solution)
-    moving = kind.solver != "minimum_time" or solution.duration > 0
+    moving = moves(solution)
     return {
         "problem": {"solver": kind.solver, **_problem(solution, kind)},
         "solution": {name: _told(solution, name, moving) for name in kind.quantities},
@@ -78,6 +83,21 @@ def certificate_of(solution: Any) -> dict[str, Any]:
     """The four numbers of a certificate by name."""
     names = ("primal_residual", "primal_value", "dual_value", "gap")
     return {name: getattr(solution.certificate, name) for name in names}
+
+
+def conclusion(solution: Any) -> str:
+    """The certificate in a sentence.
+
+    Examples
+    --------
+    >>> from pontryagin.triple_integrator import Maneuver, minimum_peak
+    >>> conclusion(minimum_peak(Maneuver([0, 0, 0], [1, 0, 0], tf=2.0)))
+    'No control does better than 4, and this one costs 4.'
+    """
+    proof = solution.certificate
+    return (
+        f"No control does better than {proof.dual_value:.12g}, and this one costs {proof.primal_value:.12g}."
+    )
 
 
 def samples(solution: Any, count: int) -> dict[str, Any]:

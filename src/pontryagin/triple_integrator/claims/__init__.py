@@ -4,6 +4,6 @@ One module per section of the paper. A module transcribes and judges; what is de
 `pontryagin.triple_integrator.derivation`.
 """
 
-from pontryagin.triple_integrator.claims import energy, model, moments, peak, principle
+from pontryagin.triple_integrator.claims import energy, model, moments, parabola, peak, principle
 
-ENTRIES = (*model.claim, *moments.claim, *principle.claim, *energy.claim, *peak.claim)
+ENTRIES = (*model.claim, *moments.claim, *principle.claim, *energy.claim, *peak.claim, *parabola.claim)

@@ -12,7 +12,7 @@ from pontryagin.evidence import (
     vanishes,
 )
 from pontryagin.ledger import Page
-from pontryagin.triple_integrator.derivation import channel, parabola
+from pontryagin.triple_integrator.derivation import channel, energy, parabola
 from pontryagin.triple_integrator.derivation.channel import drive, t, tau, tf
 from pontryagin.triple_integrator.derivation.duality import (
     area_of,
@@ -203,10 +203,11 @@ def general_structure():
     def argument() -> Steps:
         zeros = sp.Poly(parabola.parabola(), tau).degree()
         yield "h0 changes sign at most twice", zeros == 2
-        jacobian = two_switches(v, first, second, T).jacobian([v, first, second])
-        yield "level and switches are independent moments: every direction of c is reached", (
-            sp.factor(jacobian.det()) == sp.factor(-4 * v**2 * (first - second) * area_with_two_zeros() / 2)
-            or sp.factor(jacobian.det()) == sp.factor(4 * v**2 * (first - second) * area_with_two_zeros() / 2)
+        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
+        yield "and is not zero, so sign h0 is ±1 almost everywhere", all(minor.is_positive for minor in minors)
+        determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
+        yield "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|", (
+            vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())
         )
 
     return Proof(argument)
@@ -237,8 +238,9 @@ def one_to_one():
         )
         later = moments(rest, channel.final, positive + wait)
         yield "initial equilibrium: likewise with 0 first", vanishes(later - moments(rest, channel.final, positive))
-        yield "so u0(T + w) ≤ u0(T); and not equal, for the optimum is nowhere 0 and unique, (3.4)", (
-            sp.sign(v) != 0
+        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
+        yield "so u0(T + w) ≤ u0(T); and less, for no h vanishes while one waits: l'c < u0(T) ∫|h|", all(
+            minor.is_positive for minor in minors
         )
 
     def counterexample() -> Steps:

@@ -2,3 +2,7 @@ from pontryagin.triple_integrator.figures.programmes import solution_figure, thr
 from pontryagin.triple_integrator.figures.duality import dual_functions
 from pontryagin.triple_integrator.figures.regimes import impulse_regimes
 from pontryagin.triple_integrator.figures.overpayment import printed_impulses
+from pontryagin.triple_integrator.figures.level import convex_level_equation
+from pontryagin.triple_integrator.figures.duration import peak_over_duration
+from pontryagin.triple_integrator.figures.homotopy import norm_family
+from pontryagin.triple_integrator.figures.onesigned import equally_cheap

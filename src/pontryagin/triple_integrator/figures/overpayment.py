@@ -28,7 +28,7 @@ def printed_impulses() -> Figure:
     cover = {"inside": inside}
     _map(axes[0], value / least, (0, 1), "Blues_r", r"printed value $|F|/T^2$ over the least", **cover)
     _map(axes[1], total / least, (1, 1.25), "Blues", "printed impulses over the least", **cover)
-    for place, shift in ((0.25, (0.02, -0.24)), (0.75, (-0.16, -0.2))):
+    for place, shift in ((0.25, (0.0, -0.3)), (0.75, (-0.16, -0.22))):
         x, y = sphere.to_disc(sphere.unit_impulse(np.array(place)))
         axes[1].plot(x, y, "o", color="white", markeredgecolor=INK, markersize=5)
         words = f"impulse at\n$t = {1 - place:g}\\,T$"
@@ -57,7 +57,7 @@ def _map(
     for first, last in ((start, end), (start, -middle), (end, -middle)):
         sphere.draw(ax, sphere.arc(first, last, 400), color=INK, linewidth=1.0)
     ax.text(0, 0.6, "paper is right", ha="center")
-    ax.text(0, -0.65, "paper is right", ha="center")
+    ax.text(0, -0.76, "paper is right", ha="center")
     bar = ax.figure.colorbar(image, ax=ax, orientation="horizontal", shrink=0.85, pad=0.02)
     bar.set_label(words)
     bar.outline.set_visible(False)

@@ -110,6 +110,7 @@ def draw_impulses(
             va="bottom" if size > 0 else "top",
             color=colour,
             fontsize=9.5,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8},
         )
     ax.update_datalim([(times[0], -1.1 * peak), (times[0], 1.1 * peak)] if present else [])
     ax.autoscale_view()

@@ -63,7 +63,7 @@ def _draw_boundaries(ax: Axes) -> None:
     for first, last in ((start, end), (start, -middle), (end, -middle), (start, -end)):
         sphere.draw(ax, sphere.arc(first, last, 400), **line)
     for sigma, words, shift in (
-        (1.0, "one impulse\nat the start", (-0.08, 0.16)),
+        (1.0, "one impulse\nat the start", (0.04, 0.17)),
         (0.0, "one impulse\nat the end", (0.0, 0.16)),
         (0.4, "one impulse", (0.0, -0.15)),
     ):

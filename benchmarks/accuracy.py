@@ -1,0 +1,68 @@
+"""Worst miss and worst gap of our stacks over a million problems and more, degenerate classes among them."""
+
+import numpy as np
+
+from benchmarks import problems, propagation
+from benchmarks.contest import worst
+from benchmarks.problems import MOMENT_CLASSES, TRANSFER_CLASSES
+from benchmarks.transfers import by_pontryagin
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
+from pontryagin.triple_integrator import time as least_time
+
+HEADINGS = ("problem", "class", "problems", "unsolved", "worst miss", "worst gap")
+
+
+def table(quick: bool) -> dict[str, list]:
+    """For each solver and class of problems.
+
+    The miss is that of the control handed out, propagated piece by piece in extended precision, relative to
+    the largest term on the way; the gap is 1 - dual bound / cost.
+    """
+    count = 2_000 if quick else 200_000
+    rows = [row for name in MOMENT_CLASSES for row in _fixed_time(name, count)]
+    rows += [_least_time(name, count // 2) for name in TRANSFER_CLASSES]
+    return {heading: [row[i] for row in sorted(rows)] for i, heading in enumerate(HEADINGS)}
+
+
+def _fixed_time(name: str, count: int) -> list[tuple]:
+    c, T = problems.moments(name, count)
+    maneuver = Maneuver(np.zeros(3), c, T)
+    peak, impulse = minimum_peak(maneuver), minimum_impulse(maneuver)
+    pieces = propagation.bang_bang_pieces(T, peak.shares, peak.levels)
+    miss = {
+        "least peak": propagation.miss(maneuver.x0, maneuver.xf, *pieces),
+        "least impulse": _impulse_miss(maneuver, impulse),
+        "least energy": minimum_energy(maneuver).certificate.primal_residual,
+    }
+    certificates = {
+        "least peak": peak.certificate,
+        "least impulse": impulse.certificate,
+        "least energy": minimum_energy(maneuver).certificate,
+    }
+    return [
+        (problem, name, count, 0.0, worst(miss[problem]), _gap(certificate.primal_value, certificate.dual_value))
+        for problem, certificate in certificates.items()
+    ]
+
+
+def _impulse_miss(maneuver: Maneuver, solution) -> np.ndarray:
+    inner, coast = solution.inner * maneuver.duration, np.zeros((len(solution.inner), 2))
+    durations = np.stack([(1 - solution.inner) * maneuver.duration, inner], axis=-1)
+    return propagation.miss(
+        maneuver.x0, maneuver.xf, durations, coast, impulses=solution.amplitudes.astype(np.longdouble)
+    )
+
+
+def _least_time(name: str, count: int) -> tuple:
+    work = problems.transfers(name, count)
+    answers = by_pontryagin(work)
+    columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
+    bound = least_time.solve_stack(*columns, work.force, work.peak)[:, 5]
+    solved = answers.solved
+    gap = _gap(answers.duration[solved], bound[solved])
+    return ("least time", name, count, float(1 - solved.mean()), worst(answers.miss[solved]), gap)
+
+
+def _gap(primal: np.ndarray, dual: np.ndarray) -> float:
+    size = np.where(primal == 0, 1.0, primal)
+    return worst((primal - dual) / size)

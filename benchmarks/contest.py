@@ -1,0 +1,57 @@
+"""Contestants on the same problems, and the rows that come of it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.clock import Timing, take_turns
+
+CALL, STACK = "pontryagin, one call", "pontryagin, in a stack"
+
+
+@dataclass(frozen=True)
+class Contestant:
+    """One method on a set of problems.
+
+    Attributes
+    ----------
+    run : callable
+        Solves the problems, input set-up included, and returns how many they are.
+    error : float
+        Worst relative difference of its costs from the exact optimum; for ours, the worst relative gap
+        between its cost and its dual bound. nan where nothing was solved.
+    solved : float
+        Share of the problems solved.
+    """
+
+    run: Callable[[], int]
+    error: float
+    solved: float
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a contestant took and returned."""
+
+    problem: str
+    method: str
+    count: int
+    timing: Timing
+    error: float
+    solved: float
+
+
+def contest(problem: str, contestants: Mapping[str, Contestant], rounds: int) -> list[Row]:
+    """Time all contestants in turns."""
+    timings = take_turns({method: entrant.run for method, entrant in contestants.items()}, rounds)
+    return [
+        Row(problem, method, timing.count, timing, contestants[method].error, contestants[method].solved)
+        for method, timing in timings.items()
+    ]
+
+
+def worst(values: NDArray) -> float:
+    """The largest modulus, nan if there are no values."""
+    return float(np.abs(values).max()) if values.size else float("nan")

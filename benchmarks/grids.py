@@ -1,0 +1,129 @@
+"""Least peak and least impulse as linear programmes on a grid: Clarabel and HiGHS, each in its fastest form.
+
+The grid's optimum is that of controls constant on its cells (peak) or of impulses at its nodes (impulse), so
+it lies above the exact one by what the grid costs, and a solver's tolerance comes on top. Matrices, which
+are the same for every problem in time as a share of T, are built once and not timed.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.optimize import Bounds, LinearConstraint, milp
+
+from benchmarks.fixed_time import Peer, Solver
+from benchmarks.peers import absent
+
+
+def peak_rows(cells: int) -> NDArray:
+    """Scaled moments of a unit control on each cell, (3, cells)."""
+    s = np.linspace(0, 1, cells + 1)
+    return np.stack([np.diff(s**3), np.diff(s**2), np.diff(s)])
+
+
+def impulse_rows(cells: int) -> NDArray:
+    """Moments 1, sigma, sigma^2 of a unit impulse at each node, (3, cells + 1)."""
+    s = np.linspace(0, 1, cells + 1)
+    return np.stack([np.ones_like(s), s, s * s])
+
+
+def clarabel_peak(cells: int) -> Solver:
+    """min p over levels u with |u| <= p and the given moments; the solver is set up once and updated."""
+    rows = sparse.csc_matrix(peak_rows(cells))
+    one, identity = np.ones((cells, 1)), sparse.eye(cells)
+    above = sparse.hstack([identity, -one])
+    below = sparse.hstack([-identity, -one])
+    constraints = sparse.vstack([sparse.hstack([rows, np.zeros((3, 1))]), above, below]).tocsc()
+    cost = np.append(np.zeros(cells), 1.0)
+    solver, settle = _clarabel(cost, constraints, np.zeros(3 + 2 * cells), equalities=3)
+    right = np.zeros(3 + 2 * cells)
+
+    def solve(x0: NDArray, xf: NDArray) -> float:
+        c1, c2, c3 = _scaled_moments(x0, xf)
+        right[:3] = 3 * c1, 2 * c2, c3
+        solver.update(b=right)
+        return settle(solver.solve())
+
+    return solve
+
+
+def clarabel_impulse(cells: int) -> Solver:
+    """max p.mu over |p0 + p1 sigma + p2 sigma^2| <= 1 at the nodes: the dual, in three variables."""
+    nodes = impulse_rows(cells).T
+    constraints = sparse.csc_matrix(np.concatenate([nodes, -nodes]))
+    solver, settle = _clarabel(np.ones(3), constraints, np.ones(2 * cells + 2), equalities=0)
+
+    def solve(x0: NDArray, xf: NDArray) -> float:
+        solver.update(q=-np.array(_scaled_moments(x0, xf)[::-1]))
+        return -settle(solver.solve())
+
+    return solve
+
+
+def _clarabel(cost: NDArray, constraints: sparse.csc_matrix, right: NDArray, equalities: int):
+    import clarabel
+
+    settings = clarabel.DefaultSettings()
+    settings.verbose, settings.presolve_enable, settings.max_threads = False, False, 1
+    cones = [clarabel.NonnegativeConeT(len(right) - equalities)]
+    if equalities:
+        cones.insert(0, clarabel.ZeroConeT(equalities))
+    quadratic = sparse.csc_matrix((len(cost), len(cost)))
+    solver = clarabel.DefaultSolver(quadratic, cost, constraints, right, cones, settings)
+
+    def settle(solution) -> float:
+        return solution.obj_val if solution.status == clarabel.SolverStatus.Solved else float("nan")
+
+    return solver, settle
+
+
+def highs_peak(cells: int) -> Solver:
+    """The same programme through SciPy's `milp`, its shortest way to HiGHS."""
+    rows = peak_rows(cells)
+    one, identity = np.ones((cells, 1)), sparse.eye(cells)
+    equal = sparse.hstack([sparse.csr_matrix(rows), np.zeros((3, 1))])
+    constraints = sparse.vstack([equal, sparse.hstack([identity, one]), sparse.hstack([identity, -one])]).tocsc()
+    cost = np.append(np.zeros(cells), 1.0)
+    low = np.concatenate([np.zeros(3 + cells), np.full(cells, -np.inf)])
+    high = np.concatenate([np.zeros(3), np.full(cells, np.inf), np.zeros(cells)])
+    free = Bounds(-np.inf, np.inf)
+
+    def solve(x0: NDArray, xf: NDArray) -> float:
+        c1, c2, c3 = _scaled_moments(x0, xf)
+        low[:3] = high[:3] = 3 * c1, 2 * c2, c3
+        found = milp(cost, constraints=LinearConstraint(constraints, low, high), bounds=free)
+        return found.fun if found.success else float("nan")
+
+    return solve
+
+
+def highs_impulse(cells: int) -> Solver:
+    """The dual of the impulse programme through SciPy's `milp`."""
+    nodes = LinearConstraint(sparse.csr_matrix(impulse_rows(cells).T), -1.0, 1.0)
+    free = Bounds(-np.inf, np.inf)
+
+    def solve(x0: NDArray, xf: NDArray) -> float:
+        found = milp(-np.array(_scaled_moments(x0, xf)[::-1]), constraints=nodes, bounds=free)
+        return -found.fun if found.success else float("nan")
+
+    return solve
+
+
+def peers(problem: str, quick: bool) -> dict[str, Peer]:
+    """Clarabel and HiGHS on grids of each size, with how many problems each gets."""
+    sizes = {100: 50} if quick else {100: 200, 400: 50, 1600: 10}
+    found: dict[str, Peer] = {}
+    peak = problem == "least peak"
+    if not absent("clarabel"):
+        build = clarabel_peak if peak else clarabel_impulse
+        found |= {f"Clarabel, {cells} cells": Peer(build(cells), size) for cells, size in sizes.items()}
+    build = highs_peak if peak else highs_impulse
+    for cells, size in sizes.items():
+        if not (peak and cells > 400):  # a second and more per problem
+            found[f"HiGHS, {cells} cells"] = Peer(build(cells), size // 5 if peak else size)
+    return found
+
+
+def _scaled_moments(x0: NDArray, xf: NDArray) -> tuple[float, float, float]:
+    """2 c1, c2, c3 of (1.10) for unit duration."""
+    (x10, x20, x30), (x1f, x2f, x3f) = x0.tolist(), xf.tolist()
+    return 2 * (x1f - x10 - x20) - x30, x2f - x20 - x30, x3f - x30

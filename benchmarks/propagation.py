@@ -1,0 +1,70 @@
+"""Where a control given by its pieces leads: one constant piece after the other, in extended precision."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def miss(
+    x0: NDArray,
+    xf: NDArray,
+    durations: NDArray,
+    levels: NDArray,
+    force: ArrayLike = 0.0,
+    impulses: NDArray | None = None,
+) -> NDArray[np.float64]:
+    """Distance from the target, relative to the largest term met on the way, worst of the three states.
+
+    A miss of one rounding error means that the control is exact for data changed by a rounding error.
+
+    Parameters
+    ----------
+    x0, xf : (n, 3) arrays
+        Ends.
+    durations, levels : (n, k) arrays
+        Pieces of constant control, in time order.
+    force : (n,) array or number
+        Constant disturbance.
+    impulses : (n, k + 1) array, optional
+        Impulses before the first piece, between pieces, and after the last.
+
+    Returns
+    -------
+    (n,) array
+    """
+    x1, x2, x3, f = (np.asarray(v, dtype=np.longdouble) for v in (*np.moveaxis(x0, -1, 0), force))
+    s1, s2, s3 = abs(x1), abs(x2), abs(x3)
+    if impulses is not None:
+        x3, s3 = x3 + impulses[:, 0], s3 + abs(impulses[:, 0])
+    for k in range(durations.shape[1]):
+        h, u = durations[:, k].astype(np.longdouble), levels[:, k].astype(np.longdouble)
+        x1 = x1 + h * (x2 + h * ((x3 + f) / 2 + h * u / 6))
+        s1 = s1 + h * (s2 + h * ((s3 + abs(f)) / 2 + h * abs(u) / 6))
+        x2, s2 = x2 + h * (x3 + f + h * u / 2), s2 + h * (s3 + abs(f) + h * abs(u) / 2)
+        x3, s3 = x3 + h * u, s3 + h * abs(u)
+        if impulses is not None:
+            x3, s3 = x3 + impulses[:, k + 1], s3 + abs(impulses[:, k + 1])
+    tiny = np.finfo(float).tiny
+    parts = [
+        abs(x - target) / (size + abs(target) + tiny)
+        for x, size, target in zip((x1, x2, x3), (s1, s2, s3), np.moveaxis(xf, -1, 0), strict=True)
+    ]
+    return np.max(np.stack(parts), axis=0).astype(float)
+
+
+def bang_bang_pieces(
+    duration: NDArray, shares: NDArray, levels: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Durations and levels (n, 3) of a control that is `levels` but for its negative between two switches.
+
+    Parameters
+    ----------
+    duration : (n,) array
+        Time from the start to the end.
+    shares : (n, 2) array
+        Both switches a >= b as shares of the duration to go.
+    levels : (n,) array
+        Level outside the switches.
+    """
+    a, b = duration * shares[:, 0], duration * shares[:, 1]
+    pieces = np.stack([duration - a, duration * (shares[:, 0] - shares[:, 1]), b], axis=-1)
+    return np.maximum(pieces, 0.0), np.stack([levels, -levels, levels], axis=-1)

@@ -1,0 +1,108 @@
+"""Rows of results to CSV, Markdown and the terminal."""
+
+import csv
+import io
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from benchmarks.contest import CALL, STACK, Row
+
+def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
+    """The rows as columns, each time also as a multiple of our own for the same problem."""
+    ours = {(row.problem, row.method): row.timing.typical for row in rows}
+
+    def ratio(row: Row, method: str) -> float:
+        return row.timing.typical / ours[row.problem, method]
+
+    return {
+        "problem": [row.problem for row in rows],
+        "method": [row.method for row in rows],
+        "problems": [row.count for row in rows],
+        "microseconds": [1e6 * row.timing.typical for row in rows],
+        "fastest round": [1e6 * row.timing.least for row in rows],
+        "times our call": [ratio(row, CALL) for row in rows],
+        "times our stack": [ratio(row, STACK) for row in rows],
+        "worst relative error": [row.error for row in rows],
+        "solved": [row.solved for row in rows],
+    }
+
+
+def machine() -> dict[str, str]:
+    """What the numbers depend on: processor, interpreter and versions."""
+    packages = ("numpy", "scipy", "numba", "ruckig", "clarabel", "casadi")
+    return {
+        "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
+        "threads": "1",
+        "Python": platform.python_version(),
+        **{package: _version(package) for package in packages},
+    }
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown processor"
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "absent"
+
+
+def text(value: Any) -> str:
+    """A cell for readers: three digits."""
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        if value != value:
+            return "–"
+        if value == 0 or 1e-2 <= abs(value) < 1e4:
+            return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+        return f"{value:.1e}"
+    return str(value)
+
+
+def as_markdown(title: str, table: Mapping[str, Sequence[Any]]) -> str:
+    """A titled Markdown table."""
+    lines = [f"## {title}", "", "| " + " | ".join(table) + " |"]
+    lines.append("|" + "|".join(" --: " if _numeric(column) else " :-- " for column in table.values()) + "|")
+    lines += ["| " + " | ".join(map(text, row)) + " |" for row in zip(*table.values(), strict=True)]
+    return "\n".join([*lines, ""])
+
+
+def printed(title: str, table: Mapping[str, Sequence[Any]]) -> None:
+    """The same in the terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    shown = Table(title=title, title_justify="left", header_style="bold")
+    for heading, column in table.items():
+        shown.add_column(heading, justify="right" if _numeric(column) else "left")
+    for row in zip(*table.values(), strict=True):
+        shown.add_row(*map(text, row))
+    console = Console()
+    (console if console.is_terminal else Console(width=150)).print(shown)
+
+
+def as_csv(facts: Mapping[str, str], table: Mapping[str, Sequence[Any]]) -> str:
+    """CSV under comment lines that hold the machine's facts."""
+    stream = io.StringIO()
+    stream.writelines(f"# {name}: {value}\n" for name, value in facts.items())
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(table)
+    writer.writerows(
+        [f"{value:.6g}" if isinstance(value, float) else value for value in row]
+        for row in zip(*table.values(), strict=True)
+    )
+    return stream.getvalue()
+
+
+def _numeric(column: Sequence[Any]) -> bool:
+    return all(isinstance(value, float | int) or value is None for value in column)

@@ -1,0 +1,238 @@
+"""Least time: ours and ruckig on the same work, jerk-limited only, both sides including input set-up."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks import problems, propagation
+from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.peers import absent
+from benchmarks.problems import Transfers
+from pontryagin.triple_integrator import minimum_time
+from pontryagin.triple_integrator import time as least_time
+
+REACHED = 1e-9
+"""Largest relative miss with which an answer counts as one."""
+
+SAME = 1e-7
+"""Relative difference of durations that counts as longer."""
+
+AXES = 100
+"""Axes that ruckig gets in one call where it is timed on stacks: its fastest from Python."""
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What one side returned: whether anything, the duration, and its relative miss by propagation, all (n,)."""
+
+    returned: NDArray[np.bool_]
+    duration: NDArray[np.float64]
+    miss: NDArray[np.float64]
+
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """Whether an answer came and leads to the target."""
+        return self.returned & (self.miss <= REACHED)
+
+
+def by_pontryagin(work: Transfers) -> Answers:
+    """Our answers, problem by problem, with those that did not converge told apart."""
+    columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
+    result = least_time.solve_stack(*columns, work.force, work.peak)
+    returned = result[:, 0] < least_time.NEVER
+    duration = np.where(returned, result[:, 0], np.nan)
+    pieces = propagation.bang_bang_pieces(duration, result[:, 2:4], result[:, 1])
+    return Answers(returned, duration, propagation.miss(work.x0, work.xf, *pieces, force=work.force))
+
+
+def by_ruckig(work: Transfers) -> Answers:
+    """Ruckig's answers: its phases, brake phases included, propagated independently."""
+    import ruckig
+
+    solve = RuckigAxis()
+    count = len(work.peak)
+    returned, durations = np.zeros(count, bool), np.full(count, np.nan)
+    pieces, levels = np.zeros((count, 9)), np.zeros((count, 9))
+    for i, problem in enumerate(as_lists(work)):
+        try:
+            returned[i] = solve(*problem) == ruckig.Result.Working
+        except ruckig.RuckigError:
+            continue
+        if returned[i]:
+            profile = solve.trajectory.profiles[0][0]
+            durations[i] = solve.trajectory.duration
+            pieces[i] = [*profile.brake.t, *profile.t]
+            levels[i] = [*profile.brake.j, *profile.j]
+    return Answers(returned, durations, propagation.miss(work.x0, work.xf, pieces, levels))
+
+
+class RuckigAxis:
+    """One axis of ruckig with a bound on jerk alone; calling it sets the inputs and computes."""
+
+    def __init__(self) -> None:
+        import ruckig
+
+        self.otg, self.input, self.trajectory = (
+            ruckig.Ruckig(1),
+            ruckig.InputParameter(1),
+            ruckig.Trajectory(1),
+        )
+        self.input.max_velocity = self.input.max_acceleration = [inf]
+
+    def __call__(self, x0: list[float], xf: list[float], peak: float):
+        """Ruckig's result code; the trajectory is in ``trajectory``."""
+        entry = self.input
+        entry.current_position, entry.current_velocity, entry.current_acceleration = (
+            [x0[0]],
+            [x0[1]],
+            [x0[2]],
+        )
+        entry.target_position, entry.target_velocity, entry.target_acceleration = [xf[0]], [xf[1]], [xf[2]]
+        entry.max_jerk = [peak]
+        return self.otg.calculate(entry, self.trajectory)
+
+
+def as_lists(work: Transfers) -> list[tuple[list[float], list[float], float]]:
+    """The problems as plain Python numbers, the form both sides take fastest one by one."""
+    return list(zip(work.x0.tolist(), work.xf.tolist(), work.peak.tolist(), strict=True))
+
+
+def rows(quick: bool) -> list[Row]:
+    """Least time at unit scales: time per problem, and durations against ours."""
+    result: list[Row] = []
+    for name in ("full states", "no acceleration at the ends"):
+        result += _rows(f"least time, {name}", name, 200 if quick else 2000, 3 if quick else 7)
+    return result
+
+
+def _rows(problem: str, name: str, count: int, rounds: int) -> list[Row]:
+    work, large = problems.transfers(name, count), problems.transfers(name, 100 * count)
+    lists = as_lists(work)
+
+    def one_by_one() -> int:
+        for x0, xf, peak in lists:
+            minimum_time(x0, xf, peak)
+        return count
+
+    def stack() -> int:
+        minimum_time(large.x0, large.xf, large.peak)
+        return len(large.peak)
+
+    ours = by_pontryagin(work)
+    certificate = minimum_time(large.x0, large.xf, large.peak).certificate
+    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+    contestants = {
+        CALL: Contestant(one_by_one, gap, float(ours.solved.mean())),
+        STACK: Contestant(stack, gap, float(by_pontryagin(large).solved.mean())),
+    }
+    if not absent("ruckig"):
+        answers = by_ruckig(work)
+        both = answers.solved & ours.solved
+        error, solved = worst((answers.duration / ours.duration - 1)[both]), float(answers.solved.mean())
+        contestants |= {
+            method: Contestant(run, error, solved) for method, run in _ruckig_runs(work, lists).items()
+        }
+    return contest(problem, contestants, rounds)
+
+
+def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int]]:
+    import ruckig
+
+    axis = RuckigAxis()
+    count = len(lists)
+
+    def one_by_one() -> int:
+        for x0, xf, peak in lists:
+            _quietly(axis, x0, xf, peak)
+        return count
+
+    prepared = []
+    for x0, xf, peak in lists:
+        single = RuckigAxis()
+        _quietly(single, x0, xf, peak)
+        prepared.append((single.otg, single.input, single.trajectory))
+
+    def call_alone() -> int:
+        for otg, entry, trajectory in prepared:
+            _quietly(otg.calculate, entry, trajectory)
+        return count
+
+    otg, entry, trajectory = ruckig.Ruckig(AXES), ruckig.InputParameter(AXES), ruckig.Trajectory(AXES)
+    entry.synchronization = ruckig.Synchronization.No
+    entry.max_velocity = entry.max_acceleration = [inf] * AXES
+    names = ("position", "velocity", "acceleration")
+
+    def many_axes() -> int:
+        for i in range(0, count, AXES):
+            part = slice(i, i + AXES)
+            for k, name in enumerate(names):
+                setattr(entry, f"current_{name}", work.x0[part, k].tolist())
+                setattr(entry, f"target_{name}", work.xf[part, k].tolist())
+            entry.max_jerk = work.peak[part].tolist()
+            _quietly(otg.calculate, entry, trajectory)
+        return count
+
+    return {
+        "ruckig, one call": one_by_one,
+        "ruckig, the call alone": call_alone,
+        f"ruckig, {AXES} axes a call": many_axes,
+    }
+
+
+def _quietly(call, *arguments) -> None:
+    """A failed call takes its time like any other; failures are counted elsewhere."""
+    import ruckig
+
+    try:
+        call(*arguments)
+    except ruckig.RuckigError:
+        return
+
+
+def shares(quick: bool) -> dict[str, list]:
+    """At each scale of the states and of the jerk bound: on which share of inputs each side fails.
+
+    An answer counts as failed where none is returned or its propagation misses the target by more than
+    `REACHED`, relative to the motion; as longer where the other side's answer is shorter by more than `SAME`.
+    """
+    exponents = range(-3, 4, 3) if quick else range(-3, 4)
+    count = 50 if quick else 400
+    result: dict[str, list] = {heading: [] for heading in SHARE_HEADINGS}
+    for ends in ("full states", "no acceleration at the ends"):
+        base = problems.transfers(ends, count)
+        for state in exponents:
+            for jerk in exponents:
+                scale, peak = 10.0**state, np.full(count, 10.0**jerk)
+                work = Transfers(scale * base.x0, scale * base.xf, peak, np.zeros(count))
+                _compare(result, ends, f"{scale:.0e}", f"{10.0**jerk:.0e}", work)
+    mixed = problems.transfers("sizes 1e-3 to 1e3", count * (1 if quick else 25))
+    _compare(result, "full states", "each 1e-3 to 1e3", "each 1e-3 to 1e3", mixed)
+    return result
+
+
+SHARE_HEADINGS = (
+    "ends",
+    "states",
+    "jerk",
+    "inputs",
+    "ruckig fails",
+    "ruckig longer",
+    "ruckig worst miss",
+    "pontryagin fails",
+    "pontryagin longer",
+    "pontryagin worst miss",
+)
+
+
+def _compare(result: dict[str, list], ends: str, states: str, jerk: str, work: Transfers) -> None:
+    ours, theirs = by_pontryagin(work), by_ruckig(work)
+    both = ours.solved & theirs.solved
+    values: list = [ends, states, jerk, len(work.peak)]
+    for side, other in ((theirs, ours), (ours, theirs)):
+        longer = both & (side.duration > other.duration * (1 + SAME))
+        values += [float(1 - side.solved.mean()), float(longer.mean()), worst(side.miss[side.returned])]
+    for heading, value in zip(result, values, strict=True):
+        result[heading].append(value)

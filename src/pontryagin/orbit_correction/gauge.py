@@ -1,0 +1,192 @@
+"""The gauge of the sum of ellipsoids E_k = G_k B (B the unit ball): how much of the peak a state needs.
+
+The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b is the largest (b, psi)/S(psi); its
+square is twice the largest value of the smooth concave (b, psi) - S(psi)^2/2, found by Newton's method.
+Any psi proves a lower bound; the controls that it chooses, corrected to reach b exactly, an upper one.
+"""
+
+from math import fabs, sqrt
+
+import numpy as np
+
+STEPS = 80
+
+
+def cholesky_solve(matrix, right):
+    """Solve a positive definite system in place of its right-hand side; False if it is not definite."""
+    n = matrix.shape[0]
+    for j in range(n):
+        pivot = matrix[j, j]
+        for k in range(j):
+            pivot -= matrix[j, k] * matrix[j, k]
+        if pivot <= 0.0:
+            return False
+        root = sqrt(pivot)
+        matrix[j, j] = root
+        for i in range(j + 1, n):
+            entry = matrix[i, j]
+            for k in range(j):
+                entry -= matrix[i, k] * matrix[j, k]
+            matrix[i, j] = entry / root
+    forward_backward(matrix, right)
+    return True
+
+
+def forward_backward(factor, right):
+    """Solve L L' x = right in place, given L."""
+    n = factor.shape[0]
+    for i in range(n):
+        for k in range(i):
+            right[i] -= factor[i, k] * right[k]
+        right[i] /= factor[i, i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            right[i] -= factor[k, i] * right[k]
+        right[i] /= factor[i, i]
+
+
+def support(factors, psi):
+    """S(psi)."""
+    steps, n, m = factors.shape
+    total = 0.0
+    for k in range(steps):
+        square = 0.0
+        for j in range(m):
+            part = 0.0
+            for i in range(n):
+                part += factors[k, i, j] * psi[i]
+            square += part * part
+        total += sqrt(square)
+    return total
+
+
+def support_derivatives(factors, psi, gradient, hessian):
+    """S(psi), its gradient (the support point) and its second derivative (lower triangle), in place."""
+    steps, n, m = factors.shape
+    total = 0.0
+    gradient[:] = 0.0
+    hessian[:, :] = 0.0
+    part, point = np.empty(m), np.empty(n)
+    for k in range(steps):
+        square = 0.0
+        for j in range(m):
+            part[j] = 0.0
+            for i in range(n):
+                part[j] += factors[k, i, j] * psi[i]
+            square += part[j] * part[j]
+        size = sqrt(square)
+        if size == 0.0:
+            continue
+        total += size
+        for i in range(n):
+            point[i] = 0.0
+            for j in range(m):
+                point[i] += factors[k, i, j] * part[j]
+            point[i] /= size
+            gradient[i] += point[i]
+        for i in range(n):
+            for l in range(i + 1):
+                entry = -point[i] * point[l]
+                for j in range(m):
+                    entry += factors[k, i, j] * factors[k, l, j]
+                hessian[i, l] += entry / size
+    return total
+
+
+def gauge_of(factors, gram_factor, b, psi):
+    """Lower and upper bound on the gauge of b; psi starts from the Gramian and ends as the costate.
+
+    ``gram_factor`` is the Cholesky factor of the sum of G_k G_k'.
+    """
+    n = b.shape[0]
+    gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
+    size = 0.0
+    for i in range(n):
+        size = max(size, fabs(b[i]))
+        psi[i] = b[i]
+    if size == 0.0:
+        return 0.0, 0.0
+    forward_backward(gram_factor, psi)
+    pairing = 0.0
+    for i in range(n):
+        pairing += b[i] * psi[i]
+    total = support(factors, psi)
+    for i in range(n):
+        psi[i] *= pairing / (total * total)
+    value = 1e300
+    polish = 3
+    for _ in range(STEPS):
+        total = support_derivatives(factors, psi, gradient, hessian)
+        pairing = 0.0
+        for i in range(n):
+            pairing += b[i] * psi[i]
+        value = 0.5 * total * total - pairing
+        for i in range(n):
+            step[i] = b[i] - total * gradient[i]
+            for l in range(i + 1):
+                hessian[i, l] = total * hessian[i, l] + gradient[i] * gradient[l]
+        slope = 0.0
+        for i in range(n):
+            trial[i] = step[i]
+        if not cholesky_solve(hessian, step):
+            break
+        for i in range(n):
+            slope += trial[i] * step[i]
+        length = 1.0
+        close = slope <= 1e-9 * fabs(value)
+        for _ in range(40):
+            for i in range(n):
+                trial[i] = psi[i] + length * step[i]
+            after = support(factors, trial)
+            pairing = 0.0
+            for i in range(n):
+                pairing += b[i] * trial[i]
+            if close or 0.5 * after * after - pairing <= value - 0.25 * length * slope:
+                break
+            length *= 0.5
+        for i in range(n):
+            psi[i] = trial[i]
+        if close:
+            polish -= 1
+            if polish == 0:
+                break
+    return bounds(factors, gram_factor, b, psi)
+
+
+def bounds(factors, gram_factor, b, psi):
+    """What psi proves from below, and the peak of the controls it chooses once they reach b exactly."""
+    steps, n, m = factors.shape
+    total, pairing = support(factors, psi), 0.0
+    for i in range(n):
+        pairing += b[i] * psi[i]
+    lower = pairing / total
+    miss = b.copy()
+    parts = np.empty((steps, m))
+    for k in range(steps):
+        square = 0.0
+        for j in range(m):
+            parts[k, j] = 0.0
+            for i in range(n):
+                parts[k, j] += factors[k, i, j] * psi[i]
+            square += parts[k, j] * parts[k, j]
+        scale = lower / sqrt(square) if square > 0.0 else 0.0
+        for j in range(m):
+            parts[k, j] *= scale
+            for i in range(n):
+                miss[i] -= factors[k, i, j] * parts[k, j]
+    forward_backward(gram_factor, miss)
+    upper = 0.0
+    for k in range(steps):
+        square = 0.0
+        for j in range(m):
+            for i in range(n):
+                parts[k, j] += factors[k, i, j] * miss[i]
+            square += parts[k, j] * parts[k, j]
+        upper = max(upper, square)
+    return lower, sqrt(upper)
+
+
+def gauge_stack(factors, gram_factor, targets, costates, results):
+    """`gauge_of` for each row of targets (states, n), into costates (states, n) and results (states, 2)."""
+    for row in range(targets.shape[0]):
+        results[row, 0], results[row, 1] = gauge_of(factors, gram_factor, targets[row], costates[row])

@@ -1,0 +1,49 @@
+"""The satellite near its circular orbit: transition, impulse columns and the regrouped steps, section 7."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+LINEAR = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, -1.0, 0.0]])
+
+
+def transition(time: ArrayLike) -> NDArray[np.float64]:
+    """e^{A t} for times (...), as (..., 3, 3): I + sin t A + (1 - cos t) A^2.
+
+    Examples
+    --------
+    >>> transition(2 * np.pi).round(12) + 0.0
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 1.]])
+    """
+    time = np.asarray(time, dtype=float)[..., None, None]
+    return np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR)
+
+
+def impulse_columns(intervals: int, interval: float) -> NDArray[np.float64]:
+    """What unit impulses at the starts of the intervals do to the initial state, (intervals, 3, 2).
+
+    Column 0 is a radial and column 1 a transverse impulse, e^{-A j interval} e.
+    """
+    return transition(-np.arange(intervals) * interval)[:, :, 1:]
+
+
+def step_factors(steps: int, interval: float) -> NDArray[np.float64]:
+    """G_k of the paper's regrouped steps, three impulse components each, (steps, 3, 3), for peak 1."""
+    intervals = -(-3 * steps // 2)
+    columns = np.moveaxis(impulse_columns(intervals, interval), 1, 2).reshape(-1, 3)
+    return np.moveaxis(columns[: 3 * steps].reshape(steps, 3, 3), 1, 2)
+
+
+def step_transition(k: int, interval: float) -> NDArray[np.float64]:
+    """A(k): two intervals for even k, one for odd."""
+    return transition((2 if k % 2 == 0 else 1) * interval)
+
+
+def step_input(k: int, interval: float) -> NDArray[np.float64]:
+    """B(k): the three impulse components of step k carried to its end."""
+    once = transition(interval)
+    radial, transverse = once[:, 1], once[:, 2]
+    if k % 2 == 0:
+        return np.column_stack([once @ radial, once @ transverse, radial])
+    return np.column_stack([once @ transverse, radial, transverse])

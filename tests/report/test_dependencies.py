@@ -1,0 +1,109 @@
+import subprocess
+import sys
+
+import pytest
+
+from pontryagin import files
+from pontryagin.report.dependencies import Source, closure, digest, literals
+
+REAL = Source(files.repository() / "src" / "pontryagin")
+
+
+@pytest.fixture
+def source(checkout):
+    checkout.module("__init__.py")
+    checkout.module("certificate.py", "import numpy")
+    checkout.module("compile.py", "def f():\n    from pontryagin import certificate")
+    checkout.module("lonely.py")
+    checkout.module("plain/__init__.py", "from .energy import solve")
+    checkout.module("plain/energy.py", "from .. import certificate\ndef solve(): ...")
+    checkout.module("plain/figures.py")
+    checkout.module("lazy/__init__.py", "def __getattr__(name): ...")
+    checkout.module("lazy/peak.py", "import pontryagin.compile")
+    checkout.module("computed/__init__.py")
+    checkout.module("computed/all.py", "from importlib import import_module\nimport_module('.' + input())")
+    checkout.module("computed/hidden.py")
+    checkout.module("exact/__init__.py")
+    checkout.module("exact/one.py", "import importlib\nimportlib.import_module('pontryagin.lonely')")
+    checkout.module("exact/two.py")
+    checkout.module("table/__init__.py", "NAMES = {'peak': 'pontryagin.lonely'}")
+    checkout.module(
+        "reader/__init__.py", "from pathlib import Path\nTEXT = (Path(__file__).parent / 'a.txt')"
+    )
+    checkout.module("reader/a.txt", "words")
+    checkout.module("report/__init__.py")
+    checkout.module("cli.py", "import pontryagin.report")
+    return Source(checkout.root / "src" / "pontryagin")
+
+
+def names(source, *code):
+    found = closure(source, code)
+    modules = {path: name for name, path in source.modules.items()}
+    return {modules.get(path, path.name).removeprefix("pontryagin.") for path in found}
+
+
+@pytest.mark.parametrize(
+    ("code", "needed"),
+    [
+        ("import numpy", set()),
+        ("import pontryagin.certificate", {"pontryagin", "certificate"}),
+        ("from pontryagin import certificate as c", {"pontryagin", "certificate"}),
+        ("from pontryagin.certificate import Certificate", {"pontryagin", "certificate"}),
+        ("import pontryagin.compile", {"pontryagin", "compile", "certificate"}),
+        ("from pontryagin.plain import solve", {"pontryagin", "plain", "plain.energy", "certificate"}),
+        ("import pontryagin.lazy as l", {"pontryagin", "lazy", "lazy.peak", "compile", "certificate"}),
+        ("import pontryagin.computed.all", {"pontryagin", "computed", "computed.all", "computed.hidden"}),
+        ("import pontryagin.exact.one", {"pontryagin", "exact", "exact.one", "lonely"}),
+        ("import pontryagin.table", {"pontryagin", "table", "lonely"}),
+        ("import pontryagin.reader", {"pontryagin", "reader", "a.txt"}),
+        ("def later():\n    import pontryagin.lonely", {"pontryagin", "lonely"}),
+    ],
+)
+def test_code_depends_on_what_its_imports_reach_and_on_nothing_else(source, code, needed):
+    assert names(source, code) == needed
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "from pontryagin import *",
+        "import importlib\nimportlib.import_module('pontryagin.' + name)",
+        "get_ipython().system('pontryagin ledger')",
+        "this is no Python",
+    ],
+)
+def test_what_cannot_be_decided_depends_on_all_papers(source, code):
+    everything = {name.removeprefix("pontryagin.") for name in source.modules} | {"a.txt"}
+    assert names(source, code) == everything - {"report", "cli"}
+
+
+def test_a_key_changes_with_every_part_and_with_their_borders(tmp_path):
+    (tmp_path / "a").write_text("1")
+    keys = {digest("ab", "c"), digest("a", "bc"), digest("abc"), digest(tmp_path / "a", root=tmp_path)}
+    (tmp_path / "a").write_text("2")
+    keys.add(digest(tmp_path / "a", root=tmp_path))
+    (tmp_path / "a").rename(tmp_path / "b")
+    keys.add(digest(tmp_path / "b", root=tmp_path))
+    assert len(keys) == 6
+
+
+def test_files_that_code_may_read_are_seen_in_its_strings():
+    assert literals("open('data/ends.csv').read()  # 'comment'") == {"data/ends.csv"}
+
+
+def test_nothing_below_the_report_imports_the_report_or_the_command_line():
+    for name, path in REAL.modules.items():
+        if not name.startswith(("pontryagin.report", "pontryagin.cli", "pontryagin.__main__")):
+            text = path.read_text(encoding="utf-8")
+            assert "pontryagin.report" not in text and "pontryagin.cli" not in text, name
+
+
+@pytest.mark.parametrize(
+    "module", ["pontryagin.ledger", "pontryagin.triple_integrator", "pontryagin.recording"]
+)
+def test_what_python_loads_for_a_module_is_in_its_closure(module):
+    script = f"import sys, {module}; print(*(m for m in sys.modules if m.split('.')[0] == 'pontryagin'))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = {REAL.modules[name] for name in done.stdout.split()}
+    assert module in done.stdout.split()
+    assert loaded <= closure(REAL, [f"import {module}"])
