@@ -40,7 +40,14 @@ def _fixed_time(name: str, count: int) -> list[tuple]:
         "least energy": minimum_energy(maneuver).certificate,
     }
     return [
-        (problem, name, count, 0.0, worst(miss[problem]), _gap(certificate.primal_value, certificate.dual_value))
+        (
+            problem,
+            name,
+            count,
+            0.0,
+            worst(miss[problem]),
+            _gap(certificate.primal_value, certificate.dual_value),
+        )
         for problem, certificate in certificates.items()
     ]
 

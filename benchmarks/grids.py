@@ -81,7 +81,9 @@ def highs_peak(cells: int) -> Solver:
     rows = peak_rows(cells)
     one, identity = np.ones((cells, 1)), sparse.eye(cells)
     equal = sparse.hstack([sparse.csr_matrix(rows), np.zeros((3, 1))])
-    constraints = sparse.vstack([equal, sparse.hstack([identity, one]), sparse.hstack([identity, -one])]).tocsc()
+    constraints = sparse.vstack(
+        [equal, sparse.hstack([identity, one]), sparse.hstack([identity, -one])]
+    ).tocsc()
     cost = np.append(np.zeros(cells), 1.0)
     low = np.concatenate([np.zeros(3 + cells), np.full(cells, -np.inf)])
     high = np.concatenate([np.zeros(3), np.full(cells, np.inf), np.zeros(cells)])

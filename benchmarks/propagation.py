@@ -51,9 +51,7 @@ def miss(
     return np.max(np.stack(parts), axis=0).astype(float)
 
 
-def bang_bang_pieces(
-    duration: NDArray, shares: NDArray, levels: NDArray
-) -> tuple[NDArray, NDArray]:
+def bang_bang_pieces(duration: NDArray, shares: NDArray, levels: NDArray) -> tuple[NDArray, NDArray]:
     """Durations and levels (n, 3) of a control that is `levels` but for its negative between two switches.
 
     Parameters

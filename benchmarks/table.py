@@ -10,6 +10,15 @@ from typing import Any
 
 from benchmarks.contest import CALL, STACK, Row
 
+NOTES = (
+    "Times are processor time of one thread, medians of rounds in which all contestants take turns, input",
+    "set-up from Python included unless the row says otherwise. Ratios are to our own rows on the same problem.",
+    "The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost. A problem counts",
+    "as solved where an answer came and, for least time, independent propagation reaches the target to 1e-9.",
+)
+"""What the tables mean."""
+
+
 def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
     """The rows as columns, each time also as a multiple of our own for the same problem."""
     ours = {(row.problem, row.method): row.timing.typical for row in rows}
@@ -69,12 +78,19 @@ def text(value: Any) -> str:
     return str(value)
 
 
-def as_markdown(title: str, table: Mapping[str, Sequence[Any]]) -> str:
-    """A titled Markdown table."""
-    lines = [f"## {title}", "", "| " + " | ".join(table) + " |"]
-    lines.append("|" + "|".join(" --: " if _numeric(column) else " :-- " for column in table.values()) + "|")
-    lines += ["| " + " | ".join(map(text, row)) + " |" for row in zip(*table.values(), strict=True)]
-    return "\n".join([*lines, ""])
+def as_markdown(
+    facts: Mapping[str, str], titles: Mapping[str, str], tables: Mapping[str, Mapping[str, Sequence[Any]]]
+) -> str:
+    """All tables as one Markdown page under the machine's facts."""
+    head = "; ".join(f"{name} {value}" for name, value in facts.items())
+    lines = ["# Benchmarks", "", head + ".", "", *NOTES, ""]
+    for name, columns in tables.items():
+        numeric = [_numeric(column) for column in columns.values()]
+        lines += [f"## {titles[name]}", "", "| " + " | ".join(columns) + " |"]
+        lines.append("|" + "|".join(" --: " if right else " :-- " for right in numeric) + "|")
+        lines += ["| " + " | ".join(map(text, row)) + " |" for row in zip(*columns.values(), strict=True)]
+        lines.append("")
+    return "\n".join(lines)
 
 
 def printed(title: str, table: Mapping[str, Sequence[Any]]) -> None:

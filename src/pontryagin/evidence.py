@@ -176,20 +176,22 @@ class LinearSystem(Evidence):
         """The derived expressions that are to vanish."""
         return self.derived()
 
-    def _reduced(self, equations: Sequence[sp.Expr]) -> sp.Matrix:
-        matrix, right = sp.linear_eq_to_matrix(list(equations), list(self.unknowns))
-        return matrix.row_join(right).rref(simplify=True)[0]
+    def _solution(self, equations: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
+        solutions = list(sp.linsolve(list(equations), list(self.unknowns)))
+        if len(solutions) != 1 or any(part.has(*self.unknowns) for part in solutions[0]):
+            raise Unsupported(f"{equations} do not fix {self.unknowns}")
+        return solutions[0]
 
     def finding(self) -> Verdict:
-        """`holds` where the reduced echelon forms are equal."""
-        printed, derived = self._reduced(self.printed), self._reduced(self.derived())
-        if printed.shape != derived.shape or not vanishes(printed - derived):
-            raise Unsupported(f"the printed system reduces to {printed}, the derived one to {derived}")
+        """`holds` where both systems have one solution, the same."""
+        printed, derived = self._solution(self.printed), self._solution(self.derived())
+        if not all(vanishes(a - b) for a, b in zip(printed, derived, strict=True)):
+            raise Unsupported(f"the printed system gives {printed}, the derived one {derived}")
         return "holds"
 
     def steps(self) -> Steps:
         """The one step there is."""
-        yield "the printed and the derived system have the same reduced echelon form", True
+        yield "the printed and the derived system have the same solution", True
 
     def latex(self, sides: Any) -> str:
         """Each expression set equal to zero."""

@@ -1,6 +1,7 @@
 """Where generated files go, and how they get there whole."""
 
 import os
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -92,4 +93,7 @@ def write(path: Path, content: str | bytes) -> bool:
 def remove_drafts(folder: Path) -> None:
     """Remove what a killed writer left behind below `folder`."""
     for draft in Path(folder).rglob(".*.partial*"):
-        draft.unlink(missing_ok=True)
+        if draft.is_dir():
+            shutil.rmtree(draft, ignore_errors=True)
+        else:
+            draft.unlink(missing_ok=True)

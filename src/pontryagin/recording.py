@@ -235,7 +235,7 @@ def _layout(columns: Sequence[Sequence[View]]) -> Any:
     import rerun.blueprint as rrb
 
     def panel(view: View) -> Any:
-        place = {"origin": view.entity, "name": view.title}
+        place: dict[str, Any] = {"origin": view.entity, "name": view.title}
         if isinstance(view, Plot):
             return rrb.TimeSeriesView(**place, plot_legend=rrb.Corner2D.RightTop)
         if isinstance(view, Events):

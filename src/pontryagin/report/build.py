@@ -2,7 +2,6 @@
 
 import argparse
 import os
-import shutil
 import threading
 from collections.abc import Sequence
 from importlib.util import find_spec
@@ -39,7 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     watch = progress.Stopwatch()
     try:
         with alone(workspace):
-            _tidy(workspace)
+            for folder in (workspace.build, workspace.figures):
+                files.remove_drafts(folder)
             build(workspace, chosen.stage, chosen.workers)
     except Stopped:
         return 1
@@ -113,13 +113,6 @@ def _recordings(workspace: Workspace, workers: int) -> list[recordings.Clip]:
         return []
     progress.step("players", f"{len(pages)} pages in build/report/play/")
     return clips
-
-
-def _tidy(workspace: Workspace) -> None:
-    for folder in (workspace.build, workspace.figures):
-        files.remove_drafts(folder)
-    for draft in (workspace.cache / "notebooks").glob("*/.*.partial"):
-        shutil.rmtree(draft, ignore_errors=True)
 
 
 def _parser() -> argparse.ArgumentParser:

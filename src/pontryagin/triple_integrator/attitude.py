@@ -24,11 +24,18 @@ class Programme(Protocol):
     """What `minimum_energy`, `minimum_peak`, `minimum_impulse`, `minimum_norm` and `minimum_time` return."""
 
     @property
-    def maneuver(self) -> Maneuver: ...
+    def maneuver(self) -> Maneuver:
+        """What was asked."""
+
     @property
-    def breakpoints(self) -> NDArray[np.float64]: ...
-    def control(self, t: ArrayLike) -> NDArray[np.float64]: ...
-    def state(self, t: ArrayLike) -> NDArray[np.float64]: ...
+    def breakpoints(self) -> NDArray[np.float64]:
+        """Times between which the control is smooth, (j,)."""
+
+    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+        """u at the times t, (k,) -> (k,)."""
+
+    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+        """x at the times t, (k,) -> (k, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +171,7 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
         maneuver.x0,
         _planned_motion(programme),
         scales,
-        programme.breakpoints,
+        programme.breakpoints.tolist(),
         [(time, np.array([0.0, 0.0, jump])) for time, jump in impulses(programme)],
     )
     inertia = body.inertia @ e

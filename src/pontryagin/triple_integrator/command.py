@@ -116,7 +116,7 @@ def _goal(norm: Text, peak: Text, times: dict[str, object]) -> Goal:
         console.excluded("--peak", {"--norm": norm} | times)
         return Goal(peak=console.positive("--peak", peak))
     if norm is None:
-        raise console.Refusal("--norm", "is missing: takes 1, 2, inf or a number greater than 1")
+        raise console.Refusal("--norm", "is missing (or --peak for the least time): takes 1, 2, inf or Q > 1")
     if norm.strip().lower() in ("inf", "infinity", "oo"):
         return Goal(math.inf)
     return Goal(console.number("--norm", norm, "1, 2, inf or a number greater than 1", at_least=1.0))

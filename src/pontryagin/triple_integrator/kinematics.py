@@ -85,7 +85,11 @@ def vector_acceleration_drift(phi: NDArray[np.float64], w: NDArray[np.float64]) 
     inner = cross(phi, w)
     rate = w + inner / 2 + g * cross(phi, inner)
     stretch = slope * (phi * rate).sum(axis=-1, keepdims=True)
-    return cross(rate, w) / 2 + stretch * cross(phi, inner) + g * (cross(rate, inner) + cross(phi, cross(rate, w)))
+    return (
+        cross(rate, w) / 2
+        + stretch * cross(phi, inner)
+        + g * (cross(rate, inner) + cross(phi, cross(rate, w)))
+    )
 
 
 def _curvature(phi: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

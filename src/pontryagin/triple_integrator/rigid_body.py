@@ -1,12 +1,14 @@
-"""A rigid body under torque: Euler's equations and its attitude, integrated by SciPy and by no channel formula.
+"""A rigid body under torque: Euler's equations and its attitude, integrated by SciPy, by no channel formula.
 
-Attitudes are unit quaternions, scalar first, that turn body axes into inertial axes; angular rates and torques
-are in body axes.
+Attitudes are unit quaternions, scalar first, that turn body axes into inertial axes; angular rates and
+torques are in body axes.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,12 +73,12 @@ class RigidBody:
     @cached_property
     def inverse(self) -> NDArray[np.float64]:
         """J^-1, (3, 3)."""
-        return np.linalg.inv(self.inertia)
+        return np.asarray(np.linalg.inv(self.inertia), dtype=float)
 
     @cached_property
     def principal_moments(self) -> NDArray[np.float64]:
         """Eigenvalues of J in increasing order, (3,)."""
-        return np.linalg.eigvalsh(self.inertia)
+        return np.asarray(np.linalg.eigvalsh(self.inertia), dtype=float)
 
     def acceleration(self, rate: NDArray[np.float64], torque: NDArray[np.float64]) -> NDArray[np.float64]:
         """w' = J^-1 (M - w x J w), for rates and torques (..., 3)."""
@@ -105,7 +107,9 @@ class Motion:
         time = np.atleast_1d(finite("t", t, "a number or an array (k,) of times"))
         first, last = self.edges[0], self.edges[-1]
         if time.ndim != 1 or np.any(time < first) or np.any(time > last):
-            raise ValueError(f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}")
+            raise ValueError(
+                f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}"
+            )
         index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.stretches) - 1)
         result = np.empty((time.size, self.start.size))
         for i in np.unique(index):
@@ -188,7 +192,7 @@ def simulate(
     edges = np.unique([first, last, *(time for time in instants if first < time < last)])
     scales = np.concatenate([np.ones(4), np.full(3, 1 / (last - first)), commands.scales])
     state, stretches = _after_impulses(start, first, commands), []
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in pairwise(edges.tolist()):
         right_hand_side = _right_hand_side(body, commands.rate, torque, a, b)
         run = solve_ivp(
             right_hand_side,
@@ -201,7 +205,7 @@ def simulate(
         )
         if not run.success:
             raise NotConverged(f"the motion was not integrated past t = {run.t[-1]}", float(b - run.t[-1]))
-        stretches.append(run.sol)
+        stretches.append(cast(OdeSolution, run.sol))
         state = _after_impulses(run.y[:, -1], b, commands)
     return Motion(edges, stretches, start, state)
 
@@ -211,7 +215,9 @@ def _after_impulses(state: NDArray, time: float, commands: Commands) -> NDArray:
     return state if not jumps else np.concatenate([state[:7], state[7:] + np.sum(jumps, axis=0)])
 
 
-def _right_hand_side(body: RigidBody, command_rate: CommandRate, torque: Torque, a: float, b: float) -> Callable:
+def _right_hand_side(
+    body: RigidBody, command_rate: CommandRate, torque: Torque, a: float, b: float
+) -> Callable:
     inset = INSET * (b - a)
 
     def right_hand_side(t: float, y: NDArray) -> NDArray:

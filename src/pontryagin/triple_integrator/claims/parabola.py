@@ -15,7 +15,7 @@ from pontryagin.evidence import (
 from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.peak import area_with_two_zeros, first, paired_with, second, two_switches, v
 from pontryagin.triple_integrator.derivation import parabola
-from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
+from pontryagin.triple_integrator.derivation.channel import drive, final, initial, required_moments, t0, tau, tf
 from pontryagin.triple_integrator.derivation.duality import peak_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
 from pontryagin.triple_integrator.derivation.parabola import (
@@ -105,47 +105,13 @@ def multipliers_from_the_zeros():
         r"\quad l_{30} = \frac{(t_f - t_1)(t_f - t_2)}{2c_0}")
 
 
-@claim("after (3.5)", "the denominator c0", verdict="holds")
+@claim("after (3.5): c0", "the denominator c0", verdict="holds")
 def denominator_of_the_multipliers():
     return Equality({"c_0": denominator()}, lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]})
 
 
-@claim("(3.6)", "ρ0 is the least |S1 − S2 + S3| over t0 ≤ t1 < t2 ≤ tf", verdict="holds",
-       remark="Where the optimum has fewer than two switches the minimum lies on the boundary: at t1 = t0 or "
-       "t2 = tf for one switch, at both for a constant control.")
-def least_signed_area():
-    def argument() -> Steps:
-        h = (tau - first) * (tau - second)
-        signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
-        total = sp.expand(signed[0] - signed[1] + signed[2])
-        yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
-        moments = two_switches(v, first, second, T)
-        yield "at the switches of the optimum it is 1/v, its least value", vanishes(
-            total * v - paired_with(moments)
-        )
-        constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
-        norm = area_with_two_zeros().subs({first: 0, second: T})
-        yield "a constant control is −v between t1 = t0 and t2 = tf: attained there", vanishes(constant + norm * v)
-
-    return Proof(argument,
-        display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|")
-
-
-@claim("before (3.6): limits", "the three pieces are [t0, t1], [t1, t2], [t2, tf]", verdict="holds")
-def limits_of_the_pieces():
-    keys = (r"b_1 - a_1", r"b_2 - a_2", r"b_3 - a_3")
-    printed = dict(zip(keys, (t1 - t0, t2 - t1, tf - t2), strict=True))
-
-    def derived():
-        cuts = (t0, *sorted((t1, t2), key=str), tf)
-        return dict(zip(keys, (b - a for a, b in zip(cuts, cuts[1:], strict=False)), strict=True))
-
-    return Equality(printed, derived, display=r"(a_1, b_1) = (t_0, t_1),\; (a_2, b_2) = (t_1, t_2),\; "
-        r"(a_3, b_3) = (t_2, t_f)")
-
-
 @claim(
-    "after (3.5): unconstrained",
+    "before (3.6): unconstrained",
     "dropping t0 ≤ t1 and t2 ≤ tf leaves the minimum of (3.6) as it is: an unconstrained problem",
     verdict="holds",
     remark="The paper assumes that the two bounds are not active. They may be; the claim holds all the same, "
@@ -182,6 +148,40 @@ def bounds_may_be_dropped():
         yield "t1 before t0 and t2 after tf: both excesses", vanishes(extra - ends)
 
     return Proof(argument)
+
+
+@claim("(3.6)", "ρ0 is the least |S1 − S2 + S3| over t0 ≤ t1 < t2 ≤ tf", verdict="holds",
+       remark="Where the optimum has fewer than two switches the minimum lies on the boundary: at t1 = t0 or "
+       "t2 = tf for one switch, at both for a constant control.")
+def least_signed_area():
+    def argument() -> Steps:
+        h = (tau - first) * (tau - second)
+        signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
+        total = sp.expand(signed[0] - signed[1] + signed[2])
+        yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
+        moments = two_switches(v, first, second, T)
+        yield "at the switches of the optimum it is 1/v, its least value", vanishes(
+            total * v - paired_with(moments)
+        )
+        constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
+        norm = area_with_two_zeros().subs({first: 0, second: T})
+        yield "a constant control is −v between t1 = t0 and t2 = tf: attained there", vanishes(constant + norm * v)
+
+    return Proof(argument,
+        display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|")
+
+
+@claim("after (3.6): limits", "the three pieces are [t0, t1], [t1, t2], [t2, tf]", verdict="holds")
+def limits_of_the_pieces():
+    keys = (r"b_1 - a_1", r"b_2 - a_2", r"b_3 - a_3")
+    printed = dict(zip(keys, (t1 - t0, t2 - t1, tf - t2), strict=True))
+
+    def derived():
+        cuts = (t0, *sorted((t1, t2), key=str), tf)
+        return dict(zip(keys, (b - a for a, b in zip(cuts, cuts[1:], strict=False)), strict=True))
+
+    return Equality(printed, derived, display=r"(a_1, b_1) = (t_0, t_1),\; (a_2, b_2) = (t_1, t_2),\; "
+        r"(a_3, b_3) = (t_2, t_f)")
 
 
 @claim("(3.7)", "S_k in terms of its limits and the multipliers", verdict="holds")
@@ -263,6 +263,22 @@ def zeros_of_the_parabola():
     root = sp.sqrt(beta / alpha)
     return Equality({"t_1": apex - root, "t_2": apex + root},
         lambda: dict(zip(("t_1", "t_2"), parabola.zeros(), strict=True)))
+
+
+@claim("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T", verdict="holds")
+def time_from_zero():
+    def argument() -> Steps:
+        shift, force = sp.symbols("t_s f_0", real=True)
+        h = parabola.parabola()
+        yield "h depends on tf − τ only", vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True))
+        ramp = force * (tau + t0)
+        moved = drive(initial, T, sp.S.Zero, ramp)
+        needed = final - moved
+        yield "a disturbance f(t) is to be read as f(t0 + t): then c is the same", vanishes(
+            required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)
+        ) and needed.has(t0)
+
+    return Proof(argument)
 
 
 @claim("(3.9)", "vertex form from the multipliers (t0 = 0)", verdict="holds")

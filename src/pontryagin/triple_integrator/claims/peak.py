@@ -219,7 +219,7 @@ def general_structure():
     verdict="conditional",
     remark="True where one end is an equilibrium (x2 = 0, x3 + f = 0, f constant): one can wait there, so u0(T) "
     "falls strictly. In general it need not: from (0, 1, 0) to (1, 1, 0) with f = 0, u0(T) = 32|1 − T|/T³ takes "
-    "the value 4 at three durations, T = 0.9064..., √5 − 1 and 2. Least time is then the smallest root.",
+    "the value 4 at three durations, T = 0.9067..., √5 − 1 and 2. Least time is then the smallest root.",
 )
 def one_to_one():
     force, wait = sp.symbols("f w", real=True)

@@ -6,3 +6,4 @@ from pontryagin.triple_integrator.figures.level import convex_level_equation
 from pontryagin.triple_integrator.figures.duration import peak_over_duration
 from pontryagin.triple_integrator.figures.homotopy import norm_family
 from pontryagin.triple_integrator.figures.onesigned import equally_cheap
+from pontryagin.triple_integrator.figures.search import search_routes

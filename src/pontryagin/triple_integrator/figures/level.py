@@ -57,8 +57,8 @@ def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> No
         ax.axvline(pole, color=INK, linewidth=0.8, linestyle=":")
     inward = 1 if nearer == low else -1
     marks = (
-        (nearer, RED, f"nearer root, the least peak:\n$v = {1 / nearer:.3g}$", inward, 10),
-        (farther, SKY, f"farther root, no control:\n$v = {1 / farther:.3g}$", inward, -8),
+        (nearer, RED, f"nearer root:\nleast peak\n$v = {1 / nearer:.3g}$", inward, 10),
+        (farther, SKY, f"farther root:\nno control\n$v = {1 / farther:.3g}$", inward, -8),
     )
     for root, colour, words, side, rise in marks:
         ax.plot(root, 0, "o", color=colour, markersize=7)

@@ -1,0 +1,124 @@
+"""Throughput of our solvers: against the aims, and against the size of the stack."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from benchmarks import problems
+from benchmarks.clock import take_turns
+from pontryagin.triple_integrator import (
+    Maneuver,
+    impulse,
+    minimum_energy,
+    minimum_impulse,
+    minimum_peak,
+    minimum_time,
+    peak,
+)
+from pontryagin.triple_integrator import time as least_time
+
+AIMS = {"least peak": 2.0, "least impulse": 20.0, "least time": 1.0}
+"""Million problems a second on one core."""
+
+AIM_CALL = 30.0
+"""Microseconds for one call from Python."""
+
+
+def throughput(quick: bool) -> dict[str, list]:
+    """Million problems a second of the compiled loop and of the whole public call, and one call's microseconds."""
+    count, rounds = (20_000, 3) if quick else (1_000_000, 7)
+    loops, whole, single = _loops(count), whole_calls(count), _single_calls(200 if quick else 2000)
+    timings = take_turns(
+        {("loop", name): run for name, run in loops.items()}  # type: ignore[arg-type]
+        | {("whole", name): run for name, run in whole.items()}
+        | {("single", name): run for name, run in single.items()},
+        rounds,
+    )
+
+    def rate(kind: str, name: str) -> float | None:
+        timing = timings.get((kind, name))  # type: ignore[call-overload]
+        return 1e-6 / timing.typical if timing else None
+
+    names = list(whole)
+    return {
+        "problem": names,
+        "aim, million/s": [AIMS.get(name) for name in names],
+        "compiled loop, million/s": [rate("loop", name) for name in names],
+        "whole call, million/s": [rate("whole", name) for name in names],
+        "aim, one call, microseconds": [AIM_CALL] * len(names),
+        "one call, microseconds": [1 / rate("single", name) for name in names],  # type: ignore[operator]
+    }
+
+
+def by_size(quick: bool) -> dict[str, list]:
+    """Microseconds per problem of the whole public call against the number of problems in the stack."""
+    sizes = (1, 10, 100, 1000) if quick else tuple(int(round(10 ** (k / 2))) for k in range(13))
+    result: dict[str, list] = {"problem": [], "stack": [], "microseconds": []}
+    for size in sizes:
+        repeated = {name: _repeated(run, size) for name, run in whole_calls(size).items()}
+        for name, timing in take_turns(repeated, 3 if quick else 5).items():
+            result["problem"].append(name)
+            result["stack"].append(size)
+            result["microseconds"].append(1e6 * timing.typical)
+    return result
+
+
+def _repeated(run: Callable[[], int], size: int) -> Callable[[], int]:
+    """A run long enough to be timed."""
+    times = max(1, 2000 // size)
+
+    def repeated() -> int:
+        return sum(run() for _ in range(times))
+
+    return repeated
+
+
+def whole_calls(count: int) -> dict[str, Callable[[], int]]:
+    """Each public solver on a stack, from the ends to the solution."""
+    x0, xf = problems.ends("stack", count)
+    T, bound = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
+    solvers = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
+
+    def fixed_time(solve: Callable) -> Callable[[], int]:
+        return lambda: len(solve(Maneuver(x0, xf, T)).norm)
+
+    calls = {name: fixed_time(solve) for name, solve in solvers.items()}
+    calls["least time"] = lambda: len(minimum_time(x0, xf, bound).duration)
+    return calls
+
+
+def _loops(count: int) -> dict[str, Callable[[], int]]:
+    """The compiled loops alone, from columns of numbers to an array of results."""
+    x0, xf = problems.ends("stack", count)
+    T, bound = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
+    c = Maneuver(x0, xf, T).moments
+    moments = [*(np.ascontiguousarray(c[:, i]) for i in range(3)), T]
+    ends = [np.ascontiguousarray(x[:, i]) for x in (x0, xf) for i in range(3)]
+    transfer = [*ends, np.zeros(count), bound]
+    return {
+        "least peak": lambda: len(peak.solve_stack(*moments)),
+        "least impulse": lambda: len(impulse.solve_stack(*moments)),
+        "least time": lambda: len(least_time.solve_stack(*transfer)),
+    }
+
+
+def _single_calls(count: int) -> dict[str, Callable[[], int]]:
+    """Each public solver one problem at a time, from lists of numbers."""
+    x0, xf = problems.ends("single", count)
+    pairs = list(zip(x0.tolist(), xf.tolist(), strict=True))
+
+    def fixed_time(solve: Callable) -> Callable[[], int]:
+        def run() -> int:
+            for start, end in pairs:
+                solve(Maneuver(start, end, 1.5))
+            return count
+
+        return run
+
+    def least() -> int:
+        for start, end in pairs:
+            minimum_time(start, end, 1.5)
+        return count
+
+    solvers = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
+    return {name: fixed_time(solve) for name, solve in solvers.items()} | {"least time": least}

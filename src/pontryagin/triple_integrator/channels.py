@@ -1,0 +1,169 @@
+"""One body driven by three channels: phi'' = m + f exactly, and the f(t) that a motion holds for each channel.
+
+A channel is a component of the rotation vector phi; its control acceleration is a component of m, with the
+torque M = J m. f(phi, phi', m) is then all that Euler's equations and the kinematics add.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator.attitude import Programme, disturbance_of, impulses
+from pontryagin.triple_integrator.kinematics import (
+    FULL_TURN,
+    between,
+    quaternion,
+    rotation_vector,
+    vector_acceleration_drift,
+    vector_rate_matrix,
+)
+from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+
+DEGREE = 40
+"""Of the Chebyshev series that holds f on a smooth stretch of the motion."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling:
+    """f(t) of one channel, continuous from the right.
+
+    Attributes
+    ----------
+    edges : (p+1,) array
+        Ends of the smooth stretches.
+    series : (p, degree+1) array
+        Chebyshev coefficients on each.
+    """
+
+    edges: NDArray[np.float64]
+    series: NDArray[np.float64]
+
+    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+        """f at the times t, (...) -> (...)."""
+        time = np.asarray(t, dtype=float)
+        index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.series) - 1)
+        low, high = self.edges[index], self.edges[index + 1]
+        place = (2 * time - low - high) / (high - low)
+        return np.asarray(chebyshev.chebval(place, np.moveaxis(self.series[index], -1, 0), tensor=False))
+
+
+@dataclass(frozen=True, eq=False)
+class Channels:
+    """The body under three programmes: channels S that are programmed, channels G whose motion is given.
+
+    Attributes
+    ----------
+    programmes : three solutions
+    programmed : tuple of int
+        S; to the others' motion the control acceleration is found that it takes.
+    """
+
+    body: RigidBody
+    programmes: Sequence[Programme]
+    programmed: tuple[int, ...]
+
+    @property
+    def given(self) -> list[int]:
+        return [i for i in range(3) if i not in self.programmed]
+
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """Both ends of the channels, (2, 3, 3)."""
+        maneuvers = [programme.maneuver for programme in self.programmes]
+        return np.array([[m.x0 for m in maneuvers], [m.xf for m in maneuvers]])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        maneuver = self.programmes[0].maneuver
+        return float(maneuver.t0), float(maneuver.tf)
+
+    @cached_property
+    def _disturbances(self) -> list[Callable[[float], float]]:
+        return [disturbance_of(self.programmes[i].maneuver) for i in self.given]
+
+    def drift(self, phi: NDArray, w: NDArray) -> NDArray:
+        """n of phi'' = B^-1 m + n, (..., 3)."""
+        free = self.body.acceleration(w, np.zeros(3))
+        kinematic = vector_acceleration_drift(phi, w)
+        return kinematic + np.einsum("...ij,...j->...i", vector_rate_matrix(phi), free)
+
+    def coupling(self, phi: NDArray, w: NDArray, m: NDArray) -> NDArray:
+        """f = phi'' - m, (..., 3)."""
+        return np.einsum("...ij,...j->...i", vector_rate_matrix(phi), m) - m + self.drift(phi, w)
+
+    def control_acceleration(self, t: NDArray, phi: NDArray, w: NDArray, commands: NDArray) -> NDArray:
+        """m (k, 3) from that of S: channels G take what their given phi'' asks."""
+        if not self.given:
+            return commands
+        m = np.empty(phi.shape)
+        m[:, self.programmed] = commands
+        matrix = vector_rate_matrix(phi)[:, self.given]
+        asked = self._given_acceleration(t) - self.drift(phi, w)[:, self.given]
+        asked -= np.einsum("kij,kj->ki", matrix[:, :, self.programmed], commands)
+        m[:, self.given] = np.linalg.solve(matrix[:, :, self.given], asked[..., None])[..., 0]
+        return m
+
+    def _given_acceleration(self, t: NDArray) -> NDArray:
+        columns = [
+            self.programmes[i].state(t)[:, 2] + np.array([f(time) for time in t])
+            for i, f in zip(self.given, self._disturbances, strict=True)
+        ]
+        return np.stack(columns, axis=-1)
+
+    def move(self) -> Motion:
+        """The motion that the full equations make of the programmes."""
+        start, (first, last) = self.ends[0], self.interval
+        phi = start[:, 0]
+        commands = Commands(
+            start[self.programmed, 2],
+            lambda t, m: np.array([self.programmes[i].control(t)[0] for i in self.programmed]),
+            np.full(len(self.programmed), (last - first) ** -2.0),
+            np.concatenate([programme.breakpoints for programme in self.programmes]).tolist(),
+            self._jumps(),
+        )
+
+        def torque(t: float, q: NDArray, w: NDArray, m: NDArray) -> NDArray:
+            if self.given:
+                m = self.control_acceleration(np.array([t]), rotation_vector(q)[None], w[None], m[None])[0]
+            return self.body.inertia @ m
+
+        return simulate(self.body, (first, last), quaternion(phi), body_rate(start), commands, torque)
+
+    def _jumps(self) -> list[tuple[float, NDArray]]:
+        unit = np.eye(len(self.programmed))
+        return [
+            (time, jump * unit[row])
+            for row, i in enumerate(self.programmed)
+            for time, jump in impulses(self.programmes[i])
+        ]
+
+    def miss(self, motion: Motion) -> float:
+        """The larger of the angle to the target attitude and T times the error of the rate there."""
+        target, (first, last) = self.ends[1], self.interval
+        left = rotation_vector(between(quaternion(target[:, 0]), motion.end[:4]))
+        rate_left = motion.end[4:7] - body_rate(target)
+        return float(max(np.linalg.norm(left), (last - first) * np.linalg.norm(rate_left)))
+
+    def couplings_along(self, motion: Motion, miss: float) -> list[Coupling | None]:
+        """f of the programmed channels along a motion."""
+        nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+        low, high = motion.edges[:-1, None], motion.edges[1:, None]
+        t = ((high + low) / 2 + (high - low) / 2 * nodes).ravel()
+        phi, w = rotation_vector(motion.attitude(t)), motion.rate(t)
+        if np.linalg.norm(phi, axis=-1).max() > 0.99 * FULL_TURN:
+            raise NotConverged("the motion came to a full turn, where rotation vectors end", miss)
+        m = self.control_acceleration(t, phi, w, motion.commands(t))
+        f = self.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
+        fit = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
+        series = np.einsum("dn,pnc->cpd", fit, f)
+        return [Coupling(motion.edges, series[i]) if i in self.programmed else None for i in range(3)]
+
+
+def body_rate(ends: NDArray[np.float64]) -> NDArray[np.float64]:
+    """w = B phi' of channels with states (3, 3)."""
+    return np.asarray(np.linalg.solve(vector_rate_matrix(ends[:, 0]), ends[:, 1]), dtype=float)
