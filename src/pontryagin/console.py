@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 import typer
 
-from pontryagin import expression, files
+from pontryagin import files
+from pontryagin import formula as formulas
 
 Report = Mapping[str, Mapping[str, Any]]
 """Headings, and under each its quantities: what a table shows and JSON holds."""
@@ -35,10 +36,7 @@ class Refusal(typer.TyperException):
 
 def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:
     """A finite number such as ``0.5``, ``1e-3`` or ``pi/4``."""
-    try:
-        value = expression.read(text)
-    except ValueError:
-        value = math.nan
+    value = _number(text)
     if not value >= at_least:
         raise Refusal(option, f"takes {takes}, got {text!r}")
     return value
@@ -51,21 +49,26 @@ def positive(option: str, text: str) -> float:
 
 def vector(option: str, text: str, length: int) -> list[float]:
     """Numbers between commas."""
-    try:
-        values = [expression.read(part) for part in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != length:
+    values = [_number(part) for part in text.split(",")]
+    if len(values) != length or not np.isfinite(values).all():
         raise Refusal(option, f"takes {length} numbers with commas between, got {text!r}")
     return values
 
 
-def formula(option: str, text: str, variable: str) -> Any:
-    """A number, or a SymPy expression in one variable."""
+def formula(option: str, text: str, variable: str) -> float | formulas.Formula:
+    """A number, or a function of one variable."""
     try:
-        return expression.read(text, variable)
+        return formulas.read(text, variable)
     except ValueError as reason:
         raise Refusal(option, f": {reason}") from None
+
+
+def _number(text: str) -> float:
+    """The number that a text stands for, nan if it stands for none."""
+    try:
+        return formulas.number(text)
+    except ValueError:
+        return math.nan
 
 
 def required(given: Mapping[str, object]) -> None:

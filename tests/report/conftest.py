@@ -64,6 +64,11 @@ ENTRIES = [
 ]
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def entries():
     return [dict(entry) for entry in ENTRIES]
+
+
+@pytest.fixture(scope="session")
+def new_checkout():
+    return Checkout

@@ -95,7 +95,9 @@ def test_files_that_code_may_read_are_seen_in_its_strings():
 def test_nothing_below_the_report_imports_the_report_or_the_command_line():
     for name, path in REAL.modules.items():
         if not name.startswith(("pontryagin.report", "pontryagin.cli", "pontryagin.__main__")):
-            imports = re.findall(r"^ *(?:from|import) +(\S+)(?: +import +(\w+))?", path.read_text(), re.MULTILINE)
+            imports = re.findall(
+                r"^ *(?:from|import) +(\S+)(?: +import +(\w+))?", path.read_text(), re.MULTILINE
+            )
             reached = {".".join(parts).rstrip(".") for parts in imports}
             assert not [m for m in reached if m.startswith(("pontryagin.report", "pontryagin.cli"))], name
 

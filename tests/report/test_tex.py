@@ -1,8 +1,9 @@
 import pytest
 import sympy as sp
-from pontryagin.report import tex, tree
 from hypothesis import given
 from hypothesis import strategies as st
+
+from pontryagin.report import tex, tree
 
 x, y = sp.symbols("x y", real=True)
 t, T = sp.symbols("t T", positive=True)
@@ -55,7 +56,9 @@ def test_norms_and_absolute_values_become_fences(formula, shown):
     assert typst_of(formula).replace(r"\(", "(").replace(r"\)", ")") == shown
 
 
-@pytest.mark.parametrize("formula", [r"\{x \mid x > 0\}", "P(a|b)+P(c|d)", r"\bigl|x\bigr|", r"\left.f\right|_{x}"])
+@pytest.mark.parametrize(
+    "formula", [r"\{x \mid x > 0\}", "P(a|b)+P(c|d)", r"\bigl|x\bigr|", r"\left.f\right|_{x}"]
+)
 def test_bars_that_close_nothing_are_left_alone(formula):
     assert tex.for_typst(formula)[0] == formula
 
@@ -72,7 +75,7 @@ def test_the_columns_of_cases_are_set_apart():
 @given(st.text(alphabet=r"x|{}()\a_ &", max_size=12))
 def test_rewriting_keeps_braces_as_they_were(formula):
     plain, _ = tex.for_typst(formula)
-    assert (plain.count("{"), plain.count("}")) == (formula.count("{"), formula.count("}")) or "\\v" in formula
+    assert [c for c in plain if c in "{}"] == [c for c in formula if c in "{}"]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The control of greatest entropy: its moments, its optimality, and its place at the end of the L_q family."""
+"""The control of greatest entropy: its moments, its optimality, its place at the end of the L_q family."""
 
 import numpy as np
 import pytest

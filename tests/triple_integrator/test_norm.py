@@ -17,7 +17,7 @@ from pontryagin.triple_integrator.norm import dual_bound, minimum_norm
 from pontryagin.triple_integrator.peak import minimum_peak
 from pontryagin.triple_integrator.quadrature import Quadratic, graded_rule, logistic_rule, moments_beyond
 
-few = settings(max_examples=12, deadline=None)
+few = settings(max_examples=8, deadline=None)
 REST_TO_REST = Maneuver([0, 0, 0], [1, 0, 0], tf=1.0)
 
 exponents = st.sampled_from([1.02, 1.1, 1.3, 1.7, 2.0, 2.5, 4.0, 9.0, 40.0, 100.0])
@@ -83,7 +83,7 @@ def test_the_control_steers_the_true_state_to_the_target(m, q):
     assert_allclose((propagated(s) - m.xf) / moment_scale(m), 0, atol=1e-9)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(maneuvers(), exponents)
 def test_the_state_reaches_the_target_and_follows_the_equations(m, q):
     s = minimum_norm(m, q)

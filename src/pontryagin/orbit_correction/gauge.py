@@ -45,12 +45,12 @@ def forward_backward(factor, right):
         right[i] /= factor[i, i]
 
 
-def support(factors, psi):
-    """S(psi)."""
+def support(factors, psi, smoothing):
+    """S(psi), each term |g| rounded off to sqrt(|g|^2 + smoothing^2)."""
     steps, n, m = factors.shape
     total = 0.0
     for k in range(steps):
-        square = 0.0
+        square = smoothing * smoothing
         for j in range(m):
             part = 0.0
             for i in range(n):
@@ -60,15 +60,15 @@ def support(factors, psi):
     return total
 
 
-def support_derivatives(factors, psi, gradient, hessian):
-    """S(psi), its gradient (the support point) and its second derivative (lower triangle), in place."""
+def support_derivatives(factors, psi, smoothing, gradient, hessian):
+    """`support`, its gradient (the support point) and its second derivative (lower triangle), in place."""
     steps, n, m = factors.shape
     total = 0.0
     gradient[:] = 0.0
     hessian[:, :] = 0.0
     part, point = np.empty(m), np.empty(n)
     for k in range(steps):
-        square = 0.0
+        square = smoothing * smoothing
         for j in range(m):
             part[j] = 0.0
             for i in range(n):
@@ -93,43 +93,56 @@ def support_derivatives(factors, psi, gradient, hessian):
     return total
 
 
-def gauge_of(factors, gram_factor, b, psi):
-    """Lower and upper bound on the gauge of b; psi starts from the Gramian and ends as the costate.
+def gauge_of(factors, gram_factor, b, psi, controls):
+    """Lower bound on the gauge of b, and peak of controls (steps, m) that reach b; psi ends as the costate.
 
     ``gram_factor`` is the Cholesky factor of the sum of G_k G_k'.
     """
+    if not least_energy_start(factors, gram_factor, b, psi):
+        controls[:, :] = 0.0
+        return 0.0, 0.0
+    newton(factors, b, psi, 0.0)
+    return bounds(factors, gram_factor, b, psi, controls)
+
+
+def least_energy_start(factors, gram_factor, b, psi):
+    """The costate of the least-energy controls, scaled to the best value of the dual; False if b = 0."""
     n = b.shape[0]
-    gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
     size = 0.0
     for i in range(n):
         size = max(size, fabs(b[i]))
         psi[i] = b[i]
     if size == 0.0:
-        return 0.0, 0.0
+        return False
     forward_backward(gram_factor, psi)
     pairing = 0.0
     for i in range(n):
         pairing += b[i] * psi[i]
-    total = support(factors, psi)
+    total = support(factors, psi, 0.0)
     for i in range(n):
         psi[i] *= pairing / (total * total)
-    value = 1e300
+    return True
+
+
+def newton(factors, b, psi, smoothing):
+    """Minimise S(psi)^2/2 - (b, psi) from psi, in place."""
+    n = b.shape[0]
+    gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
     polish = 3
     for _ in range(STEPS):
-        total = support_derivatives(factors, psi, gradient, hessian)
+        total = support_derivatives(factors, psi, smoothing, gradient, hessian)
         pairing = 0.0
         for i in range(n):
             pairing += b[i] * psi[i]
         value = 0.5 * total * total - pairing
         for i in range(n):
             step[i] = b[i] - total * gradient[i]
+            trial[i] = step[i]
             for l in range(i + 1):
                 hessian[i, l] = total * hessian[i, l] + gradient[i] * gradient[l]
-        slope = 0.0
-        for i in range(n):
-            trial[i] = step[i]
         if not cholesky_solve(hessian, step):
             break
+        slope = 0.0
         for i in range(n):
             slope += trial[i] * step[i]
         length = 1.0
@@ -137,7 +150,7 @@ def gauge_of(factors, gram_factor, b, psi):
         for _ in range(40):
             for i in range(n):
                 trial[i] = psi[i] + length * step[i]
-            after = support(factors, trial)
+            after = support(factors, trial, smoothing)
             pairing = 0.0
             for i in range(n):
                 pairing += b[i] * trial[i]
@@ -150,18 +163,16 @@ def gauge_of(factors, gram_factor, b, psi):
             polish -= 1
             if polish == 0:
                 break
-    return bounds(factors, gram_factor, b, psi)
 
 
-def bounds(factors, gram_factor, b, psi):
+def bounds(factors, gram_factor, b, psi, parts):
     """What psi proves from below, and the peak of the controls it chooses once they reach b exactly."""
     steps, n, m = factors.shape
-    total, pairing = support(factors, psi), 0.0
+    total, pairing = support(factors, psi, 0.0), 0.0
     for i in range(n):
         pairing += b[i] * psi[i]
     lower = pairing / total
     miss = b.copy()
-    parts = np.empty((steps, m))
     for k in range(steps):
         square = 0.0
         for j in range(m):
@@ -188,5 +199,6 @@ def bounds(factors, gram_factor, b, psi):
 
 def gauge_stack(factors, gram_factor, targets, costates, results):
     """`gauge_of` for each row of targets (states, n), into costates (states, n) and results (states, 2)."""
+    controls = np.empty((factors.shape[0], factors.shape[2]))
     for row in range(targets.shape[0]):
-        results[row, 0], results[row, 1] = gauge_of(factors, gram_factor, targets[row], costates[row])
+        results[row, 0], results[row, 1] = gauge_of(factors, gram_factor, targets[row], costates[row], controls)

@@ -57,7 +57,7 @@ def _for_html(node: tree.Node) -> list[tree.Node] | None:
 
 def _with_maker(figure: tree.Node) -> tree.Node:
     images = list(tree.elements(figure, "Image"))
-    if images and images[0]["c"][2][0].startswith("figures/"):
+    if images and images[0]["c"][2][0].count("/") == 2 and images[0]["c"][2][0].startswith("figures/"):
         span = {"t": "Span", "c": [["", ["made-by"], []], [_maker(images[0]["c"][2][0])]]}
         caption: list[Any] = figure["c"][1][1]
         caption[-1]["c"] = [*caption[-1]["c"], {"t": "Space"}, span]

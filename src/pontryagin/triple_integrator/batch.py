@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin import expression
+from pontryagin import formula
 from pontryagin.triple_integrator.transcript import account, certificate_of
 
 START, END = ("x10", "x20", "x30"), ("x1f", "x2f", "x3f")
@@ -67,7 +67,7 @@ def _numbers(
     values = []
     for place in places:
         try:
-            values.append(expression.read(row[place]))
+            values.append(formula.number(row[place]))
         except ValueError:
             raise ValueError(f"line {line}: {header[place]} takes a number, got {row[place]!r}") from None
     named = dict(zip((header[place] for place in places), values, strict=True))

@@ -1,4 +1,4 @@
-"""One body driven by three channels: phi'' = m + f exactly, and the f(t) that a motion holds for each channel.
+"""One body driven by three channels: phi'' = m + f exactly, and the f(t) that a motion holds for each.
 
 A channel is a component of the rotation vector phi; its control acceleration is a component of m, with the
 torque M = J m. f(phi, phi', m) is then all that Euler's equations and the kinematics add.
@@ -69,6 +69,7 @@ class Channels:
 
     @property
     def given(self) -> list[int]:
+        """G."""
         return [i for i in range(3) if i not in self.programmed]
 
     @property
@@ -79,6 +80,7 @@ class Channels:
 
     @property
     def interval(self) -> tuple[float, float]:
+        """t0 and tf."""
         maneuver = self.programmes[0].maneuver
         return float(maneuver.t0), float(maneuver.tf)
 

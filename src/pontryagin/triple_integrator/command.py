@@ -59,7 +59,7 @@ def solve(
 
     The least norm of u for a given duration (--norm, --duration), or the least time under a bound on
     |u| (--peak). Numbers may be written like pi/2 or 1e-3. Formulas hold t, pi, + - * / ^ and
-    abs, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt.
+    abs, sign, sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, asin, acos, atan.
 
     A CSV file for --batch has the columns x10, x20, x30, x1f, x2f, x3f, for a given duration tf (and t0
     if not 0), and any others, which are kept; each row comes back with its solution and certificate.

@@ -23,9 +23,10 @@ ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multipli
 F as printed, or |F|, over lambda~ by Brent's method from 0; or minimise |F| over all lambda~ that put both
 zeros within the manoeuvre, on a grid and from its best three points."""
 
-REASONS = ("singular", "sign", "outside", "boundary", "elsewhere")
+REASONS = ("singular", "sign", "crossed", "outside", "boundary", "early")
 """Why a search fails, the first that applies: it runs to c0 = 0; the curvature has the wrong sign, on the
-wrong side of c0 = 0; a zero lies outside the manoeuvre; one lies at an end, or they have merged; else."""
+wrong side of c0 = 0; t1 has passed t2; a zero lies outside the manoeuvre; one lies at an end, or they have
+merged; it stopped early."""
 
 AGREES = 1e-6
 """Relative difference up to which a level found is the certified least one."""
@@ -179,8 +180,8 @@ def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: floa
     if c0 * curvature < 0:
         return "sign"
     if room < -1e-9:
-        return "outside"
-    return "boundary" if room < 1e-6 else "elsewhere"
+        return "crossed" if zeros[0] > zeros[1] else "outside"
+    return "boundary" if room < 1e-6 else "early"
 
 
 @cache

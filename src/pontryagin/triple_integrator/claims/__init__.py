@@ -4,24 +4,42 @@ One module per step of the paper. A module transcribes and judges; what is deriv
 `pontryagin.triple_integrator.derivation`.
 """
 
+from itertools import chain
+
 from pontryagin.triple_integrator.claims import (
     chebyshev,
     energy,
+    example_1,
+    example_2,
+    impulse,
     model,
     moments,
-    parabola,
+    norms,
     peak,
     principle,
+    problems,
+    reach,
     search,
+    vertex,
+    zeros,
 )
 
-ENTRIES = (
-    *model.claim,
-    *moments.claim,
-    *principle.claim,
-    *energy.claim,
-    *peak.claim,
-    *parabola.claim,
-    *search.claim,
-    *chebyshev.claim,
+IN_ORDER = (
+    model,
+    moments,
+    norms,
+    principle,
+    problems,
+    energy,
+    example_1,
+    peak,
+    zeros,
+    vertex,
+    search,
+    example_2,
+    chebyshev,
+    impulse,
+    reach,
 )
+
+ENTRIES = tuple(chain.from_iterable(part.claim for part in IN_ORDER))

@@ -23,18 +23,25 @@ l1, l2, l3 = multipliers
 F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 
-@claim("(4.1)", "the dual problem: least max |h| on l'c = 1", verdict="holds",
-       remark="The essential maximum is the maximum, for h is continuous.")
+@claim(
+    "(4.1)",
+    "the dual problem: least max |h| on l'c = 1",
+    verdict="holds",
+    remark="The essential maximum is the maximum, for h is continuous.",
+)
 def dual_problem():
     def argument() -> Steps:
         a0, am, aT = sp.symbols("a_0 a_m a_T", positive=True)
         impulses = {chebyshev.impulses[0]: a0, chebyshev.impulses[1]: am, chebyshev.impulses[2]: aT}
         reached = chebyshev.impulse_transfer().subs(impulses).subs(sign, 1)
         moments = reached - transition(T) * sp.Matrix(sp.symbols("x_10 x_20 x_30", real=True))
-        least = {key: sp.cancel(value.subs(dict(zip(c, moments, strict=True)))) for key, value in
-                 chebyshev.minimal_multipliers().items()}
-        yield "for moments of impulses a0, −am, aT at 0, T/2, T the polynomial ρ0 T2 has ρ0 = 1/(a0 + am + aT)", vanishes(
-            least[signed_norm] - 1 / (a0 + am + aT)
+        least = {
+            key: sp.cancel(value.subs(dict(zip(c, moments, strict=True))))
+            for key, value in chebyshev.minimal_multipliers().items()
+        }
+        yield (
+            "for moments of impulses a0, −am, aT at 0, T/2, T the polynomial ρ0 T2 has ρ0 = 1/(a0 + am + aT)",
+            vanishes(least[signed_norm] - 1 / (a0 + am + aT)),
         )
         condition = sum(least[l] * m for l, m in zip(multipliers, moments, strict=True))
         yield "and l'c = 1", vanishes(condition - 1)
@@ -42,9 +49,12 @@ def dual_problem():
         bounds = [impulse_bound(l, sample, sp.S.One) for l in (sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]))]
         yield "no other h proves more than 1/ρ0 (a sample)", bounds[0] > bounds[1]
 
-    return Proof(argument,
-        display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_\infty} = \min_{l_1c_1 + l_2c_2 + l_3c_3 = 1} "
-        r"\max_{\tau \in [t_0, t_f]} \left| h(\tau) \right| = \rho_0")
+    return Proof(
+        argument,
+        display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_\infty} = \min_{l_1c_1 + l_2c_2 + l_3c_3 "
+        r"= 1} "
+        r"\max_{\tau \in [t_0, t_f]} \left| h(\tau) \right| = \rho_0",
+    )
 
 
 @claim("(4.2)", "the minimal element is a quadratic in tf − τ", verdict="holds")
@@ -56,15 +66,22 @@ def minimal_element():
         psi = transition(tf - tau).T * multipliers
         return {key: psi[2]}
 
-    return Equality({key: printed}, derived,
-        display=r"h_0(\tau) = \tfrac12 l_{10}(t_f - \tau)^2 + l_{20}(t_f - \tau) + l_{30}")
+    return Equality(
+        {key: printed},
+        derived,
+        display=r"h_0(\tau) = \tfrac12 l_{10}(t_f - \tau)^2 + l_{20}(t_f - \tau) + l_{30}",
+    )
 
 
 @claim("(4.3)", "its multipliers satisfy l0'c = 1", verdict="holds")
 def condition_on_the_multipliers():
     def derived():
         least = chebyshev.minimal_multipliers()
-        return {"c_1 l_{10} + c_2 l_{20} + c_3 l_{30}": sum(m * least[l] for m, l in zip(c, multipliers, strict=True))}
+        return {
+            "c_1 l_{10} + c_2 l_{20} + c_3 l_{30}": sum(
+                m * least[l] for m, l in zip(c, multipliers, strict=True)
+            )
+        }
 
     return Equality({"c_1 l_{10} + c_2 l_{20} + c_3 l_{30}": sp.S.One}, derived)
 
@@ -74,8 +91,10 @@ def condition_on_the_multipliers():
     "for arbitrary ends the minimal element is ±ρ0 T2, the polynomial least deviating from zero",
     verdict="conditional",
     remark="True where a0, am, aT of (4.10) are all ≥ 0 for s0 = sign F (a cone of c), and nowhere else. For "
-    "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: the "
-    "polynomial that deviates least depends on the side condition l'c = 1, which the classical problem lacks.",
+    "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: "
+    "the "
+    "polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
+    "lacks.",
 )
 def minimal_element_is_chebyshev():
     def argument() -> Steps:
@@ -91,14 +110,19 @@ def minimal_element_is_chebyshev():
     def counterexample() -> Steps:
         moments = piecewise_moments([(R(1), 1)])
         yield "u = 1 has c = (1/6, 1/2, 1)", moments == sp.Matrix([R(1, 6), R(1, 2), 1])
-        least = [chebyshev.minimal_multipliers()[l].subs({T: 1, **dict(zip(c, moments, strict=True))}) for l in multipliers]
+        least = [
+            chebyshev.minimal_multipliers()[l].subs({T: 1, **dict(zip(c, moments, strict=True))})
+            for l in multipliers
+        ]
         polynomial = sp.Matrix(least)
-        yield "±ρ0 T2 with l'c = 1 has the norm 3", (
-            (polynomial.T * moments)[0] == 1 and peak_of(dual_function_of(polynomial), sp.S.One) == 3
+        yield (
+            "±ρ0 T2 with l'c = 1 has the norm 3",
+            ((polynomial.T * moments)[0] == 1 and peak_of(dual_function_of(polynomial), sp.S.One) == 3),
         )
         constant = sp.Matrix([0, 0, 1])
-        yield "h = 1, also with l'c = 1, has the norm 1", (
-            (constant.T * moments)[0] == 1 and peak_of(dual_function_of(constant), sp.S.One) == 1
+        yield (
+            "h = 1, also with l'c = 1, has the norm 1",
+            ((constant.T * moments)[0] == 1 and peak_of(dual_function_of(constant), sp.S.One) == 1),
         )
 
     return Conditional(argument, counterexample=counterexample)
@@ -120,7 +144,12 @@ def minimal_element_in_powers():
     return Equality({r"h_0(\tau)": printed}, lambda: {r"h_0(\tau)": chebyshev.dual_in_time()})
 
 
-@claim("(4.5)", "T2 in the variable τ", verdict="holds", remark="The scan reads τ as φ in the sentence before it.")
+@claim(
+    "(4.5)",
+    "T2 in the variable τ",
+    verdict="holds",
+    remark="The scan reads τ as φ in the sentence before it.",
+)
 def chebyshev_in_time():
     key = r"T_2(2\tau/T - 1)"
     printed = 8 * tau**2 / T**2 - 8 * tau / T + 1
@@ -154,9 +183,12 @@ def cramers_rule():
         found = chebyshev.minimal_multipliers()
         return {key: found[unknown] for key, unknown in zip(keys, (*multipliers, signed_norm), strict=True)}
 
-    return Equality(printed, derived,
+    return Equality(
+        printed,
+        derived,
         display=r"l_{10} = \frac{D_1}{D};\quad l_{20} = \frac{D_2}{D};\quad l_{30} = \frac{D_3}{D};\quad "
-        r"\tilde{\rho}_0 = \frac{D_\rho}{D}")
+        r"\tilde{\rho}_0 = \frac{D_\rho}{D}",
+    )
 
 
 @claim("after (4.6): determinants", "D1, D2, D3, Dρ", verdict="holds")
@@ -167,8 +199,11 @@ def cramer_numerators():
 
 @claim("after (4.6): D", "D = FT/128 with F = 16c1 − 8Tc2 + T²c3", verdict="holds")
 def cramer_denominator():
-    return Equality({"D": F * T / 128}, lambda: {"D": chebyshev.cramer(chebyshev.matching())[1]},
-        display=r"D = \tfrac{1}{128} F T,\quad F = 16c_1 - 8Tc_2 + T^2c_3")
+    return Equality(
+        {"D": F * T / 128},
+        lambda: {"D": chebyshev.cramer(chebyshev.matching())[1]},
+        display=r"D = \tfrac{1}{128} F T,\quad F = 16c_1 - 8Tc_2 + T^2c_3",
+    )
 
 
 @claim("after (4.6): solution", "l10 = 16/F, l20 = −8T/F, l30 = T²/F, ρ~0 = T²/F", verdict="holds")
@@ -193,12 +228,19 @@ def element() -> sp.Expr:
 @claim("after (4.6): h0", "h0(τ) = ρ~0 (8τ²/T² − 8τ/T + 1)", verdict="holds")
 def chebyshev_element():
     printed = T**2 / F * (8 * tau**2 / T**2 - 8 * tau / T + 1)
-    return Equality({r"h_0(\tau)": printed}, lambda: {r"h_0(\tau)": element()},
-        display=r"h_0(\tau) = \tilde{\rho}_0\left(\frac{8\tau^2}{T^2} - \frac{8\tau}{T} + 1\right)")
+    return Equality(
+        {r"h_0(\tau)": printed},
+        lambda: {r"h_0(\tau)": element()},
+        display=r"h_0(\tau) = \tilde{\rho}_0\left(\frac{8\tau^2}{T^2} - \frac{8\tau}{T} + 1\right)",
+    )
 
 
-@claim("after (4.6): ρ0", "its norm is ρ0 = T²/|F|, and sign s0 = sign F", verdict="holds",
-       remark="The norm of this h0; that it is the least norm is another claim, above.")
+@claim(
+    "after (4.6): ρ0",
+    "its norm is ρ0 = T²/|F|, and sign s0 = sign F",
+    verdict="holds",
+    remark="The norm of this h0; that it is the least norm is another claim, above.",
+)
 def norm_of_the_chebyshev_element():
     def derived():
         ends = [element().subs(tau, instant) for instant in (0, T / 2, T)]
@@ -210,8 +252,11 @@ def norm_of_the_chebyshev_element():
         yield "h0(0)² − h0(τ)² = 16τ(T − τ)(T − 2τ)²/F² ≥ 0", vanishes(below - shape)
         yield "h0(0) = T²/F has the sign of F", vanishes(element().subs(tau, 0) - T**2 / F)
 
-    return Proof(argument, Equality({r"\rho_0^2": T**4 / F**2, r"\rho_0": T**2 / sp.Abs(F)}, derived),
-        display=r"\rho_0 = \frac{T^2}{\left| F \right|}")
+    return Proof(
+        argument,
+        Equality({r"\rho_0^2": T**4 / F**2, r"\rho_0": T**2 / sp.Abs(F)}, derived),
+        display=r"\rho_0 = \frac{T^2}{\left| F \right|}",
+    )
 
 
 @claim("after (4.6): extremes", "h0 is extreme at 0, T/2 and T", verdict="holds")
@@ -233,5 +278,10 @@ def values_at_the_extremes():
     keys = (r"h_0(0)", r"h_0(T/2)", r"h_0(T)")
     # s0 rho0 = rho~0 = T^2/F.
     printed = dict(zip(keys, (T**2 / F, -(T**2) / F, T**2 / F), strict=True))
-    return Equality(printed, lambda: {key: sp.cancel(element().subs(tau, at)) for key, at in zip(keys, (0, T / 2, T), strict=True)},
-        display=r"h_0(\tau_{1,3}^*) = s_0\rho_0,\quad h_0(\tau_2^*) = -s_0\rho_0")
+    return Equality(
+        printed,
+        lambda: {
+            key: sp.cancel(element().subs(tau, at)) for key, at in zip(keys, (0, T / 2, T), strict=True)
+        },
+        display=r"h_0(\tau_{1,3}^*) = s_0\rho_0,\quad h_0(\tau_2^*) = -s_0\rho_0",
+    )

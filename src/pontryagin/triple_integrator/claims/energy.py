@@ -1,4 +1,4 @@
-"""Section 2, (2.1) to (2.5): the least-energy programme and example 1."""
+"""Section 2, (2.1) to (2.3): the least-energy programme."""
 
 import sympy as sp
 
@@ -38,19 +38,30 @@ def in_paper_time(program: sp.Expr) -> sp.Expr:
     return program.subs(s, to_go)
 
 
-@claim("before (2.1): dual problem", "the least L2 norm of h on l'c = 1 is the least (l'Dl)^(1/2)", verdict="holds")
+@claim(
+    "before (2.1): dual problem",
+    "the least L2 norm of h on l'c = 1 is the least (l'Dl)^(1/2)",
+    verdict="holds",
+)
 def dual_norm_in_l2():
     def derived():
         h = sp.expand((multipliers.T * impulse_response())[0] ** 2)
         return {r"\lVert h(\cdot) \rVert_{L_2}^2": sp.integrate(h, (s, 0, T))}
 
     printed = sp.expand((multipliers.T * energy.gramian() * multipliers)[0])
-    return Equality({r"\lVert h(\cdot) \rVert_{L_2}^2": printed}, derived,
+    return Equality(
+        {r"\lVert h(\cdot) \rVert_{L_2}^2": printed},
+        derived,
         display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_2} = "
-        r"\min_{l^T c=1} \left[l^T D l\right]^{1/2} = \rho_0")
+        r"\min_{l^T c=1} \left[l^T D l\right]^{1/2} = \rho_0",
+    )
 
 
-@claim("before (2.1): Gramian", "D = W(tf, t0), the integral of Φbb'Φ', is the controllability Gramian", verdict="holds")
+@claim(
+    "before (2.1): Gramian",
+    "D = W(tf, t0), the integral of Φbb'Φ', is the controllability Gramian",
+    verdict="holds",
+)
 def definition_of_the_gramian():
     def argument() -> Steps:
         candidate = energy.gramian()
@@ -60,8 +71,9 @@ def definition_of_the_gramian():
         end = drive(sp.zeros(3, 1), T, program.subs(s, T - tau))
         yield "b'Φ'D⁻¹c takes the channel from rest to c", vanishes(end - c)
 
-    return Proof(argument,
-        display=r"D = W(t_f, t_0) = \int_{t_0}^{t_f} \Phi(t_f, \tau) b b^T \Phi^T(t_f, \tau)\,d\tau")
+    return Proof(
+        argument, display=r"D = W(t_f, t_0) = \int_{t_0}^{t_f} \Phi(t_f, \tau) b b^T \Phi^T(t_f, \tau)\,d\tau"
+    )
 
 
 @claim(
@@ -84,21 +96,30 @@ def gramian_in_powers():
 
 @claim("after (2.1): λ", "Lagrange multiplier λ = −2 (c'D⁻¹c)⁻¹", verdict="holds")
 def lagrange_multiplier():
-    return Equality({r"\lambda": -2 / inverse_form()}, lambda: {r"\lambda": energy.stationary()[0]},
-        display=r"\lambda = -2(\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1}")
+    return Equality(
+        {r"\lambda": -2 / inverse_form()},
+        lambda: {r"\lambda": energy.stationary()[0]},
+        display=r"\lambda = -2(\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1}",
+    )
 
 
 @claim("after (2.1): l0", "l0 = (c'D⁻¹c)⁻¹ D⁻¹c", verdict="holds")
 def minimal_multipliers():
     printed = energy.gramian().inv() * c / inverse_form()
-    return Equality({r"\mathbf{l}_0": printed}, lambda: {r"\mathbf{l}_0": energy.stationary()[1]},
-        display=r"\mathbf{l}_0 = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1} \mathbf{D}^{-1} \mathbf{c}")
+    return Equality(
+        {r"\mathbf{l}_0": printed},
+        lambda: {r"\mathbf{l}_0": energy.stationary()[1]},
+        display=r"\mathbf{l}_0 = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1} \mathbf{D}^{-1} \mathbf{c}",
+    )
 
 
 @claim("after (2.1): ρ0", "ρ0 = (c'D⁻¹c)^(−1/2)", verdict="holds")
 def least_dual_norm():
-    return Equality({r"\rho_0^2": 1 / inverse_form()}, lambda: {r"\rho_0^2": energy.dual_norm() ** 2},
-        display=r"\rho_0 = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1/2}")
+    return Equality(
+        {r"\rho_0^2": 1 / inverse_form()},
+        lambda: {r"\rho_0^2": energy.dual_norm() ** 2},
+        display=r"\rho_0 = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{-1/2}",
+    )
 
 
 @claim("after (2.1): h0", "h0(τ) = (c'D⁻¹c)⁻¹ c'D⁻¹ Φ(tf, τ)b", verdict="holds")
@@ -120,15 +141,20 @@ def conditions_on_the_optimum():
         factor, rest = sp.symbols("mu N", nonnegative=True)
         pairing = factor * square
         norm = factor**2 * square + rest
-        yield "the pairing is largest for a given norm when n = 0", sp.diff(norm, rest) == 1 and not pairing.has(rest)
+        yield (
+            "the pairing is largest for a given norm when n = 0",
+            sp.diff(norm, rest) == 1 and not pairing.has(rest),
+        )
         program = energy.minimum_energy_control()
         ratio = sp.cancel(program / energy.minimal_element())
         yield "the programme is a multiple of h0", not ratio.has(s)
         yield "by c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
 
-    return Proof(argument,
+    return Proof(
+        argument,
         display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1,\quad "
-        r"\left(\int_{t_0}^{t_f} u^2(\tau)\,d\tau\right)^{1/2} = \frac{1}{\rho_0}")
+        r"\left(\int_{t_0}^{t_f} u^2(\tau)\,d\tau\right)^{1/2} = \frac{1}{\rho_0}",
+    )
 
 
 @claim("before (2.2): μ", "μ = 1/ρ0²", verdict="holds")
@@ -158,8 +184,11 @@ def norm_of_the_programme():
         square = sp.integrate(sp.expand(energy.minimum_energy_control() ** 2), (s, 0, T))
         return {r"\lVert u^* \rVert_{L_2}^2": square}
 
-    return Equality({r"\lVert u^* \rVert_{L_2}^2": inverse_form()}, derived,
-        display=r"\lVert u^*(\cdot) \rVert_{L_2} = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{1/2}")
+    return Equality(
+        {r"\lVert u^* \rVert_{L_2}^2": inverse_form()},
+        derived,
+        display=r"\lVert u^*(\cdot) \rVert_{L_2} = (\mathbf{c}^T \mathbf{D}^{-1} \mathbf{c})^{1/2}",
+    )
 
 
 @claim("after (2.2): solution", "this solves problem 1 for arbitrary ends", verdict="holds")
@@ -206,78 +235,4 @@ def programme_written_out():
         lambda: {key: in_paper_time(energy.minimum_energy_control())},
         defect={key: 120 * c1 / T**3},
         consequence=consequence,
-    )
-
-
-@claim("(2.4)", "ends of example 1: a turn by γ_T from rest to rest, so c = (γ_T, 0, 0)", verdict="holds")
-def ends_of_example_1():
-    ends = {
-        **dict(zip(channel.initial, (0, 0, 0), strict=True)),
-        **dict(zip(channel.final, (turn, 0, 0), strict=True)),
-    }
-    keys = ("c_1", "c_2", "c_3")
-
-    def derived():
-        return dict(zip(keys, channel.required_moments().subs(ends), strict=True))
-
-    return Equality(dict(zip(keys, (turn, sp.S.Zero, sp.S.Zero), strict=True)), derived,
-        display=r"x_{10} = 0;\; x_{1f} = \gamma_T;\; x_{20} = x_{2f} = x_{30} = x_{3f} = 0 \;\Rightarrow\; "
-        r"c_1 = \gamma_T;\; c_2 = 0;\; c_3 = 0")
-
-
-def programme_of_example_1() -> sp.Expr:
-    """The derived programme of example 1 in the paper's time, t0 = 0."""
-    return energy.minimum_energy_control().subs(example_1()).subs(s, T - tau)
-
-
-@claim("(2.5), first form", "programme of example 1 in powers of T − τ", verdict="holds")
-def example_1_in_time_to_go():
-    lag = T - tau
-    printed = 360 / T**5 * (lag**2 - lag * T + T**2 / 6) * turn
-    return Equality({r"\tilde u^*(\tau)": printed}, lambda: {r"\tilde u^*(\tau)": programme_of_example_1()})
-
-
-@claim("(2.5)", "programme of example 1", verdict="holds")
-def example_1_programme():
-    printed = 360 / T**5 * (tau**2 - T * tau + T**2 / 6) * turn
-    return Equality({r"\tilde u^*(\tau)": printed}, lambda: {r"\tilde u^*(\tau)": programme_of_example_1()})
-
-
-@claim("after (2.5): symmetry", "the programme of example 1 is symmetric about τ = T/2", verdict="holds")
-def symmetry_of_example_1():
-    return Equality(
-        {r"\tilde u^*(T - \tau)": programme_of_example_1()},
-        lambda: {r"\tilde u^*(T - \tau)": programme_of_example_1().subs(tau, T - tau)},
-        display=r"\tilde u^*(T - \tau) = \tilde u^*(\tau)",
-    )
-
-
-@claim("after (2.5): ends", "its end values 60γ_T/T³ are its maximum", verdict="holds")
-def end_values_of_example_1():
-    keys = (r"\tilde u^*(0)", r"\tilde u^*(T)")
-
-    def derived():
-        program = programme_of_example_1()
-        return {keys[0]: program.subs(tau, 0), keys[1]: program.subs(tau, T)}
-
-    def argument() -> Steps:
-        program = programme_of_example_1()
-        inside = sp.factor(program.subs(tau, 0) - program)
-        yield "u(0) − u(τ) = 360γ τ(T − τ)/T⁵ ≥ 0", vanishes(inside - 360 * turn * tau * (T - tau) / T**5)
-
-    return Proof(argument, Equality(dict.fromkeys(keys, 60 * turn / T**3), derived))
-
-
-@claim("after (2.5): middle", "its value −30γ_T/T³ at T/2 is its minimum", verdict="holds")
-def middle_value_of_example_1():
-    key = r"\tilde u^*(T/2)"
-
-    def argument() -> Steps:
-        program = programme_of_example_1()
-        above = program - program.subs(tau, T / 2)
-        yield "u(τ) − u(T/2) = 360γ (τ − T/2)²/T⁵ ≥ 0", vanishes(above - 360 * turn * (tau - T / 2) ** 2 / T**5)
-
-    return Proof(
-        argument,
-        Equality({key: -30 * turn / T**3}, lambda: {key: programme_of_example_1().subs(tau, T / 2)}),
     )

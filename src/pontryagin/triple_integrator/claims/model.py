@@ -4,6 +4,7 @@ import sympy as sp
 
 from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.triple_integrator.claims.turn import BANG_BANG, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import (
     control,
@@ -15,8 +16,8 @@ from pontryagin.triple_integrator.derivation.channel import (
     tau,
     torque,
 )
-from pontryagin.triple_integrator.derivation.duality import peak_bound
-from pontryagin.triple_integrator.derivation.model import T, c, s
+from pontryagin.triple_integrator.derivation.duality import peak_bound, piecewise_moments
+from pontryagin.triple_integrator.derivation.model import T, s
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -73,7 +74,10 @@ def turn_by_an_angle():
         axis = sp.Matrix([0, 0, 1])
         turned = channel.rotation(angle, axis)
         yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
-        yield "its trace is 1 + 2 cos γf: it is a turn by γf", vanishes(turned.trace() - 1 - 2 * sp.cos(angle))
+        yield (
+            "its trace is 1 + 2 cos γf: it is a turn by γf",
+            vanishes(turned.trace() - 1 - 2 * sp.cos(angle)),
+        )
         back = channel.rotation(angle - 2 * sp.pi, axis)
         yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
         rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
@@ -133,7 +137,10 @@ def torque_is_continuous():
     def argument() -> Steps:
         instant, bound = sp.symbols("delta U", positive=True)
         grown = channel.drive(sp.zeros(3, 1), instant, bound)[2]
-        yield "over a time δ the torque changes by at most the integral of |u|", vanishes(grown - bound * instant)
+        yield (
+            "over a time δ the torque changes by at most the integral of |u|",
+            vanishes(grown - bound * instant),
+        )
         yield "which goes to zero with δ", sp.limit(grown, instant, 0) == 0
 
     def counterexample() -> Steps:
@@ -159,7 +166,9 @@ def ends_of_the_torque():
     return Equality({"m(t_0)": m0, "m(t_f)": mf}, derived)
 
 
-@claim("(0.6)", "the channel is a triple integrator with the disturbance in the second equation", verdict="holds")
+@claim(
+    "(0.6)", "the channel is a triple integrator with the disturbance in the second equation", verdict="holds"
+)
 def triple_integrator():
     names = {gamma(t): x1(t), omega(t): x2(t), torque(t): x3(t)}
 
@@ -182,14 +191,9 @@ def triple_integrator():
 @claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")
 def bound_on_the_control():
     def argument() -> Steps:
-        bang = [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
-        state = sp.zeros(3, 1)
-        for duration, level in bang:
-            state = channel.drive(state, duration, sp.Integer(level))
-        yield "the turn by 1 in unit time can be made with u0 = 32", state == sp.Matrix([1, 0, 0])
-        bound = peak_bound(sp.Matrix([1, -R(1, 2), R(3, 32)]), sp.Matrix([1, 0, 0]), sp.S.One)
-        yield "and with no smaller u0", bound == 32
-        least_energy = energy.minimum_energy_control().subs({T: 1, **dict(zip(c, [1, 0, 0], strict=True))})
+        yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
+        yield "and with no smaller u0", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+        least_energy = energy.minimum_energy_control().subs(unit_turn())
         yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
 
     return Proof(argument, display=r"\lvert u(t) \rvert \le u_0")
@@ -213,7 +217,11 @@ def final_state():
     return Equality({"x_1(t_f)": x1f, "x_2(t_f)": x2f, "x_3(t_f)": x3f}, derived)
 
 
-@claim("after (0.9)", "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c", verdict="holds")
+@claim(
+    "after (0.9)",
+    "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c",
+    verdict="holds",
+)
 def nontrivial():
     def argument() -> Steps:
         gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)

@@ -55,26 +55,32 @@ def paired_with(moments: sp.Matrix) -> sp.Expr:
 @claim("before (3.1)", "the least L1 norm of h on l'c = 1 is ρ0", verdict="holds")
 def dual_norm_in_l1():
     def argument() -> Steps:
-        yield "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)", vanishes(
-            paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()
+        yield (
+            "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
+            vanishes(paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()),
         )
         sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
         moments = two_switches(v, first, second, T).subs(sample)
         others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
         yield "and no h does better than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
 
-    return Proof(argument,
+    return Proof(
+        argument,
         display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_1} = \min_{l^T c = 1} \int_{t_0}^{t_f} "
-        r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0")
+        r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0",
+    )
 
 
 @claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
 def dual_problem():
     key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
-    return Equality({key: printed}, lambda: {key: parabola.parabola()},
+    return Equality(
+        {key: printed},
+        lambda: {key: parabola.parabola()},
         display=r"\min_{l^T c=1} \int_{t_0}^{t_f} \left| \psi_3(\tau) \right| d\tau = \rho_0,\quad "
-        r"\psi_3(\tau) = h(\tau)")
+        r"\psi_3(\tau) = h(\tau)",
+    )
 
 
 @claim("before (3.2)", "ψ3 from the adjoint equation and its end values", verdict="holds")
@@ -95,7 +101,8 @@ def third_costate():
     "(3.2)",
     "ρ0 as the least integral of the quadratic",
     verdict="misprint",
-    remark="Printed: square brackets around the integrand. Right: the modulus, as in (3.1) and (3.6). Without "
+    remark="Printed: square brackets around the integrand. Right: the modulus, as in (3.1) and (3.6). "
+    "Without "
     "it the integral is linear in l and has no minimum (the scan may have read bars as brackets).",
 )
 def dual_problem_written_out():
@@ -127,8 +134,11 @@ def minimising_costate():
         psi = transition(tf - t).T * multipliers
         return {r"\psi_3^*(t)": psi[2]}
 
-    return Equality({r"\psi_3^*(t)": printed}, derived,
-        display=r"\psi_3^*(t) = \tfrac12 (t_f - t)^2 l_{10} + (t_f - t) l_{20} + l_{30}")
+    return Equality(
+        {r"\psi_3^*(t)": printed},
+        derived,
+        display=r"\psi_3^*(t) = \tfrac12 (t_f - t)^2 l_{10} + (t_f - t) l_{20} + l_{30}",
+    )
 
 
 @claim("after (3.3): end values", "l10, l20, l30 are the end values of ψ1*, ψ2*, ψ3*", verdict="holds")
@@ -139,8 +149,11 @@ def end_values_of_the_costate():
         end = (transition(tf - t).T * multipliers).subs(t, tf)
         return dict(zip(keys, end, strict=True))
 
-    return Equality(dict(zip(keys, multipliers, strict=True)), derived,
-        display=r"l_{10} = \psi_1^*(t_f),\; l_{20} = \psi_2^*(t_f),\; l_{30} = \psi_3^*(t_f)")
+    return Equality(
+        dict(zip(keys, multipliers, strict=True)),
+        derived,
+        display=r"l_{10} = \psi_1^*(t_f),\; l_{20} = \psi_2^*(t_f),\; l_{30} = \psi_3^*(t_f)",
+    )
 
 
 @claim("before (3.4): conditions", "max ∫h0 u = 1 with max |u| = 1/ρ0, and u0 = 1/ρ0", verdict="holds")
@@ -157,16 +170,20 @@ def conditions_on_the_optimum():
         yield "ρ0 = ∫|h|/l'c is 1/v for the control of level v", vanishes(norm - 1 / v)
         yield "and ∫h0 u = l'c/l'c = 1", vanishes(norm * v - 1)
 
-    return Proof(argument, Equality({key: v}, derived),
+    return Proof(
+        argument,
+        Equality({key: v}, derived),
         display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1;\quad "
-        r"\max_{\tau} \left| u(\tau) \right| = \frac{1}{\rho_0};\quad u_0 = \frac{1}{\rho_0}")
+        r"\max_{\tau} \left| u(\tau) \right| = \frac{1}{\rho_0};\quad u_0 = \frac{1}{\rho_0}",
+    )
 
 
 @claim("before (3.4): uniqueness", "the maximum is attained only by u = sign h0 / ρ0", verdict="holds")
 def only_the_sign_attains_it():
     def argument() -> Steps:
-        yield "h0 is a polynomial and not zero, so it vanishes at two instants at most", (
-            sp.Poly(parabola.parabola(), tau).degree() == 2
+        yield (
+            "h0 is a polynomial and not zero, so it vanishes at two instants at most",
+            (sp.Poly(parabola.parabola(), tau).degree() == 2),
         )
         loss, weight = sp.symbols("delta h", positive=True)
         bound = sp.Symbol("U", positive=True)
@@ -176,8 +193,12 @@ def only_the_sign_attains_it():
     return Proof(argument, display=r"u(\tau) = \frac{1}{\rho_0} \operatorname{sign} h_0(\tau)")
 
 
-@claim("(3.4)", "least-peak programme u* = sign ψ3* / ρ0", verdict="holds",
-       remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.")
+@claim(
+    "(3.4)",
+    "least-peak programme u* = sign ψ3* / ρ0",
+    verdict="holds",
+    remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.",
+)
 def least_peak_programme():
     def argument() -> Steps:
         x = sp.Symbol("x", real=True, nonzero=True)
@@ -193,21 +214,31 @@ def least_peak_programme():
         yield "sign h0 / ρ0 has the moments that h0 was made for", piecewise_moments(pieces) == moments
         yield "and no control with them a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
 
-    return Proof(argument,
+    return Proof(
+        argument,
         display=r"u^*(t) = \frac{1}{\rho_0} \frac{\psi_3^*(t)}{\left| \psi_3^*(t) \right|} = "
-        r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)")
+        r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)",
+    )
 
 
-@claim("after (3.4): structure", "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout", verdict="holds")
+@claim(
+    "after (3.4): structure",
+    "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout",
+    verdict="holds",
+)
 def general_structure():
     def argument() -> Steps:
         zeros = sp.Poly(parabola.parabola(), tau).degree()
         yield "h0 changes sign at most twice", zeros == 2
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield "and is not zero, so sign h0 is ±1 almost everywhere", all(minor.is_positive for minor in minors)
+        yield (
+            "and is not zero, so sign h0 is ±1 almost everywhere",
+            all(minor.is_positive for minor in minors),
+        )
         determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
-        yield "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|", (
-            vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())
+        yield (
+            "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
+            (vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())),
         )
 
     return Proof(argument)
@@ -217,8 +248,10 @@ def general_structure():
     "after (3.4): T and u0",
     "T and u0 correspond one to one, so the problem is the inverse of least time",
     verdict="conditional",
-    remark="True where one end is an equilibrium (x2 = 0, x3 + f = 0, f constant): one can wait there, so u0(T) "
-    "falls strictly. In general it need not: from (0, 1, 0) to (1, 1, 0) with f = 0, u0(T) = 32|1 − T|/T³ takes "
+    remark="True where one end is an equilibrium (x2 = 0, x3 + f = 0, f constant): one can wait there, so "
+    "u0(T) "
+    "falls strictly. In general it need not: from (0, 1, 0) to (1, 1, 0) with f = 0, u0(T) = 32|1 − T|/T³ "
+    "takes "
     "the value 4 at three durations, T = 0.9067..., √5 − 1 and 2. Least time is then the smallest root.",
 )
 def one_to_one():
@@ -233,14 +266,19 @@ def one_to_one():
         rest = sp.Matrix([place, 0, -force])
         longer = moments(channel.initial, rest, positive + wait)
         moved = transition(wait) * moments(channel.initial, rest, positive)
-        yield "final equilibrium: the control for T, then 0 for the time w, performs the T + w manoeuvre", vanishes(
-            longer - moved
+        yield (
+            "final equilibrium: the control for T, then 0 for the time w, performs the T + w manoeuvre",
+            vanishes(longer - moved),
         )
         later = moments(rest, channel.final, positive + wait)
-        yield "initial equilibrium: likewise with 0 first", vanishes(later - moments(rest, channel.final, positive))
+        yield (
+            "initial equilibrium: likewise with 0 first",
+            vanishes(later - moments(rest, channel.final, positive)),
+        )
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield "so u0(T + w) ≤ u0(T); and less, for no h vanishes while one waits: l'c < u0(T) ∫|h|", all(
-            minor.is_positive for minor in minors
+        yield (
+            "so u0(T + w) ≤ u0(T); and less, for no h vanishes while one waits: l'c < u0(T) ∫|h|",
+            all(minor.is_positive for minor in minors),
         )
 
     def counterexample() -> Steps:
@@ -249,12 +287,18 @@ def one_to_one():
         state = start
         for share, sign in ((R(1, 4), -1), (R(1, 2), 1), (R(1, 4), -1)):
             state = drive(state, share * positive, sign * level)
-        yield "from (0, 1, 0) to (1, 1, 0): ∓32(T − 1)/T³ with switches at T/4, 3T/4 gets there", vanishes(state - end)
+        yield (
+            "from (0, 1, 0) to (1, 1, 0): ∓32(T − 1)/T³ with switches at T/4, 3T/4 gets there",
+            vanishes(state - end),
+        )
         needed = (end - drive(start, positive, sp.S.Zero)).applyfunc(sp.expand)
         l = root_multipliers(R(1, 4) * positive, R(3, 4) * positive)
         area = area_with_two_zeros().subs({first: R(1, 4) * T, second: R(3, 4) * T}).subs(T, positive)
         bound = sp.simplify((l.T * needed)[0] / area)
-        yield "and h = (τ − T/4)(τ − 3T/4) shows that no peak below 32|T − 1|/T³ does", vanishes(bound + level)
+        yield (
+            "and h = (τ − T/4)(τ − 3T/4) shows that no peak below 32|T − 1|/T³ does",
+            vanishes(bound + level),
+        )
         earlier = sp.Poly(4 * positive**3 - 32 * (1 - positive), positive)
         later = sp.Poly(4 * positive**3 - 32 * (positive - 1), positive)
         before = [x for x in earlier.real_roots() if 0 < x < 1]

@@ -1,11 +1,13 @@
-"""Section 1 from (1.12) on: minimal element, duality, Krasovskii's principle and the three problems."""
+"""Section 1, after (1.12): minimal element, duality and Krasovskii's principle, (1.13) and (1.14)."""
 
 import sympy as sp
 
 from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import chebyshev, energy
-from pontryagin.triple_integrator.derivation.channel import drive, kick, t, tau, tf
+from pontryagin.triple_integrator.derivation.channel import drive, kick
+from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
 from pontryagin.triple_integrator.derivation.duality import (
     area_of,
     conjugate_norm,
@@ -16,15 +18,12 @@ from pontryagin.triple_integrator.derivation.duality import (
     piecewise_moments,
 )
 from pontryagin.triple_integrator.derivation.model import (
-    CHAIN,
-    INPUT,
     T,
     c,
     impulse_response,
     moments_of,
     multipliers,
     s,
-    transition,
 )
 
 claim = Page("Gorelov & Morozova 2012")
@@ -32,24 +31,13 @@ claim = Page("Gorelov & Morozova 2012")
 R = sp.Rational
 v1, v2 = levels
 T1, T2 = lengths
-TURN = sp.Matrix([1, 0, 0])
-PEAK_DUAL = sp.Matrix([1, -R(1, 2), R(3, 32)])
-IMPULSE_DUAL = sp.Matrix([1, -R(1, 2), R(1, 16)])
-BANG_BANG = [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
 
 
-def three_impulses(first: sp.Expr, middle: sp.Expr, last: sp.Expr) -> sp.Matrix:
-    """Where impulses at 0, 1/2 and 1 take the channel from rest."""
-    state = drive(kick(sp.zeros(3, 1), first), R(1, 2), sp.S.Zero)
-    return kick(drive(kick(state, middle), R(1, 2), sp.S.Zero), last)
-
-
-def unit_turn() -> dict[sp.Symbol, sp.Expr]:
-    """The turn by 1 in unit time from rest to rest: T = 1, c = (1, 0, 0)."""
-    return {T: sp.S.One, **dict(zip(c, TURN, strict=True))}
-
-
-@claim("after (1.11): minimal element", "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖", verdict="holds")
+@claim(
+    "after (1.11): minimal element",
+    "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖",
+    verdict="holds",
+)
 def minimal_element_exists():
     def argument() -> Steps:
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
@@ -61,14 +49,16 @@ def minimal_element_exists():
         steered = piecewise_moments(BANG_BANG)
         yield "L1: a control of peak 32 makes the turn, so no ‖h‖ is below 1/32", steered == TURN
         yield "and one is 1/32", area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)
-        turned = three_impulses(sp.Integer(4), sp.Integer(-8), sp.Integer(4))
+        turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
         yield "L∞: impulses of total 16 make it, so no ‖h‖ is below 1/16", turned == TURN
         yield "and one is 1/16", peak_of(dual_function_of(IMPULSE_DUAL), sp.S.One) == R(1, 16)
 
     return Proof(argument)
 
 
-@claim("after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds")
+@claim(
+    "after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds"
+)
 def functional_on_the_dual_set():
     def derived():
         program = energy.minimum_energy_control()
@@ -90,15 +80,20 @@ def solvable_where_norm_is_positive():
         moments = dependent.applyfunc(lambda h: sp.integrate(h * (level + slope * s), (s, 0, T)))
         wrong = sp.Matrix([1, 1, 0])
         witness = sp.Matrix([2, -1, 0])
-        yield "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0", (
-            (witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0
+        yield (
+            "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0",
+            ((witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0),
         )
         yield "and no control has those moments", vanishes((witness.T * moments)[0])
 
     return Proof(argument)
 
 
-@claim("after (1.12): estimate", "‖Φ‖ ≥ 1/ρ0 for every functional that solves the moment problem", verdict="holds")
+@claim(
+    "after (1.12): estimate",
+    "‖Φ‖ ≥ 1/ρ0 for every functional that solves the moment problem",
+    verdict="holds",
+)
 def norm_estimate():
     def argument() -> Steps:
         extra = sp.symbols("n_0:4", real=True)
@@ -125,7 +120,13 @@ def norm_of_the_optimum():
     def derived():
         program = energy.minimum_energy_control().subs(unit_turn())
         in_l2 = sp.sqrt(sp.integrate(sp.expand(program**2), (s, 0, 1)))
-        return dict(zip(keys, (in_l2, sp.Integer(max(abs(v) for _, v in BANG_BANG)), sp.Integer(4 + 8 + 4)), strict=True))
+        return dict(
+            zip(
+                keys,
+                (in_l2, sp.Integer(max(abs(v) for _, v in BANG_BANG)), sp.Integer(4 + 8 + 4)),
+                strict=True,
+            )
+        )
 
     element = energy.minimal_element().subs(unit_turn())
     norms = (
@@ -144,14 +145,18 @@ def norm_of_the_optimum():
     "before (1.13): isometry",
     "the dual of L_p is isometric to L_q, so min ‖u‖ = min ‖Φ‖ = 1/ρ0, for all 1 ≤ q ≤ ∞",
     verdict="conditional",
-    remark="True for 1 < q ≤ ∞. For q = 1 the dual of L_∞ is larger than L_1: already in example 1 the infimum "
+    remark="True for 1 < q ≤ ∞. For q = 1 the dual of L_∞ is larger than L_1: already in example 1 the "
+    "infimum "
     "16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
 )
 def isometry():
     def argument() -> Steps:
         for n in (sp.S(2), R(3, 2), sp.S(3), sp.oo):
             size = conjugate_norm(n).subs({T1: 1, T2: 1, v1: 0})
-            yield f"q = {n}: the norm of a functional is that of its control, here |v|", vanishes(size - sp.Abs(v2))
+            yield (
+                f"q = {n}: the norm of a functional is that of its control, here |v|",
+                vanishes(size - sp.Abs(v2)),
+            )
         yield "q = 2: the minimum 1/ρ0 is attained", vanishes(moments_of(energy.minimum_energy_control()) - c)
         yield "q = ∞: likewise", piecewise_moments(BANG_BANG) == TURN
 
@@ -163,20 +168,25 @@ def isometry():
         yield "and |h| touches 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
         between = [room.subs(s, x) for x in (R(1, 4), R(3, 4))]
         yield "being smaller between: hence 1 < ‖u‖/16, for every integrable u", min(between) > 0
-        turned = three_impulses(sp.Integer(4), sp.Integer(-8), sp.Integer(4))
+        turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
         yield "but impulses of total 16 make the turn, and narrow pulses come near", turned == TURN
         width = sp.Symbol("epsilon", positive=True)
         pulses = sum(
-            (chebyshev.spike(a, b, w) for a, b, w in (
-                (0, width, 4), ((T - width) / 2, (T + width) / 2, -8), (T - width, T, 4))),
+            (
+                chebyshev.spike(a, b, w)
+                for a, b, w in ((0, width, 4), ((T - width) / 2, (T + width) / 2, -8), (T - width, T, 4))
+            ),
             sp.zeros(3, 1),
         ).subs(T, 1)
         reached = pulses.applyfunc(lambda x: sp.limit(x, width, 0))
         yield "as their width goes to 0", reached == TURN
 
-    return Conditional(argument, counterexample=counterexample,
+    return Conditional(
+        argument,
+        counterexample=counterexample,
         display=r"\min_{u(\cdot)} \lVert u(\cdot) \rVert_{L_q} = \min_{\Phi} \lVert \Phi \rVert_{L_p^*} "
-        r"= \frac{1}{\rho_0}")
+        r"= \frac{1}{\rho_0}",
+    )
 
 
 @claim("(1.13)", "the dual problem: least norm of h = l'Φ(tf, τ)b on l'c = 1", verdict="holds")
@@ -190,11 +200,18 @@ def dual_problem():
     reduced = sp.expand(square.subs(multipliers[2], third))
     free = list(multipliers[:2])
     least = sp.solve([reduced.diff(l) for l in free], free, dict=True)[0]
-    return Equality({r"\rho_0^{-2}": sp.simplify(1 / reduced.subs(least))}, derived,
-        display=r"\min_{l^T c = 1} \lVert l^T \Phi(t_f, \cdot)\mathbf{b} \rVert_{L_p} = \rho_0")
+    return Equality(
+        {r"\rho_0^{-2}": sp.simplify(1 / reduced.subs(least))},
+        derived,
+        display=r"\min_{l^T c = 1} \lVert l^T \Phi(t_f, \cdot)\mathbf{b} \rVert_{L_p} = \rho_0",
+    )
 
 
-@claim("(1.14)", "Krasovskii's principle: a unique u of norm 1/ρ0 with the largest ∫h0 u is optimal", verdict="holds")
+@claim(
+    "(1.14)",
+    "Krasovskii's principle: a unique u of norm 1/ρ0 with the largest ∫h0 u is optimal",
+    verdict="holds",
+)
 def krasovskii_principle():
     def argument() -> Steps:
         p, q = sp.S(3), R(3, 2)
@@ -210,25 +227,33 @@ def krasovskii_principle():
         yield "and u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
         h = dual_function_of(PEAK_DUAL)
         signs = [sp.sign(h.subs(s, x)) for x in (R(1, 8), R(1, 2), R(7, 8))]
-        yield "q = ∞, unit turn: 32 sign h0 is the control that makes it", signs == [
-            sp.sign(v) for _, v in BANG_BANG
-        ] and piecewise_moments(BANG_BANG) == TURN
+        yield (
+            "q = ∞, unit turn: 32 sign h0 is the control that makes it",
+            signs == [sp.sign(v) for _, v in BANG_BANG] and piecewise_moments(BANG_BANG) == TURN,
+        )
 
-    return Proof(argument,
-        display=r"\max_{\lVert u(\cdot) \rVert_{L_q} = 1/\rho_0} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1")
+    return Proof(
+        argument,
+        display=r"\max_{\lVert u(\cdot) \rVert_{L_q} = 1/\rho_0} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = "
+        r"1",
+    )
 
 
 @claim(
     "after (1.14)",
     "for J = ‖u‖ in L_q the problem is solved by (1.13) and then (1.14)",
     verdict="conditional",
-    remark="True for 1 < q ≤ ∞, where (1.14) has one solution. For q = 1 it has many (or none in L_1) and does "
+    remark="True for 1 < q ≤ ∞, where (1.14) has one solution. For q = 1 it has many (or none in L_1) and "
+    "does "
     "not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
 )
 def two_problems_in_turn():
     def argument() -> Steps:
         h = dual_function_of(PEAK_DUAL)
-        yield "q = ∞: h0 is a polynomial, zero at isolated instants, so sign h0 is one control", sp.degree(h, s) == 2
+        yield (
+            "q = ∞: h0 is a polynomial, zero at isolated instants, so sign h0 is one control",
+            sp.degree(h, s) == 2,
+        )
         x, y = sp.symbols("x y", real=True)
         middle = sp.expand((x**2 + y**2) / 2 - ((x + y) / 2) ** 2 - ((x - y) / 2) ** 2)
         yield "q = 2: two solutions would have a mean of smaller norm", vanishes(middle)
@@ -239,100 +264,5 @@ def two_problems_in_turn():
         yield "and norm 1/ρ0 = 16", 1 / peak_of(h, sp.S.One) == 16
         missed = drive(kick(sp.zeros(3, 1), sp.Integer(16)), sp.S.One, sp.S.Zero)
         yield "but takes the craft to (8, 16, 16), not to (1, 0, 0)", missed == sp.Matrix([8, 16, 16])
-
-    return Conditional(argument, counterexample=counterexample)
-
-
-@claim("before (1.15)", "ψ(τ) = Φ'(tf, τ) l, whose third component is h; (1.15): dψ/dt = −A'ψ", verdict="holds")
-def adjoint_vector():
-    key = r"\boldsymbol{\psi}(\tau)"
-
-    def derived():
-        names = sp.symbols("k_1:4")
-        # Integrate dpsi/dt = -A' psi backwards from psi(tf) = l: psi1 const, psi2' = -psi1, psi3' = -psi2.
-        first = multipliers[0]
-        second = names[1] + sp.integrate(-first, tau)
-        second = second.subs(names[1], sp.solve(second.subs(tau, tf) - multipliers[1], names[1])[0])
-        third = names[2] + sp.integrate(-second, tau)
-        third = third.subs(names[2], sp.solve(third.subs(tau, tf) - multipliers[2], names[2])[0])
-        return {key: sp.Matrix([first, second, third])}
-
-    return Equality({key: transition(tf - tau).T * multipliers}, derived,
-        display=r"\boldsymbol{\psi}(\tau) = \Phi^T(t_f, \tau)\, l")
-
-
-@claim("(1.15)", "adjoint equation dψ/dt = −A'ψ", verdict="holds")
-def adjoint_equation():
-    def derived():
-        psi = transition(tf - t).T * multipliers
-        return {r"\dot{\boldsymbol{\psi}}(t)": psi.diff(t)}
-
-    printed = -CHAIN.T * transition(tf - t).T * multipliers
-    return Equality({r"\dot{\boldsymbol{\psi}}(t)": printed}, derived,
-        display=r"\frac{d\boldsymbol{\psi}(t)}{dt} = -A^T \boldsymbol{\psi}(t)")
-
-
-@claim("(1.16)", "its final condition: ψ'(tf) c = l'c = 1", verdict="holds")
-def adjoint_end():
-    def derived():
-        psi = (transition(tf - t).T * multipliers).subs(t, tf)
-        third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
-        return {r"\boldsymbol{\psi}^T(t_f)c": sp.simplify((psi.T * c)[0].subs(multipliers[2], third))}
-
-    return Equality({r"\boldsymbol{\psi}^T(t_f)c": sp.S.One}, derived)
-
-
-@claim("(1.17)", "the dual problem in the costate; ψ'b = ψ3 = h", verdict="holds")
-def dual_problem_in_the_costate():
-    key = r"\boldsymbol{\psi}^T(t)\mathbf{b}"
-    psi = transition(tf - t).T * multipliers
-
-    def derived():
-        return {key: (multipliers.T * impulse_response())[0].subs(s, tf - t)}
-
-    return Equality({key: (psi.T * INPUT)[0]}, derived,
-        display=r"\min_{\psi^T(t_f)c=1} \lVert \psi^T(\cdot)\mathbf{b} \rVert_{L_p} = "
-        r"\lVert \psi_0^T(\cdot)\mathbf{b} \rVert_{L_p} = \rho_0,\quad \psi^T(t)\mathbf{b} = \psi_3(t)")
-
-
-@claim("(1.18)", "problem 1: J = ‖u‖² in L_2, the integral of u²", verdict="holds")
-def problem_1():
-    return Equality({"J(u)": T1 * v1**2 + T2 * v2**2}, lambda: {"J(u)": conjugate_norm(sp.S(2)) ** 2},
-        display=r"J(u(\cdot)) = \left(\lVert u(\cdot) \rVert_{L_2}\right)^2 = \int_{t_0}^{t_f} u^2(\tau)\,d\tau")
-
-
-@claim("(1.19)", "problem 2: J = ‖u‖ in L_∞, the essential maximum of |u|", verdict="holds")
-def problem_2():
-    return Equality({"J(u)": sp.Max(sp.Abs(v1), sp.Abs(v2))}, lambda: {"J(u)": conjugate_norm(sp.oo)},
-        display=r"J(u(\cdot)) = \lVert u(\cdot) \rVert_{L_\infty} = "
-        r"\operatorname{vrai\,max}_{t \in [t_0, t_f]} \left| u(t) \right|")
-
-
-@claim("(1.20)", "problem 3: J = ‖u‖ in L_1, the total impulse", verdict="holds")
-def problem_3():
-    return Equality({"J(u)": T1 * sp.Abs(v1) + T2 * sp.Abs(v2)}, lambda: {"J(u)": conjugate_norm(sp.S.One)},
-        display=r"J(u(\cdot)) = \lVert u(\cdot) \rVert_{L_1} = \int_{t_0}^{t_f} \left| u(\tau) \right| d\tau")
-
-
-@claim(
-    "after (1.20)",
-    "problem 3 has a solution u in L_1 for arbitrary ends",
-    verdict="conditional",
-    remark="True where a control of one sign has the moments c (c3 ≠ 0 and 2c1c3 > c2², Tc2/c3 > 2c1/c3). "
-    "Otherwise no integrable control attains the infimum, which belongs to impulses: so already in example 1.",
-)
-def minimiser_in_l1():
-    def argument() -> Steps:
-        constant = piecewise_moments([(R(1), 1)])
-        yield "c = (1/6, 1/2, 1), T = 1: u = 1 gets there", constant == sp.Matrix([R(1, 6), R(1, 2), 1])
-        yield "and |c3| = 1 is a lower bound for every control: attained", abs(constant[2]) == 1
-
-    def counterexample() -> Steps:
-        h = dual_function_of(IMPULSE_DUAL)
-        room = sp.factor(1 - 256 * h**2)
-        yield "example 1: 1 = ∫ h u with |h| < 1/16 but at three instants", set(sp.Poly(room, s).real_roots()) == {
-            0, R(1, 2), 1}
-        yield "so ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
-        yield "while 16 is approached", three_impulses(sp.Integer(4), sp.Integer(-8), sp.Integer(4)) == TURN
 
     return Conditional(argument, counterexample=counterexample)

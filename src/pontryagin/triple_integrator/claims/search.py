@@ -1,4 +1,4 @@
-"""Section 3 from (3.14) to its end: stationarity, the one-dimensional search, example 2."""
+"""Section 3, (3.15) to (3.19): stationarity and the one-dimensional search."""
 
 import sympy as sp
 
@@ -14,9 +14,8 @@ from pontryagin.evidence import (
 from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.peak import two_switches
 from pontryagin.triple_integrator.derivation import parabola
-from pontryagin.triple_integrator.derivation.channel import drive
-from pontryagin.triple_integrator.derivation.duality import area_of, dual_function_of, piecewise_moments
-from pontryagin.triple_integrator.derivation.model import T, c, multipliers
+from pontryagin.triple_integrator.derivation.duality import piecewise_moments
+from pontryagin.triple_integrator.derivation.model import T, c
 from pontryagin.triple_integrator.derivation.parabola import (
     alpha,
     apex,
@@ -67,7 +66,9 @@ def transformed_conditions():
     printed = {
         r"\partial\tilde F/\partial\tau_m": alpha * T * (2 * apex - T) + 2 * price * (c2 - (T - apex) * c3),
         r"\partial\tilde F/\partial\alpha_m": cubic() + price / alpha**2,
-        r"(2\Delta_m)^{-1}\,\partial\tilde F/\partial\Delta_m": 4 * alpha * half_width - alpha * T - price * c3,
+        r"(2\Delta_m)^{-1}\,\partial\tilde F/\partial\Delta_m": 4 * alpha * half_width
+        - alpha * T
+        - price * c3,
     }
 
     def derived():
@@ -125,7 +126,8 @@ def switches_on_the_curve():
     verdict="conditional",
     remark="True for the global minimum of |S1 − S2 + S3| (with the modulus) over the λ~ with T + λ~c3 > 0, "
     "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 "
-    "puts t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. And "
+    "puts t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. "
+    "And "
     "for c2 = c3 = 0 (example 2) every λ~ gives the same t1, t2: λ~ is not found at all.",
 )
 def one_dimensional_search():
@@ -136,7 +138,10 @@ def one_dimensional_search():
         curve = {key: value.subs(at).subs(slope, -1 / v) for key, value in parabola.curve().items()}
         first = sp.cancel(curve[apex] - curve[half_width])
         second = sp.cancel(curve[apex] + curve[half_width])
-        yield "the optimum of level v with switches a < b lies on the curve (3.19): t1 = a", vanishes(first - early)
+        yield (
+            "the optimum of level v with switches a < b lies on the curve (3.19): t1 = a",
+            vanishes(first - early),
+        )
         yield "and t2 = b, both at λ~ = −1/v", vanishes(second - late)
         width = sp.cancel(T + (slope * c3).subs(at).subs(slope, -1 / v))
         yield "where T + λ~c3 = 2(b − a) > 0", vanishes(width - 2 * (late - early))
@@ -144,21 +149,39 @@ def one_dimensional_search():
     def counterexample() -> Steps:
         moments = sp.Matrix([0, 0, 1])
         pieces = [(R(4, 25), R(1911, 436)), (R(77, 200), -R(111046, 25179)), (R(91, 200), R(1198, 273))]
-        yield "c = (0, 0, 1), T = 1: a control of peak below 9/2, so ρ0 > 2/9", (
-            piecewise_moments(pieces) == moments and max(abs(u) for _, u in pieces) < R(9, 2)
+        yield (
+            "c = (0, 0, 1), T = 1: a control of peak below 9/2, so ρ0 > 2/9",
+            (piecewise_moments(pieces) == moments and max(abs(u) for _, u in pieces) < R(9, 2)),
         )
         at = {T: 1, **dict(zip(c, moments, strict=True)), slope: -R(31, 10)}
         middle, half = (parabola.curve()[key].subs(at) for key in (apex, half_width))
         value = parabola.objective((middle - half, middle + half), moments, sp.S.One)
         yield "λ~ = −31/10 on the curve has |S1 − S2 + S3| < 2/9", abs(value) < R(2, 9)
         yield "with t1 > t2", half < 0
+        at.pop(slope)
+
+        def along(place: sp.Rational) -> sp.Expr:
+            middle, half = (parabola.curve()[key].subs(at).subs(slope, place) for key in (apex, half_width))
+            return abs(parabola.objective((middle - half, middle + half), moments, sp.S.One))
+
+        yield (
+            "there is a local minimum above 1 between λ~ = 1.1 and 1.3",
+            (along(R(11, 10)) > along(R(6, 5)) < along(R(13, 10)) and along(R(6, 5)) > 1),
+        )
         turned = {key: value.subs(TURN) for key, value in parabola.curve().items()}
-        yield "example 2: t1 and t2 do not depend on λ~", not any(value.has(slope) for value in turned.values())
+        yield (
+            "example 2: t1 and t2 do not depend on λ~",
+            not any(value.has(slope) for value in turned.values()),
+        )
 
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("after (3.19): τ_m*, Δ_m*", "τ_m* and Δ_m* are half the sum and half the difference of t2* and t1*", verdict="holds")
+@claim(
+    "after (3.19): τ_m*, Δ_m*",
+    "τ_m* and Δ_m* are half the sum and half the difference of t2* and t1*",
+    verdict="holds",
+)
 def vertex_from_the_switches():
     t1, t2 = parabola.t1, parabola.t2
     printed = {r"\tau_m^*": (t2 + t1) / 2, r"\Delta_m^*": (t2 - t1) / 2}
@@ -185,7 +208,9 @@ def curvature_from_the_search():
         least = sp.Matrix([1, -R(1, 2), R(3, 32)])
         moments = piecewise_moments([(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)])
         scale = (least.T * moments)[0]
-        return Consequence("α_m of the unit turn, l10/2", (-slope * cubic()).subs(numbers), least[0] / (2 * scale))
+        return Consequence(
+            "α_m of the unit turn, l10/2", (-slope * cubic()).subs(numbers), least[0] / (2 * scale)
+        )
 
     return Misprint(
         {key: -slope * cubic()},
@@ -199,127 +224,29 @@ def curvature_from_the_search():
     "after (3.19): closed form",
     "(3.15) to (3.17) have an analytic solution, too bulky to print",
     verdict="holds",
-    remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + 4c3³v "
+    remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + "
+    "4c3³v "
     "− c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
 )
 def closed_form():
     def argument() -> Steps:
         quartic = sp.Poly(parabola.level_polynomial(), level)
-        yield "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals", quartic.degree() == 4
+        yield (
+            "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals",
+            quartic.degree() == 4,
+        )
         v, early, late = sp.symbols("v a b", positive=True)
         at = dict(zip(c, two_switches(v, early, late, T), strict=True))
-        yield "v is a root for the moments of every control with two switches", vanishes(
-            quartic.as_expr().subs(level, v).subs(at)
+        yield (
+            "v is a root for the moments of every control with two switches",
+            vanishes(quartic.as_expr().subs(level, v).subs(at)),
         )
-        yield "and −v for those of its negative", vanishes(
-            quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})
+        yield (
+            "and −v for those of its negative",
+            vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
         )
         remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3
         remembered += (96 * c1 * c3 - 48 * c2**2 - 6 * c3**2) * level**2 + 4 * c3**3 * level - c3**4
         yield "for T = 1 it is the quartic of the remark", vanishes(quartic.as_expr().subs(T, 1) - remembered)
 
     return Proof(argument)
-
-
-@claim("example 2: l10", "for the turn of example 1, l10 = 1/c1 = 1/γ_T", verdict="holds")
-def first_multiplier_of_example_2():
-    def derived():
-        first = sp.solve(((multipliers.T * c)[0] - 1).subs(TURN), multipliers[0])[0]
-        return {"l_{10}": first}
-
-    return Equality({"l_{10}": 1 / turn}, derived)
-
-
-def vertex_of_the_turn() -> dict[sp.Symbol, sp.Expr]:
-    """alpha_m, tau_m and Delta_m of example 2, from (3.13), (3.15) and (3.17)."""
-    found = {key: value.subs(TURN) for key, value in parabola.curve().items()}
-    condition = parabola.normalisation().subs(TURN) - 1
-    return {alpha: sp.solve(condition, alpha)[0], **found}
-
-
-@claim("example 2: parameters", "α_m = 1/(2γ_T), τ_m = T/2, Δ_m = T/4", verdict="holds")
-def parameters_of_example_2():
-    printed = {r"\alpha_m": 1 / (2 * turn), r"\tau_m": T / 2, r"\Delta_m": T / 4}
-    return Equality(
-        printed, lambda: {key: value for key, value in zip(printed, vertex_of_the_turn().values(), strict=True)}
-    )
-
-
-@claim("example 2: areas", "S1 = S3 = T³/(96γ_T), S2 = −T³/(96γ_T)", verdict="holds")
-def areas_of_example_2():
-    printed = {"S_1": T**3 / (96 * turn), "S_3": T**3 / (96 * turn), "S_2": -(T**3) / (96 * turn)}
-
-    def derived():
-        first, second, third = (area.subs(vertex_of_the_turn()) for area in parabola.areas())
-        return {"S_1": first, "S_3": third, "S_2": second}
-
-    return Equality(printed, derived)
-
-
-@claim("example 2: ρ0", "ρ0 = T³/(32γ_T)", verdict="holds")
-def dual_norm_of_example_2():
-    def derived():
-        unit = {T: 1, turn: 1}
-        l = parabola.multipliers_from_vertex().subs(parabola.beta, alpha * half_width**2)
-        l = l.subs(vertex_of_the_turn())
-        scale = sp.simplify(parabola.signed_area().subs(vertex_of_the_turn()))
-        if area_of(dual_function_of(l.subs(unit)), sp.S.One) != scale.subs(unit):
-            raise AssertionError("F is not the integral of |h|")
-        return {r"\rho_0": scale}
-
-    return Equality({r"\rho_0": T**3 / (32 * turn)}, derived)
-
-
-def bang_bang_turn() -> list[tuple[sp.Expr, sp.Expr]]:
-    """Example 2's control, by pieces, at the level that its moments ask for."""
-    signs = [(T / 4, peak), (T / 2, -peak), (T / 4, peak)]
-    needed = sp.solve(piecewise_moments(signs)[0] - turn, peak)[0]
-    return [(duration, value.subs(peak, needed)) for duration, value in signs]
-
-
-@claim("(3.20)", "least peak of the turn, u0 = 32γ_T/T³", verdict="holds")
-def least_peak_of_the_turn():
-    def derived():
-        return {"u_0": bang_bang_turn()[0][1]}
-
-    def argument() -> Steps:
-        end = piecewise_moments(bang_bang_turn())
-        yield "switching at T/4 and 3T/4 makes the turn", vanishes(end - sp.Matrix([turn, 0, 0]))
-        bound = 1 / sp.simplify(parabola.signed_area().subs(vertex_of_the_turn()))
-        yield "and 1/ρ0 is a lower bound, attained", vanishes(bound - bang_bang_turn()[0][1])
-
-    return Proof(argument, Equality({"u_0": 32 * turn / T**3}, derived))
-
-
-@claim("after (3.20): R", "its total impulse, R = u0 T = 32γ_T/T²", verdict="holds")
-def impulse_of_the_bang_bang_turn():
-    def derived():
-        return {"R": sum(duration * sp.Abs(value) for duration, value in bang_bang_turn())}
-
-    return Equality({"R": 32 * turn / T**2}, derived)
-
-
-@claim("after (3.20): bound on T", "for a given u0 the duration must satisfy T³ ≥ 32γ_T/u0", verdict="holds")
-def bound_on_the_duration():
-    def derived():
-        found = sp.solve(sp.Eq(peak, bang_bang_turn()[0][1]), T**3)[0]
-        return {r"\min T^3": found}
-
-    def argument() -> Steps:
-        least = bang_bang_turn()[0][1]
-        yield "the least peak falls with T, so shorter manoeuvres need more than u0", least.diff(T).is_negative
-        rest = drive(sp.Matrix([turn, 0, 0]), sp.Symbol("w", positive=True), sp.S.Zero)
-        yield "and longer ones can wait at the end", vanishes(rest - sp.Matrix([turn, 0, 0]))
-
-    return Proof(argument, Equality({r"\min T^3": 32 * turn / peak}, derived), display=r"T^3 \ge \frac{32\gamma_T}{u_0}")
-
-
-@claim("after (3.20): T_min", "least time of the turn, T_min = 2 (4γ_T/u0)^(1/3)", verdict="holds")
-def least_time_of_the_turn():
-    def derived():
-        found = [root for root in sp.solve(sp.Eq(peak, bang_bang_turn()[0][1]), T) if root.is_positive]
-        return {r"T_{\min}": found[0]}
-
-    return Equality({r"T_{\min}": 2 * (4 * turn / peak) ** R(1, 3)}, derived)
-
-

@@ -46,9 +46,7 @@ def euler_acceleration(applied: sp.Expr, external: sp.Expr) -> sp.Expr:
     return sp.expand((inertia.inv() * (moment - rates.cross(inertia * rates)))[0])
 
 
-def drive(
-    state: sp.Matrix, duration: sp.Expr, program: sp.Expr, force: sp.Expr = sp.S.Zero
-) -> sp.Matrix:
+def drive(state: sp.Matrix, duration: sp.Expr, program: sp.Expr, force: sp.Expr = sp.S.Zero) -> sp.Matrix:
     """The state after driving with the control `program`, a function of `tau` from 0: (0.6) integrated."""
     clock = sp.Dummy("t", positive=True)
 

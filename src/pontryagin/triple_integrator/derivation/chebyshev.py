@@ -49,7 +49,9 @@ def dual_in_time() -> sp.Expr:
 def matching() -> tuple[sp.Expr, ...]:
     """Coefficients of tau^2, tau and 1 in h0 - rho~ T_2, each to vanish, divided to end in -rho~."""
     raw = sp.Poly(dual_in_time() - signed_norm * chebyshev_in_time(), tau).all_coeffs()
-    return tuple(sp.expand(-coefficient / coefficient.coeff(signed_norm)) for coefficient in map(sp.expand, raw))
+    return tuple(
+        sp.expand(-coefficient / coefficient.coeff(signed_norm)) for coefficient in map(sp.expand, raw)
+    )
 
 
 @cache
@@ -100,3 +102,17 @@ def spike(start: sp.Expr, end: sp.Expr, weight: sp.Expr) -> sp.Matrix:
     """What a constant control of the given integral on [start, end] adds to the state at T."""
     state = drive(sp.zeros(3, 1), end - start, weight / (end - start))
     return drive(state, T - end, sp.S.Zero).applyfunc(sp.factor)
+
+
+def three_impulses(amplitudes: tuple[sp.Expr, sp.Expr, sp.Expr], duration: sp.Expr = sp.S.One) -> sp.Matrix:
+    """Where impulses at 0, T/2 and T take the channel from rest, by integrating (0.6)."""
+    state = drive(kick(sp.zeros(3, 1), amplitudes[0]), duration / 2, sp.S.Zero)
+    state = drive(kick(state, amplitudes[1]), duration / 2, sp.S.Zero)
+    return kick(state, amplitudes[2])
+
+
+def impulses_for(moments: sp.Matrix) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """The impulses s0 a0, -s0 am, s0 aT of (4.10) in unit time, for given moments; s0 drops out."""
+    at = {T: 1, **dict(zip(c, moments, strict=True))}
+    first, middle, last = (sp.cancel(amplitudes()[a] / sign).subs(at) for a in impulses)
+    return first, -middle, last

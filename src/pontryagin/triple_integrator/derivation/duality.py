@@ -4,6 +4,8 @@ For any multipliers l and any control u with the moments c: l'c = integral of h 
 |l'c| <= norm of h times norm of u, the two norms conjugate.
 """
 
+import itertools
+
 import sympy as sp
 
 from pontryagin.triple_integrator.derivation.channel import drive
@@ -23,19 +25,23 @@ def root_multipliers(first: sp.Expr, second: sp.Expr) -> sp.Matrix:
     return sp.Matrix([2, -(first + second), first * second])
 
 
+def _roots(h: sp.Expr) -> list[sp.Expr]:
+    return list(dict.fromkeys(sp.real_roots(h))) if h.has(s) else []
+
+
 def peak_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
     """Largest |h| on [0, duration] for a polynomial h with rational coefficients."""
-    stationary = [x for x in sp.real_roots(sp.diff(h, s)) if 0 <= x <= duration] if h.has(s) else []
+    stationary = [x for x in _roots(sp.diff(h, s)) if 0 < x < duration]
     return sp.Max(*(abs(h.subs(s, x)) for x in [0, duration, *stationary]))
 
 
 def area_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
     """Integral of |h| on [0, duration] for a polynomial h with rational coefficients."""
-    roots = [x for x in dict.fromkeys(sp.real_roots(h)) if 0 < x < duration] if h.has(s) else []
+    roots = [x for x in _roots(h) if 0 < x < duration]
     cuts = [sp.S.Zero, *roots, sp.sympify(duration)]
     primitive = sp.integrate(h, s)
     return sp.nsimplify(
-        sum(abs(primitive.subs(s, b) - primitive.subs(s, a)) for a, b in zip(cuts, cuts[1:], strict=False))
+        sum(abs(primitive.subs(s, b) - primitive.subs(s, a)) for a, b in itertools.pairwise(cuts))
     )
 
 

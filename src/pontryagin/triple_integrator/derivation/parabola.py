@@ -12,6 +12,7 @@ lambda~   slope         multiplier of (3.14), divided by alpha_m; minus one over
 F         signed_area   S1 - S2 + S3, alpha_m times a polynomial
 """
 
+import itertools
 from functools import cache
 
 import sympy as sp
@@ -87,7 +88,7 @@ def area(start: sp.Expr, end: sp.Expr) -> sp.Expr:
 def areas() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """S1, S2 and S3 between 0, the two zeros, and T."""
     cuts = (sp.S.Zero, apex - half_width, apex + half_width, T)
-    return tuple(area(a, b) for a, b in zip(cuts, cuts[1:], strict=False))
+    return tuple(area(a, b) for a, b in itertools.pairwise(cuts))
 
 
 @cache
@@ -148,5 +149,3 @@ def objective(zeros_at: tuple[sp.Expr, sp.Expr], moments: sp.Matrix, duration: s
     values.update(zip(c, moments, strict=True))
     scale = 1 / (normalisation().subs(beta, alpha * half_width**2) / alpha).subs(values)
     return sp.nsimplify(signed_area().subs(alpha, scale).subs(values))
-
-

@@ -7,3 +7,5 @@ from pontryagin.triple_integrator.figures.duration import peak_over_duration
 from pontryagin.triple_integrator.figures.homotopy import norm_family
 from pontryagin.triple_integrator.figures.onesigned import equally_cheap
 from pontryagin.triple_integrator.figures.search import search_routes
+from pontryagin.triple_integrator.figures.turn import real_turn
+from pontryagin.triple_integrator.figures.coupling import coupling_convergence

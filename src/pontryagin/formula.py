@@ -1,0 +1,165 @@
+"""Numbers and formulas as a user types them, read without running them.
+
+What is understood: numbers, ``pi``, one variable, ``+ - * / **`` (``^`` is a power too), parentheses and the
+functions of `FUNCTIONS`. Everything else is refused by name, so that text from anywhere can be read.
+"""
+
+import ast
+import operator
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FUNCTIONS: dict[str, Callable[[Any], Any]] = {
+    name: getattr(np, name)
+    for name in ("abs", "sign", "sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh")
+} | {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan}
+"""The functions of one argument that a formula may hold; ``log`` is natural."""
+
+OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
+
+LONGEST = 500
+"""Characters beyond which nobody typed it."""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A function of one variable that was read from a text.
+
+    Examples
+    --------
+    >>> f = read("0.1*sin(t) + t^2", "t")
+    >>> str(f), f([0.0, 2.0]).round(6).tolist()
+    ('0.1*sin(t) + t^2', [0.0, 4.09093])
+    """
+
+    text: str
+    variable: str
+    tree: ast.expr = field(repr=False, compare=False)
+
+    def __call__(self, values: ArrayLike) -> NDArray[np.float64]:
+        """The formula at values (...) of the variable, (...); nan or infinite where it has no value."""
+        with np.errstate(all="ignore"):
+            return np.asarray(_value(self.tree, {self.variable: np.asarray(values, dtype=float)}))
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def read(text: str, variable: str | None = None) -> float | Formula:
+    """The number or the formula that a text stands for.
+
+    Parameters
+    ----------
+    text : str
+        For instance ``"1/3"``, ``"-pi/2"``, ``"0.1*sin(t)"``.
+    variable : str, optional
+        The one symbol that it may hold.
+
+    Returns
+    -------
+    float or Formula
+        A float where the variable does not occur.
+
+    Raises
+    ------
+    ValueError
+        If the text holds anything else, or is a number that is not finite.
+
+    Examples
+    --------
+    >>> read("-3*2^2/4")
+    -3.0
+    >>> read("__import__('os')", "t")
+    Traceback (most recent call last):
+        ...
+    ValueError: "__import__('os')" is not a formula: functions are abs, sign, ... of one argument each
+    """
+    if len(text) > LONGEST:
+        raise ValueError(f"{len(text)} characters are too long for a formula, which has at most {LONGEST}")
+    try:
+        tree = ast.parse(text.strip().replace("^", "**"), mode="eval").body
+        _check(tree, variable)
+    except (SyntaxError, RecursionError, MemoryError):
+        raise ValueError(f"{text!r} is not a formula") from None
+    if any(isinstance(node, ast.Name) and node.id == variable for node in ast.walk(tree)):
+        return Formula(text.strip(), str(variable), tree)
+    with np.errstate(all="ignore"):
+        value = float(_value(tree, {}))
+    if not np.isfinite(value):
+        raise ValueError(f"{text!r} has no finite real value")
+    return value
+
+
+def number(text: str) -> float:
+    """The finite number that a text stands for.
+
+    Examples
+    --------
+    >>> number("pi/2 - 1e-3")
+    1.5697963267948967
+    """
+    value = read(text)
+    assert isinstance(value, float)
+    return value
+
+
+def _check(node: ast.expr, variable: str | None) -> None:
+    """Refuse what is not understood."""
+    match node:
+        case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
+            return
+        case ast.Name(id=name) if name in ("pi", variable):
+            return
+        case ast.UnaryOp(op=op, operand=operand) if type(op) in OPERATORS:
+            parts = [operand]
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
+            parts = [left, right]
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
+            parts = [argument]
+        case ast.Call():
+            names = ", ".join(FUNCTIONS)
+            raise ValueError(
+                f"{ast.unparse(node)!r} is not a formula: functions are {names}, of one argument each"
+            )
+        case _:
+            symbols = f"{variable}, pi" if variable else "pi"
+            raise ValueError(
+                f"{ast.unparse(node)!r} is not a formula: takes numbers, {symbols}, + - * / ^ and functions"
+            )
+    for part in parts:
+        _check(part, variable)
+
+
+def _value(node: ast.expr, variables: dict[str, NDArray[np.float64]]) -> Any:
+    """Value of a checked tree; in floating point throughout, where no tower of powers runs for ever."""
+    match node:
+        case ast.Constant(value=constant):
+            return _float(constant)
+        case ast.Name(id=name):
+            return variables.get(name, np.float64(np.pi))
+        case ast.UnaryOp(op=op, operand=operand):
+            return OPERATORS[type(op)](_value(operand, variables))
+        case ast.BinOp(left=left, op=op, right=right):
+            return OPERATORS[type(op)](_value(left, variables), _value(right, variables))
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return FUNCTIONS[name](_value(argument, variables))
+    raise AssertionError(ast.dump(node))
+
+
+def _float(constant: Any) -> np.float64:
+    try:
+        return np.float64(constant)
+    except OverflowError:
+        return np.float64(np.inf)

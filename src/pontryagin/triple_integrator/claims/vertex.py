@@ -1,0 +1,274 @@
+"""Section 3, (3.8) to (3.14): the dual function given by its vertex, and the areas it cuts off."""
+
+import sympy as sp
+
+from pontryagin.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
+from pontryagin.ledger import Page
+from pontryagin.triple_integrator.claims.peak import (
+    area_with_two_zeros,
+    first,
+    second,
+)
+from pontryagin.triple_integrator.derivation import parabola
+from pontryagin.triple_integrator.derivation.channel import (
+    drive,
+    final,
+    initial,
+    required_moments,
+    t0,
+    tau,
+    tf,
+)
+from pontryagin.triple_integrator.derivation.duality import piecewise_moments
+from pontryagin.triple_integrator.derivation.model import T, c, multipliers
+from pontryagin.triple_integrator.derivation.parabola import (
+    alpha,
+    apex,
+    beta,
+    half_width,
+    lower,
+    price,
+    t1,
+    t2,
+    upper,
+)
+
+claim = Page("Gorelov & Morozova 2012")
+
+R = sp.Rational
+c1, c2, c3 = c
+l1, l2, l3 = multipliers
+conjugate = T - apex
+"""The paper's conjugate parameter, written tau_m with a tilde."""
+
+
+@claim("(3.8)", "vertex form of the parabola", verdict="holds")
+def vertex_form():
+    printed = alpha * (tau - apex) ** 2 - beta
+
+    def derived():
+        inverse = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
+        return {r"\psi_3^*(\tau)": parabola.parabola().subs(tf, T).subs(inverse)}
+
+    return Equality({r"\psi_3^*(\tau)": printed}, derived)
+
+
+@claim("after (3.8): vertex", "τ_m = tf + l20/l10 = (t1 + t2)/2", verdict="holds")
+def apex_of_the_parabola():
+    key, other = r"\tau_m", r"t_f + l_{20}/l_{10}"
+
+    def derived():
+        ratio = parabola.multipliers_from_zeros()
+        return {key: parabola.vertex()[apex], other: sp.cancel(tf + ratio[1] / ratio[0])}
+
+    return Equality(
+        {key: tf + l2 / l1, other: (t1 + t2) / 2},
+        derived,
+        display=r"\tau_m = t_f + \frac{l_{20}}{l_{10}} = \frac{t_1 + t_2}{2}",
+    )
+
+
+@claim("after (3.8): β_m", "β_m = −ψ3*(τ_m)", verdict="holds")
+def depth_of_the_parabola():
+    printed = -parabola.parabola().subs(tau, tf + l2 / l1)
+    return Equality(
+        {r"\beta_m": printed},
+        lambda: {r"\beta_m": parabola.vertex()[beta]},
+        display=r"\beta_m = -\psi_3^*(\tau_m)",
+    )
+
+
+@claim(
+    "after (3.8): sign",
+    "the parabola is assumed convex, α_m > 0 and β_m > 0; otherwise both are negative",
+    verdict="conditional",
+    remark="α_m and β_m do have one sign, and c → −c changes it; but for a given c the sign is not free. For "
+    "c = (−γ, 0, 0) condition (3.13) reads −2γα_m = 1: no α_m > 0. One has to solve for c and −c, or "
+    "minimise "
+    "|F| instead of F in (3.14).",
+)
+def convex_parabola():
+    def argument() -> Steps:
+        width = sp.Symbol("Delta", positive=True)
+        depth = sp.solve(parabola.vertex_form().subs(tau, apex + width), beta)[0]
+        yield "with two zeros β_m = α_m Δ_m², of the sign of α_m", vanishes(depth - alpha * width**2)
+        flipped = dict(zip(c, -c, strict=True))
+        turned = parabola.normalisation().subs(flipped) - parabola.normalisation().subs(
+            {alpha: -alpha, beta: -beta}
+        )
+        yield "c → −c turns α_m into −α_m", vanishes(turned)
+        yield "and F into −F", vanishes(parabola.signed_area() + parabola.signed_area().subs(alpha, -alpha))
+
+    def counterexample() -> Steps:
+        minus = {c1: -1, c2: 0, c3: 0}
+        condition = parabola.normalisation().subs(minus)
+        yield "c = (−1, 0, 0), T = 1: (3.11) is −2α_m = 1", vanishes(condition + 2 * alpha)
+        turned = piecewise_moments([(R(1, 4), -32), (R(1, 2), 32), (R(1, 4), -32)])
+        yield "the problem has a solution, of peak 32", turned == sp.Matrix([-1, 0, 0])
+        area = parabola.signed_area().subs({alpha: -R(1, 2), T: 1})
+        best = area.subs({apex: R(1, 2), half_width: R(1, 4)})
+        lower_still = area.subs({apex: R(1, 2), half_width: R(1, 8)})
+        yield "with α_m = −1/2 its F is −1/32", best == -R(1, 32)
+        yield "and is not the least F, but the least |F|", lower_still < best
+
+    return Conditional(argument, counterexample=counterexample)
+
+
+@claim("after (3.8): t1, t2", "the zeros are τ_m ∓ √(β_m/α_m) = τ_m ∓ Δ_m", verdict="holds")
+def zeros_of_the_parabola():
+    root = sp.sqrt(beta / alpha)
+    return Equality(
+        {"t_1": apex - root, "t_2": apex + root},
+        lambda: dict(zip(("t_1", "t_2"), parabola.zeros(), strict=True)),
+    )
+
+
+@claim("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T", verdict="holds")
+def time_from_zero():
+    def argument() -> Steps:
+        shift, force = sp.symbols("t_s f_0", real=True)
+        h = parabola.parabola()
+        yield (
+            "h depends on tf − τ only",
+            vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True)),
+        )
+        ramp = force * (tau + t0)
+        moved = drive(initial, T, sp.S.Zero, ramp)
+        needed = final - moved
+        yield (
+            "a disturbance f(t) is to be read as f(t0 + t): then c is the same",
+            vanishes(required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)) and needed.has(t0),
+        )
+
+    return Proof(argument)
+
+
+@claim("(3.9)", "vertex form from the multipliers (t0 = 0)", verdict="holds")
+def vertex_from_multipliers():
+    keys = (r"\alpha_m", r"2\alpha_m\tau_m", r"\alpha_m\tau_m^2 - \beta_m")
+    printed = dict(zip(keys, (l1 / 2, l1 * T + l2, l1 * T**2 / 2 + l2 * T + l3), strict=True))
+
+    def derived():
+        found = {symbol: value.subs(tf, T) for symbol, value in parabola.vertex().items()}
+        sides = (alpha, 2 * alpha * apex, alpha * apex**2 - beta)
+        return dict(zip(keys, (side.subs(found) for side in sides), strict=True))
+
+    return Equality(printed, derived)
+
+
+@claim("(3.10)", "multipliers from the vertex form", verdict="holds")
+def multipliers_from_the_vertex():
+    printed = {
+        "l_{10}": 2 * alpha,
+        "l_{20}": 2 * alpha * (apex - T),
+        "l_{30}": alpha * (apex - T) ** 2 - beta,
+    }
+    return Equality(printed, lambda: dict(zip(printed, parabola.multipliers_from_vertex(), strict=True)))
+
+
+@claim("(3.11)", "the condition l'c = 1 in the vertex form", verdict="holds")
+def condition_on_the_vertex():
+    printed = 2 * alpha * c1 + 2 * alpha * (apex - T) * c2 + (alpha * (apex - T) ** 2 - beta) * c3
+    return Equality({"1": printed}, lambda: {"1": parabola.normalisation()})
+
+
+@claim("before (3.12): S_k", "S_k in terms of α_m, τ_m and Δ_m", verdict="holds")
+def piece_in_the_vertex_form():
+    a, b = lower, upper
+    printed = alpha * (b - a) * (apex**2 - half_width**2 - apex * (b + a) + (b**2 + b * a + a**2) / 3)
+    return Equality({"S_k": printed}, lambda: {"S_k": parabola.area(a, b)})
+
+
+@claim(
+    "before (3.12): limits",
+    "limits of the third integral",
+    verdict="misprint",
+    remark="Printed: b3 = T and a2 = τ_m + Δ_m. Right: a3 = τ_m + Δ_m; the line before has a2 = τ_m − Δ_m, "
+    "and "
+    "(3.12) uses a3.",
+)
+def limits_of_the_third_piece():
+    def consequence() -> Consequence:
+        numbers = {alpha: R(1, 2), apex: R(1, 2), half_width: R(1, 4), T: 1}
+        wrong = parabola.area(apex + half_width, apex + half_width).subs(numbers)
+        return Consequence("S2 of example 2 (γ = T = 1) from a2 to b2 = τ_m + Δ_m", wrong, -R(1, 96))
+
+    return Misprint(
+        {"a_2": apex + half_width},
+        lambda: {"a_2": sp.solve(parabola.vertex_form().subs(beta, alpha * half_width**2), tau)[0]},
+        defect={"a_2": 2 * half_width},
+        consequence=consequence,
+    )
+
+
+@claim("(3.12)", "S1, S2 and S3", verdict="holds")
+def three_areas():
+    printed = {
+        "S_1": alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width),
+        "S_2": -R(4, 3) * alpha * half_width**3,
+        "S_3": alpha
+        / 3
+        * (T - apex - half_width)
+        * (half_width * (T - apex - 2 * half_width) + (T - apex) ** 2),
+    }
+    return Equality(printed, lambda: dict(zip(printed, parabola.areas(), strict=True)))
+
+
+@claim("after (3.12): S3", "S3 in the conjugate parameter T − τ_m", verdict="holds")
+def third_area_conjugate():
+    printed = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
+    return Equality({"S_3": printed}, lambda: {"S_3": parabola.areas()[2]})
+
+
+@claim("after (3.12): S1", "S1 has the same form with τ_m for T − τ_m", verdict="holds")
+def first_area_conjugate():
+    printed = alpha / 3 * (apex**3 - 3 * apex * half_width**2 + 2 * half_width**3)
+
+    def derived():
+        # The parabola is symmetric about its apex: S1 is S3 with time reversed.
+        return {"S_1": parabola.areas()[2].subs(apex, T - apex)}
+
+    return Equality({"S_1": printed}, derived)
+
+
+@claim("(3.13)", "the condition l'c = 1 in α_m, τ_m and Δ_m", verdict="holds")
+def condition_on_the_zeros():
+    printed = alpha * (2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3)
+    return Equality({"1": printed}, lambda: {"1": parabola.normalisation().subs(beta, alpha * half_width**2)})
+
+
+@claim(
+    "before (3.14): F",
+    "F = S1 − S2 + S3, to be least with (3.13); for α_m > 0 it is ∫|ψ3*|",
+    verdict="holds",
+    remark="For α_m < 0 it is −∫|ψ3*|: see the entry on the sign of α_m.",
+)
+def signed_area():
+    sides = (
+        alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width),
+        -R(4, 3) * alpha * half_width**3,
+        alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3),
+    )
+
+    def derived():
+        at = {first: apex - half_width, second: apex + half_width}
+        return {"F": sp.expand(alpha * area_with_two_zeros().subs(at))}
+
+    return Equality({"F": sides[0] - sides[1] + sides[2]}, derived, display="F = S_1 - S_2 + S_3")
+
+
+@claim("(3.14)", "auxiliary function F + λ(…): (3.13) divided by α_m as the condition", verdict="holds")
+def auxiliary_function():
+    first_area = alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width)
+    third_area = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
+    condition = 2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3 - 1 / alpha
+    printed = first_area + R(4, 3) * alpha * half_width**3 + third_area + price * condition
+    return Equality({r"\tilde F": printed}, lambda: {r"\tilde F": parabola.lagrangian()})

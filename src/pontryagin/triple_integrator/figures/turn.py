@@ -1,0 +1,55 @@
+"""The real turn: torque that the channel asks for and torque it does not know, and what leaving it out costs."""
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from pontryagin.plotting import INK, RED, SKY, styled, subplots
+from pontryagin.triple_integrator.attitude import turn
+from pontryagin.triple_integrator.energy import minimum_energy
+from pontryagin.triple_integrator.figures import labels
+from pontryagin.triple_integrator.impulse import minimum_impulse
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.rigid_body import RigidBody
+
+
+@styled
+def real_turn(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Figure:
+    """A rigid body turned about an axis by each of the three programmes, from Euler's equations.
+
+    Above: the torque along J e that the channel commands, and the gyroscopic torque across the axis. Below:
+    the angle between the planned and the true attitude, with that torque fed forward and without it.
+
+    Parameters
+    ----------
+    body : RigidBody
+        Inertia in kg m^2, so that torques are in N m.
+    axis : (3,) array_like
+        Direction of the axis.
+    maneuver : Maneuver
+        One manoeuvre of the angle about the axis.
+    """
+    figure, axes = subplots(2, 3, height=4.7, sharex=True, sharey="row")
+    for column, solve in zip(axes.T, (minimum_energy, minimum_peak, minimum_impulse), strict=True):
+        programme = solve(maneuver)
+        fed, unfed = (turn(body, axis, programme, feedforward) for feedforward in (True, False))
+        t, colour = labels.instants(programme), labels.colour(programme)
+        along = body.inertia @ fed.axis
+        channel = fed.channel_torque(t) @ (along / np.linalg.norm(along))
+        across = np.linalg.norm(fed.gyroscopic_torque(t), axis=1)
+        column[0].axhline(0, color=INK, linewidth=0.6)
+        column[0].plot(t, channel, color=colour, label="channel")
+        column[0].plot(t, across, color=INK, linewidth=1.2, linestyle="--", label="gyroscopic")
+        column[0].set_title(labels.name(programme), color=colour)
+        for made, paint, words in ((unfed, RED, "left out"), (fed, SKY, "fed forward")):
+            error = np.rad2deg(np.linalg.norm(made.error(t), axis=1))
+            column[1].plot(t, np.where(error > 0, error, np.nan), color=paint, label=words)
+        column[1].set(xlabel=labels.TIME, yscale="log")
+    axes[0, 0].set_ylabel("torque, N m")
+    axes[1, 0].set_ylabel("attitude error, degrees")
+    axes[1, 0].set_ylim(1e-13, 1e3)
+    axes[0, -1].legend(loc="upper right")
+    axes[1, 0].legend(title="gyroscopic torque", loc="center right")
+    figure.align_ylabels(axes[:, 0])
+    return figure
