@@ -1,4 +1,4 @@
-"""``python -m benchmarks [--quick]``: tables and plots to build/bench, from a full run to figures/benchmarks too."""
+"""Measure our solvers and their peers; write tables and plots to build/bench and figures/benchmarks."""
 
 import argparse
 import os

@@ -1,4 +1,4 @@
-"""Processor time of contestants who take turns, so that a neighbour's load or a change of clock rate hits all."""
+"""Processor time of contestants who take turns, so that what slows the machine slows all of them."""
 
 import gc
 from collections.abc import Callable, Mapping
@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from statistics import median
 from time import process_time
 
-SINGLE_THREAD = {
-    name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-}
+LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+SINGLE_THREAD = dict.fromkeys(LIMITS, "1")
 """Environment under which every contestant runs."""
 
 

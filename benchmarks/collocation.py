@@ -1,5 +1,7 @@
 """Least energy and least peak by generic tools: SciPy's solve_bvp and CasADi with Ipopt."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
@@ -49,8 +51,8 @@ def direct(energy: bool) -> Solver:
     variables, above, cost = [ca.vec(x), ca.vec(u)], [], h * ca.sumsqr(u)
     if not energy:
         variables, above, cost = [*variables, peak], [ca.vec(peak - u), ca.vec(peak + u)], peak
-    programme = {"x": ca.vertcat(*variables), "f": cost, "g": ca.vertcat(*equal, *above), "p": ends}
-    options = {"print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10}}
+    programme: Any = {"x": ca.vertcat(*variables), "f": cost, "g": ca.vertcat(*equal, *above), "p": ends}
+    options: Any = {"print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10}}
     solver = ca.nlpsol("solver", "ipopt", programme, options)
     upper = np.concatenate([np.zeros(3 * NODES + 6), np.full(0 if energy else 2 * NODES, np.inf)])
 

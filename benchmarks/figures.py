@@ -4,8 +4,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from benchmarks.contest import Row
+from benchmarks.transfers import Cell
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SEQUENTIAL, SKY, styled, subplots
 
 MARKS = {
@@ -35,7 +37,7 @@ def accuracy_and_time(rows: Sequence[Row]) -> Figure:
         height=2.1 * -(-len(problems) // columns) + 0.7,
         squeeze=False,
     )
-    handles = {}
+    handles: dict[str, Line2D] = {}
     for axis, problem in zip(axes.flat, problems, strict=False):
         axis.set_title(problem[0].upper() + problem[1:])
         axis.set_xscale("log")
@@ -62,10 +64,9 @@ def accuracy_and_time(rows: Sequence[Row]) -> Figure:
 def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
     """Time per problem against the number of problems handed over at once."""
     figure, axis = subplots(height=3.2)
-    names, sizes, times = (np.array(column) for column in table.values())
-    for name, marker in zip(dict.fromkeys(table["problem"]), "osD^", strict=False):
-        chosen = names == name
-        axis.loglog(sizes[chosen], times[chosen], marker=marker, label=name)
+    sizes, *times = table.values()
+    for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=True):
+        axis.loglog(sizes, values, marker=marker, label=heading.split(",")[0])
     axis.axvline(compiled_from, color=INK, linestyle=":", linewidth=1.0)
     axis.annotate(
         "compiled from here",
@@ -82,18 +83,14 @@ def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
 
 
 @styled
-def failures_by_scale(table: Mapping[str, Sequence]) -> Figure:
+def failures_by_scale(cells: Sequence[Cell]) -> Figure:
     """Share of least-time inputs that each side fails on, over the scales of the states and of the jerk."""
     figure, axes = subplots(1, 2, sharey=True, height=3.3)
-    chosen = [
-        i
-        for i, (ends, states) in enumerate(zip(table["ends"], table["states"], strict=True))
-        if ends == "full states" and not states.startswith("each")
-    ]
-    states = list(dict.fromkeys(table["states"][i] for i in chosen))
-    jerks = list(dict.fromkeys(table["jerk"][i] for i in chosen))
+    shown = [c for c in cells if c.ends == "full states" and not c.states.startswith("each")]
+    states = list(dict.fromkeys(cell.states for cell in shown))
+    jerks = list(dict.fromkeys(cell.jerk for cell in shown))
     for axis, side in zip(axes, ("ruckig", "pontryagin"), strict=True):
-        share = np.array([table[f"{side} fails"][i] for i in chosen]).reshape(len(states), len(jerks))
+        share = np.array([cell.failed[side] / cell.count for cell in shown]).reshape(len(states), len(jerks))
         image = axis.imshow(100 * share, origin="lower", cmap=SEQUENTIAL, vmin=0, vmax=100, aspect="auto")
         for (i, j), value in np.ndenumerate(share):
             colour = "white" if value < 0.6 else "black"
@@ -101,7 +98,7 @@ def failures_by_scale(table: Mapping[str, Sequence]) -> Figure:
         axis.set_title(side)
         axis.set_xticks(range(len(jerks)), [_power(jerk) for jerk in jerks])
         axis.set_yticks(range(len(states)), [_power(state) for state in states])
-        axis.set_xlabel(r"bound on $|u|$")
+        axis.set_xlabel("bound on $|u|$ (consistent units)")
         axis.grid(visible=False)
     axes[0].set_ylabel("scale of the states")
     figure.colorbar(image, ax=axes, label="inputs failed, %")
@@ -109,4 +106,4 @@ def failures_by_scale(table: Mapping[str, Sequence]) -> Figure:
 
 
 def _power(text: str) -> str:
-    return rf"$10^{{{int(np.log10(float(text)).round())}}}$"
+    return rf"$10^{{{text[2:]}}}$"

@@ -28,11 +28,10 @@ def impulse_rows(cells: int) -> NDArray:
 
 def clarabel_peak(cells: int) -> Solver:
     """min p over levels u with |u| <= p and the given moments; the solver is set up once and updated."""
-    rows = sparse.csc_matrix(peak_rows(cells))
-    one, identity = np.ones((cells, 1)), sparse.eye(cells)
-    above = sparse.hstack([identity, -one])
-    below = sparse.hstack([-identity, -one])
-    constraints = sparse.vstack([sparse.hstack([rows, np.zeros((3, 1))]), above, below]).tocsc()
+    rows, identity, one = peak_rows(cells), np.eye(cells), np.ones((cells, 1))
+    constraints = sparse.csc_matrix(
+        np.block([[rows, np.zeros((3, 1))], [identity, -one], [-identity, -one]]),
+    )
     cost = np.append(np.zeros(cells), 1.0)
     solver, settle = _clarabel(cost, constraints, np.zeros(3 + 2 * cells), equalities=3)
     right = np.zeros(3 + 2 * cells)
@@ -78,12 +77,10 @@ def _clarabel(cost: NDArray, constraints: sparse.csc_matrix, right: NDArray, equ
 
 def highs_peak(cells: int) -> Solver:
     """The same programme through SciPy's `milp`, its shortest way to HiGHS."""
-    rows = peak_rows(cells)
-    one, identity = np.ones((cells, 1)), sparse.eye(cells)
-    equal = sparse.hstack([sparse.csr_matrix(rows), np.zeros((3, 1))])
-    constraints = sparse.vstack(
-        [equal, sparse.hstack([identity, one]), sparse.hstack([identity, -one])]
-    ).tocsc()
+    rows, identity, one = peak_rows(cells), np.eye(cells), np.ones((cells, 1))
+    constraints = sparse.csc_matrix(
+        np.block([[rows, np.zeros((3, 1))], [identity, one], [identity, -one]]),
+    )
     cost = np.append(np.zeros(cells), 1.0)
     low = np.concatenate([np.zeros(3 + cells), np.full(cells, -np.inf)])
     high = np.concatenate([np.zeros(3), np.full(cells, np.inf), np.zeros(cells)])

@@ -12,9 +12,10 @@ def miss(
     force: ArrayLike = 0.0,
     impulses: NDArray | None = None,
 ) -> NDArray[np.float64]:
-    """Distance from the target, relative to the largest term met on the way, worst of the three states.
+    """Distance from the target over the size of the motion, worst of the three states.
 
-    A miss of one rounding error means that the control is exact for data changed by a rounding error.
+    Both are in the units of the angle: rates times T, accelerations times T^2. The size is the sum of the
+    moduli of all terms met on the way, so that a miss of one rounding error is that of data changed by one.
 
     Parameters
     ----------
@@ -43,12 +44,14 @@ def miss(
         x3, s3 = x3 + h * u, s3 + h * abs(u)
         if impulses is not None:
             x3, s3 = x3 + impulses[:, k + 1], s3 + abs(impulses[:, k + 1])
-    tiny = np.finfo(float).tiny
-    parts = [
-        abs(x - target) / (size + abs(target) + tiny)
-        for x, size, target in zip((x1, x2, x3), (s1, s2, s3), np.moveaxis(xf, -1, 0), strict=True)
-    ]
-    return np.max(np.stack(parts), axis=0).astype(float)
+    T = durations.sum(axis=1, dtype=np.longdouble)
+    targets = np.moveaxis(np.abs(xf), -1, 0)
+    parts = zip((x1, x2, x3), (s1, s2, s3), np.moveaxis(xf, -1, 0), targets, (1, T, T * T), strict=True)
+    missed, size = zip(
+        *((unit * abs(x - end), unit * (s + target)) for x, s, end, target, unit in parts), strict=True
+    )
+    total = np.max(np.stack(np.broadcast_arrays(*size)), axis=0)
+    return (np.max(np.stack(missed), axis=0) / np.where(total == 0, 1, total)).astype(float)
 
 
 def bang_bang_pieces(duration: NDArray, shares: NDArray, levels: NDArray) -> tuple[NDArray, NDArray]:

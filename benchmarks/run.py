@@ -42,8 +42,6 @@ def run(quick: bool) -> None:
         "accuracy": ("Worst miss and gap by class of problems", lambda: accuracy.table(quick)),
         "start": ("First calls in a fresh process", lambda: start.table(quick)),
     }
-    if not peers.absent("ruckig"):
-        sections["scales"] = ("Least time, failures by scale", lambda: transfers.shares(quick))
     rows = side_by_side(quick)
     tables = {"side-by-side": table.columns(rows)}
     titles = {"side-by-side": "Side by side, one thread"}
@@ -52,8 +50,16 @@ def run(quick: bool) -> None:
         tables[name], titles[name] = measure(), title
         table.printed(title, tables[name])
     drawn = [figures.accuracy_and_time(rows), figures.stack_size(tables["stack-size"], COMPILE_FROM)]
-    if "scales" in tables:
-        drawn.append(figures.failures_by_scale(tables["scales"]))
+    if not peers.absent("ruckig"):
+        cells = transfers.cells(quick)
+        tables["failures"], titles["failures"] = (
+            transfers.summary(cells),
+            "Least time, share of inputs failed",
+        )
+        tables["failures-by-scale"] = transfers.by_cell(cells)
+        titles["failures-by-scale"] = "Least time, share of inputs failed at each scale"
+        table.printed(titles["failures"], tables["failures"])
+        drawn.append(figures.failures_by_scale(cells))
     facts = table.machine() | {"seed": str(SEED), "run": f"{perf_counter() - begun:.0f} s"}
     for folder in write(quick, facts, titles, tables, drawn):
         print(f"written to {folder.relative_to(files.repository())}")

@@ -51,7 +51,7 @@ mark("first stack of 1000, least time")
 print(json.dumps(spent))
 """
 
-COMMAND = "solve triple-integrator --norm inf --x0 0,0,0 --xf 1,0,0 --duration 2".split()
+COMMAND = "solve triple-integrator --norm inf --x0 0,0,0 --xf 1,0,0 --duration 2"
 
 
 def table(quick: bool) -> dict[str, list]:
@@ -59,7 +59,7 @@ def table(quick: bool) -> dict[str, list]:
     repeats = 1 if quick else 5
     steps = _fastest(_phases(FIRST_CALL) for _ in range(repeats))
     with tempfile.TemporaryDirectory(prefix="pontryagin-bench-") as cache:
-        uncached = {} if quick else _phases(FIRST_STACK, cache)
+        uncached = _phases(FIRST_STACK, cache)
         cached = _fastest(_phases(FIRST_STACK, cache) for _ in range(repeats))
     steps |= {f"{step}, compiling": seconds for step, seconds in uncached.items() if step != "import numba"}
     steps |= {
@@ -89,7 +89,7 @@ def _fastest(runs) -> dict[str, float]:
 def _command() -> tuple[float, float]:
     before, started = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
     subprocess.run(
-        [sys.executable, "-c", "import pontryagin.cli as c; c.main()", *COMMAND],
+        [sys.executable, "-c", "import pontryagin.cli as c; c.main()", *COMMAND.split()],
         check=True,
         capture_output=True,
     )

@@ -11,10 +11,11 @@ from typing import Any
 from benchmarks.contest import CALL, STACK, Row
 
 NOTES = (
-    "Times are processor time of one thread, medians of rounds in which all contestants take turns, input",
-    "set-up from Python included unless the row says otherwise. Ratios are to our own rows on the same problem.",
-    "The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost. A problem counts",
-    "as solved where an answer came and, for least time, independent propagation reaches the target to 1e-9.",
+    "Times are processor time of one thread, medians of rounds in which all contestants take turns;",
+    "input set-up from Python is included unless the row says otherwise. Ratios are to our own rows on the",
+    "same problem. The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost.",
+    "A problem counts as solved where an answer came and, for least time, where independent propagation of",
+    "it reaches the target to 1e-9 of the motion.",
 )
 """What the tables mean."""
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -21,12 +22,12 @@ SAME = 1e-7
 """Relative difference of durations that counts as longer."""
 
 AXES = 100
-"""Axes that ruckig gets in one call where it is timed on stacks: its fastest from Python."""
+"""Axes that ruckig gets in one call where it is timed on stacks."""
 
 
 @dataclass(frozen=True)
 class Answers:
-    """What one side returned: whether anything, the duration, and its relative miss by propagation, all (n,)."""
+    """What one side returned: whether anything, the duration, and its miss by propagation, all (n,)."""
 
     returned: NDArray[np.bool_]
     duration: NDArray[np.float64]
@@ -150,14 +151,15 @@ def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int
         return count
 
     prepared = []
-    for x0, xf, peak in lists:
+    for x0, xf, peak in lists[:AXES]:
         single = RuckigAxis()
         _quietly(single, x0, xf, peak)
         prepared.append((single.otg, single.input, single.trajectory))
 
     def call_alone() -> int:
-        for otg, entry, trajectory in prepared:
-            _quietly(otg.calculate, entry, trajectory)
+        for _ in range(count // AXES):
+            for otg, entry, trajectory in prepared:
+                _quietly(otg.calculate, entry, trajectory)
         return count
 
     otg, entry, trajectory = ruckig.Ruckig(AXES), ruckig.InputParameter(AXES), ruckig.Trajectory(AXES)
@@ -192,47 +194,78 @@ def _quietly(call, *arguments) -> None:
         return
 
 
-def shares(quick: bool) -> dict[str, list]:
-    """At each scale of the states and of the jerk bound: on which share of inputs each side fails.
+@dataclass(frozen=True)
+class Cell:
+    """Both sides on inputs of one kind and scale.
 
     An answer counts as failed where none is returned or its propagation misses the target by more than
-    `REACHED`, relative to the motion; as longer where the other side's answer is shorter by more than `SAME`.
+    `REACHED`; as longer where the other side's, which reaches it, is shorter by more than `SAME`.
     """
+
+    ends: str
+    states: str
+    jerk: str
+    count: int
+    failed: dict[str, int]
+    longer: dict[str, int]
+    miss: dict[str, float]
+
+
+def cells(quick: bool) -> list[Cell]:
+    """Each kind of ends at each decade of the states and of the jerk bound, and mixed scales."""
     exponents = range(-3, 4, 3) if quick else range(-3, 4)
     count = 50 if quick else 400
-    result: dict[str, list] = {heading: [] for heading in SHARE_HEADINGS}
+    result = []
     for ends in ("full states", "no acceleration at the ends"):
         base = problems.transfers(ends, count)
-        for state in exponents:
-            for jerk in exponents:
-                scale, peak = 10.0**state, np.full(count, 10.0**jerk)
-                work = Transfers(scale * base.x0, scale * base.xf, peak, np.zeros(count))
-                _compare(result, ends, f"{scale:.0e}", f"{10.0**jerk:.0e}", work)
-    mixed = problems.transfers("sizes 1e-3 to 1e3", count * (1 if quick else 25))
-    _compare(result, "full states", "each 1e-3 to 1e3", "each 1e-3 to 1e3", mixed)
-    return result
+        for state, jerk in product(exponents, exponents):
+            scale, peak = 10.0**state, np.full(count, 10.0**jerk)
+            work = Transfers(scale * base.x0, scale * base.xf, peak, np.zeros(count))
+            result.append(_compare(ends, f"1e{state}", f"1e{jerk}", work))
+    mixed = problems.transfers("sizes 1e-3 to 1e3", 25 * count)
+    return [*result, _compare("full states", "each 1e-3 to 1e3", "1e-3 to 1e3", mixed)]
 
 
-SHARE_HEADINGS = (
-    "ends",
-    "states",
-    "jerk",
-    "inputs",
-    "ruckig fails",
-    "ruckig longer",
-    "ruckig worst miss",
-    "pontryagin fails",
-    "pontryagin longer",
-    "pontryagin worst miss",
-)
+def _compare(ends: str, states: str, jerk: str, work: Transfers) -> Cell:
+    answers = {"ruckig": by_ruckig(work), "pontryagin": by_pontryagin(work)}
+    both = answers["ruckig"].solved & answers["pontryagin"].solved
+    least = np.minimum(answers["ruckig"].duration, answers["pontryagin"].duration)
+    failed, longer, miss = {}, {}, {}
+    for side, answer in answers.items():
+        failed[side] = int((~answer.solved).sum())
+        longer[side] = int((both & (answer.duration > least * (1 + SAME))).sum())
+        miss[side] = worst(answer.miss[answer.returned])
+    return Cell(ends, states, jerk, len(work.peak), failed, longer, miss)
 
 
-def _compare(result: dict[str, list], ends: str, states: str, jerk: str, work: Transfers) -> None:
-    ours, theirs = by_pontryagin(work), by_ruckig(work)
-    both = ours.solved & theirs.solved
-    values: list = [ends, states, jerk, len(work.peak)]
-    for side, other in ((theirs, ours), (ours, theirs)):
-        longer = both & (side.duration > other.duration * (1 + SAME))
-        values += [float(1 - side.solved.mean()), float(longer.mean()), worst(side.miss[side.returned])]
-    for heading, value in zip(result, values, strict=True):
-        result[heading].append(value)
+def by_cell(found: Sequence[Cell]) -> dict[str, list]:
+    """Every cell as a row."""
+    table: dict[str, list] = {
+        "ends": [cell.ends for cell in found],
+        "states": [cell.states for cell in found],
+        "jerk": [cell.jerk for cell in found],
+        "inputs": [cell.count for cell in found],
+    }
+    for side in ("ruckig", "pontryagin"):
+        table[f"{side} fails"] = [cell.failed[side] / cell.count for cell in found]
+        table[f"{side} longer"] = [cell.longer[side] / cell.count for cell in found]
+        table[f"{side} worst miss"] = [cell.miss[side] for cell in found]
+    return table
+
+
+def summary(found: Sequence[Cell]) -> dict[str, list]:
+    """The cells of each kind added up."""
+    kinds = list(dict.fromkeys((cell.ends, cell.states.startswith("each")) for cell in found))
+    groups = [[c for c in found if (c.ends, c.states.startswith("each")) == kind] for kind in kinds]
+    table: dict[str, list] = {
+        "ends": [ends for ends, _ in kinds],
+        "scales": ["each its own" if mixed else "by decades" for _, mixed in kinds],
+        "inputs": [sum(cell.count for cell in group) for group in groups],
+    }
+    for side in ("ruckig", "pontryagin"):
+        total = [sum(cell.failed[side] for cell in group) for group in groups]
+        longer = [sum(cell.longer[side] for cell in group) for group in groups]
+        table[f"{side} fails"] = [n / m for n, m in zip(total, table["inputs"], strict=True)]
+        table[f"{side} longer"] = [n / m for n, m in zip(longer, table["inputs"], strict=True)]
+        table[f"{side} worst miss"] = [float(np.nanmax([c.miss[side] for c in group])) for group in groups]
+    return table

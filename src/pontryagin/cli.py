@@ -160,4 +160,7 @@ def report(
 
     if stage not in build.STAGES:
         raise console.Refusal("STAGE", f"takes {', '.join(build.STAGES)}, got {stage!r}")
-    return build.main([stage, "--workers", str(workers)])
+    try:
+        return build.main([stage, "--workers", str(workers)])
+    except ValueError as reason:
+        raise typer.TyperException(str(reason)) from reason

@@ -116,7 +116,7 @@ def reading(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot read {path}: {reason.strerror or reason}") from reason
+        raise Refusal(option, f"cannot read {path}: {_cause(reason)}") from reason
     except (ValueError, csv.Error) as reason:
         raise Refusal(option, f": {path}, {reason}") from reason
 
@@ -127,8 +127,12 @@ def writing(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot write {path}: {reason.strerror or reason}") from reason
+        raise Refusal(option, f"cannot write {path}: {_cause(reason)}") from reason
     typer.echo(f"wrote {path}", err=True)
+
+
+def _cause(reason: OSError) -> str:
+    return (reason.strerror or str(reason)).lower()
 
 
 def emit(option: str, target: str, text: str) -> None:

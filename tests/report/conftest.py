@@ -1,10 +1,13 @@
 """Small checkouts to build reports from."""
 
+import shutil
 import textwrap
 
 import nbformat
 import pytest
 
+from pontryagin import files
+from pontryagin.report.papers import PAPERS
 from pontryagin.report.workspace import Workspace
 
 
@@ -22,6 +25,11 @@ class Checkout:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(textwrap.dedent(text))
         return path
+
+    def package(self):
+        """Copy the package without its papers."""
+        without = shutil.ignore_patterns("__pycache__", *(paper.package for paper in PAPERS))
+        shutil.copytree(files.repository() / "src" / "pontryagin", self.workspace.source, ignore=without)
 
     def notebook(self, name, *cells):
         """Write a notebook; a cell that begins with '#' and a space is text, every other is code."""

@@ -22,9 +22,7 @@ def equations_of_motion() -> sp.Matrix:
     speed = place.diff(t)
     acceleration = -place / radius**3
     components = {radius.diff(t): v_radial, angle.diff(t): v_transverse / radius}
-    rates = [
-        (speed.diff(t) - acceleration).dot(direction).simplify() for direction in (along, across)
-    ]
+    rates = [(speed.diff(t) - acceleration).dot(direction).simplify() for direction in (along, across)]
     second = sp.solve(rates, [radius.diff(t, 2), angle.diff(t, 2)], dict=True)[0]
     radial_rate = second[radius.diff(t, 2)].subs(components)
     transverse_rate = (radius.diff(t) * angle.diff(t) + radius * second[angle.diff(t, 2)]).subs(components)
@@ -47,7 +45,7 @@ def transition(time: sp.Expr = t) -> sp.ImmutableMatrix:
 
 
 def impulse_directions() -> list[sp.Matrix]:
-    """Columns of the step's input matrix: what a radial and a transverse impulse become after one interval."""
+    """What a radial and a transverse impulse become after one interval: columns of the input matrix."""
     return [transition(interval) * unit for unit in (RADIAL, TRANSVERSE)]
 
 

@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from pontryagin.orbit_correction.gauge import bounds, gauge_of, least_energy_start, newton, support
+from pontryagin.orbit_correction.ellipsoids import bounds, gauge_of, least_energy_start, newton, support
 from pontryagin.orbit_correction.zonotope import cross, dot
 
 GAP = 1e-12
@@ -36,7 +36,7 @@ def disc_gauge(factors, gram_factor, b, psi, controls):
 
 
 def at_a_kink(factors, b, psi, controls):
-    """Whether the optimum is the kink of one of the impulses, nearest to psi first; then psi is moved there."""
+    """Whether the optimum is the kink of one of the impulses, the nearest first; then psi is moved there."""
     steps = factors.shape[0]
     sizes = np.empty(steps)
     for k in range(steps):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.certificate import Certificate
 from pontryagin.compile import compiled
 from pontryagin.errors import Infeasible
-from pontryagin.orbit_correction.gauge import gauge_stack
+from pontryagin.orbit_correction.ellipsoids import gauge_stack
 from pontryagin.validation import finite, vectors
 
 Matrices = Sequence[ArrayLike] | NDArray | Callable[[int], ArrayLike]
@@ -56,14 +56,16 @@ class DiscreteSystem:
             if shape.shape != dynamics.shape:
                 raise ValueError(f"H({index}) must be {dynamics.shape} like A({index}), got {shape.shape}")
             if index and dynamics.shape != self._known[0][0].shape:
-                raise ValueError(f"A({index}) must be {self._known[0][0].shape} like A(0), got {dynamics.shape}")
+                raise ValueError(
+                    f"A({index}) must be {self._known[0][0].shape} like A(0), got {dynamics.shape}"
+                )
             if np.linalg.cond(dynamics) > 1e14:
                 raise ValueError(f"A({index}) must be nonsingular, its condition is above 1e14")
             self._known.append((dynamics, _ellipsoid_factor(shape, index)))
         return self._known[k]
 
     def factors(self, steps: int) -> NDArray[np.float64]:
-        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) is the sum of G_k B, Lemma 1."""
+        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) = sum of G_k B, Lemma 1."""
         inverse, result = None, []
         for k in range(steps):
             dynamics, factor = self.step(k)
@@ -93,7 +95,9 @@ def _square(name: str, matrices: Matrices, k: int) -> NDArray[np.float64]:
 
 def _ellipsoid_factor(shape: NDArray, k: int) -> NDArray[np.float64]:
     if not np.allclose(shape, shape.T, rtol=1e-12, atol=0):
-        raise ValueError(f"H({k}) must be symmetric, it differs from its transpose by {np.abs(shape - shape.T).max():.3g}")
+        raise ValueError(
+            f"H({k}) must be symmetric, it differs from its transpose by {np.abs(shape - shape.T).max():.3g}"
+        )
     values, vectors_ = np.linalg.eigh(shape)
     if values[0] <= 0:
         raise ValueError(f"H({k}) must be positive definite, its least eigenvalue is {values[0]:.3g}")
@@ -156,7 +160,13 @@ def gauge_of_factors(factors: NDArray[np.float64], x0: NDArray[np.float64]) -> G
     targets = np.ascontiguousarray(-x0.reshape(-1, n))
     costates, bounds = np.empty_like(targets), np.empty((len(targets), 2))
     run = compiled(gauge_stack, SIGNATURE) if len(targets) * len(factors) > COMPILE_FROM else gauge_stack
-    run(np.ascontiguousarray(factors), np.ascontiguousarray(np.linalg.cholesky(gram)), targets, costates, bounds)
+    run(
+        np.ascontiguousarray(factors),
+        np.ascontiguousarray(np.linalg.cholesky(gram)),
+        targets,
+        costates,
+        bounds,
+    )
     shape = x0.shape[:-1]
     size = np.linalg.norm(costates, axis=-1, keepdims=True)
     unit = np.divide(costates, size, out=np.zeros_like(costates), where=size > 0)

@@ -176,8 +176,11 @@ def _files(solution: Any, plot: File, record: File) -> None:
     if record:
         from pontryagin.triple_integrator.playback import record_solution
 
-        with console.writing("--record", record):
-            record_solution(solution, record)
+        try:
+            with console.writing("--record", record):
+                record_solution(solution, record)
+        except RuntimeError as missing:
+            raise typer.TyperException(str(missing)) from missing
 
 
 def _print(solution: Any, json: bool, samples: int) -> None:

@@ -31,10 +31,20 @@ def touching_bound(m0, m1, m2):
     return fabs(m0 - 2.0 * m1 * (m1 / m2))
 
 
+def one_impulse(m0, m1):
+    """At the end, inside and where: the control of one sign on the boundary of the moment cone."""
+    if m0 * m1 <= 0.0:
+        return m0, 0.0, 0.5
+    return 0.0, m0, min(1.0, m1 / m0)
+
+
 def solve_impulse(c1, c2, c3, T):
     """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
-    share = 1.0 / T
-    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
+    m0, m1, m2 = c3, c2 / T, 2.0 * c1 / T / T
+    scale = max(fabs(m0), fabs(m1), fabs(m2))
+    if scale == 0.0:
+        return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
+    m0, m1, m2 = m0 / scale, m1 / scale, m2 / scale
     n0, n1, n2 = reversed_moments(m0, m1, m2)
     bound, regime = fabs(m0), MOMENT
     for candidate, name in (
@@ -44,19 +54,17 @@ def solve_impulse(c1, c2, c3, T):
     ):
         if candidate > bound:
             bound, regime = candidate, name
-    if bound == 0.0:
-        return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
     place, unique, middle, at_start = 0.5, 1.0, 0.0, 0.0
     if regime == CHEBYSHEV:
         at_end, middle, at_start = chebyshev_amplitudes(m0, m1, m2)
     elif regime == START:
         at_start, middle = two_impulses(n0, n1, n2)
         at_end, place = 0.0, max(0.0, 1.0 - n2 / n1)
-    elif m2 == 0.0:
-        at_end = m0
-    else:
+    elif regime == END or (m0 * m1 > 0.0 and m0 * m2 > 0.0 and m0 * m2 >= m1 * m1):
         at_end, middle = two_impulses(m0, m1, m2)
         place = min(1.0, m2 / m1)
+    else:
+        at_end, middle, place = one_impulse(m0, m1)
     smallest = ROUNDING * bound
     if regime == MOMENT and fabs(m1 - m2) > smallest and m0 * m2 - m1 * m1 > smallest * fabs(m0):
         unique = 0.0
@@ -68,7 +76,16 @@ def solve_impulse(c1, c2, c3, T):
         fabs(middle * place + at_start - m1),
         fabs(middle * place * place + at_start - m2),
     )
-    return place, at_start, middle, at_end, regime, unique, residual / bound, bound
+    return (
+        place,
+        at_start * scale,
+        middle * scale,
+        at_end * scale,
+        regime,
+        unique,
+        residual / bound,
+        bound * scale,
+    )
 
 
 solve_stack = batched(solve_impulse, outputs=8)

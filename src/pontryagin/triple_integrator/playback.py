@@ -33,8 +33,8 @@ CHANNEL_AXIS = np.array([0.0, 0.0, 1.0])
 CHANNEL_COLOURS = (BLUE, RED, GREEN)
 GREY = "#9a9a9a"
 
-SPACECRAFT = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
-"""The body of the recordings: unequal moments and products of inertia."""
+SPACECRAFT = RigidBody(np.array([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]]))
+"""The body of the recordings: unequal moments and products of inertia, kg m²."""
 
 
 def recordings() -> dict[str, Callable[[Path], None]]:
@@ -51,9 +51,9 @@ def recordings() -> dict[str, Callable[[Path], None]]:
 def three_norms(path: Path) -> None:
     """One channel, three norms side by side.
 
-    Three spacecraft turn about one axis by a quarter turn in ten seconds: with the least energy, the least
-    peak and the least total impulse of the control. Impulses are stems in the control's plot, events, and
-    flashes along the axis.
+    Three spacecraft turn about one axis by a quarter turn in six seconds: with the least energy, the least
+    peak and the least total impulse of the control. Impulses are spikes in the control's plot, events, and
+    arrows along the axis.
     """
     maneuver = rest_to_rest(np.pi / 2)
     _record_channels(path, "three norms", {name: solve(maneuver) for name, (solve, _) in NORMS.items()})
@@ -92,14 +92,14 @@ def coupled_channels(path: Path) -> None:
     All three channels turn at once. The left body follows programmes that know the cross-coupling, iterated
     until the full equations reach the target; the right one the programmes of channels that know of no other.
     """
-    channels = [rest_to_rest(angle) for angle in (0.6, -0.7, 0.9)]
-    coupled = couple(SPACECRAFT, channels, minimum_energy, tol=1e-10)
+    channels = [rest_to_rest(angle) for angle in (0.4, -0.5, 0.6)]
+    coupled = couple(SPACECRAFT, channels, minimum_energy)
     record_coupled(path, coupled)
 
 
 def rest_to_rest(angle: float) -> Maneuver:
-    """A turn by an angle from rest to rest in ten seconds."""
-    return Maneuver(np.zeros(3), np.array([angle, 0.0, 0.0]), np.array(10.0))
+    """A turn by an angle from rest to rest in six seconds."""
+    return Maneuver(np.zeros(3), np.array([angle, 0.0, 0.0]), np.array(6.0))
 
 
 def record_solution(solution: Programme, path: Path) -> None:
@@ -154,11 +154,10 @@ def _channel(
     _target(recording, f"turn/{label}-target", t, quaternion(maneuver.xf[0] * CHANNEL_AXIS), position)
     for branch, values in zip(("angle", "rate", "acceleration"), x.T, strict=True):
         recording.curve(f"{branch}/{label}", t, values, label, colour)
-    recording.curve(f"control/{label}", t, regular_control(programme, t), label, colour)
     told = impulses(programme)
-    for i, (time, jump) in enumerate(told):
-        stem = f"control/{label}-impulse-{i + 1}"
-        recording.curve(stem, [time] * 3, [0.0, jump, 0.0], f"{label}: impulse {i + 1}", colour)
+    times, heights = _spikes(told, maneuver) if told else (t, programme.control(t))
+    recording.curve(f"control/{label}", times, heights, label, colour)
+    for time, jump in told:
         recording.event("events", time, f"{label}: impulse {jump:+.4g} rad/s²")
     if told:
         flash = _flash(t, told, float(maneuver.duration))
@@ -169,10 +168,14 @@ def _channel(
             recording.event("events", time, f"{label}: the control switches")
 
 
-def regular_control(programme: Programme, t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The control without its impulses, (k,)."""
-    control = programme.control(t)
-    return np.where(np.isfinite(control), control, 0.0)
+def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver) -> tuple[NDArray, NDArray]:
+    """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it."""
+    first, last = float(maneuver.t0), float(maneuver.tf)
+    offsets = 0.005 * (last - first) * np.array([-1.0, -1.0, 1.0, 1.0])
+    times = np.concatenate([[first], *(np.clip(time + offsets, first, last) for time, _ in told), [last]])
+    heights = np.concatenate([[0.0], *([0.0, jump, jump, 0.0] for _, jump in told), [0.0]])
+    order = np.argsort(times, kind="stable")
+    return times[order], heights[order]
 
 
 def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> NDArray[np.float64]:
@@ -194,8 +197,8 @@ def record_turn(path: Path, norm: str) -> None:
     plots: list[View] = [
         Plot("error of the attitude, rad", "error"),
         Plot("angular rate, rad/s", "rate"),
-        Plot("torque along J e, kg m²/s²", "torque/channel"),
-        Plot("gyroscopic torque across the axis, kg m²/s²", "torque/gyroscopic"),
+        Plot("torque along J e, N m", "torque/channel"),
+        Plot("gyroscopic torque across the axis, N m", "torque/gyroscopic"),
     ]
     layout = [[Scene("the turn", "turn"), Events("what happens", "events")], plots]
     with record(path, f"real turn, least {norm}", layout) as recording:
@@ -218,7 +221,7 @@ def _turning(
     origin = np.tile(position, (t.size, 1))
     largest = np.linalg.norm(made.torque(t), axis=1).max()
     rotated = _to_inertial(made.attitude(t), made.torque(t))
-    recording.arrow(f"turn/{name}-torque", t, 3 * rotated / largest, ORANGE, origin, "torque")
+    recording.arrow(f"turn/{name}-torque", t, 3 * rotated / largest, ORANGE, origin)
     error = np.linalg.norm(made.error(t), axis=1)
     recording.curve(f"error/{name}", t, error, label, colour)
     for i, values in enumerate(made.rate(t).T):

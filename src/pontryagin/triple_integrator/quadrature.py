@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import hilbert
 
 Array = NDArray[np.float64]
 
@@ -175,7 +174,8 @@ class Quadratic:
 @cache
 def orthonormal() -> Array:
     """Rows: coefficients of 1, s, s^2 in polynomials orthonormal on [0, 1]."""
-    return np.linalg.inv(np.linalg.cholesky(hilbert(3)))
+    powers = np.arange(3)
+    return np.linalg.inv(np.linalg.cholesky(1 / (1 + np.add.outer(powers, powers))))
 
 
 def basis_at(s: Array) -> Array:

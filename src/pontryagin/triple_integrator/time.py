@@ -129,6 +129,7 @@ def first_arrival(accept, ends, f, c3):
 def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
     """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T."""
     d1, d2, c3 = x1f - x10, x2f - x20, x3f - x30
+    x30, x3f, f = x30 + f, x3f + f, 0.0
     if d1 == 0.0 and d2 == 0.0 and c3 == 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     sign = -1.0 if c3 < 0.0 else 1.0

@@ -18,7 +18,7 @@ def over_stack(
         return np.array(kernel(*c.tolist(), float(maneuver.duration)))
     flat = c.reshape(-1, 3)
     result = stack(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
-    return result.reshape(*maneuver.shape, -1)
+    return result.reshape(*maneuver.shape, result.shape[-1])
 
 
 def truncated_power(t: NDArray, knots: NDArray, order: int) -> NDArray[np.float64]:

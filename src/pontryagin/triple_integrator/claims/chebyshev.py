@@ -135,13 +135,22 @@ def chebyshev_polynomial():
 
 @claim("after (4.3): z", "the variable z in [−1, 1]", verdict="holds")
 def unit_variable():
-    return Equality({"z": (2 * tau - (tf + t0)) / (tf - t0)}, lambda: {"z": chebyshev.unit_variable()})
+    return Equality(
+        {"z": (2 * tau - (tf + t0)) / (tf - t0)},
+        lambda: {"z": chebyshev.unit_variable()},
+        display=r"z = \frac{1}{t_f - t_0}[2\tau - (t_f + t_0)]",
+    )
 
 
 @claim("(4.4)", "h0 in powers of τ, with t0 = 0", verdict="holds")
 def minimal_element_in_powers():
     printed = l1 * tau**2 / 2 - (T * l1 + l2) * tau + l1 * T**2 / 2 + l2 * T + l3
-    return Equality({r"h_0(\tau)": printed}, lambda: {r"h_0(\tau)": chebyshev.dual_in_time()})
+    return Equality(
+        {r"h_0(\tau)": printed},
+        lambda: {r"h_0(\tau)": chebyshev.dual_in_time()},
+        display=r"h_0(\tau) = \tfrac12 l_{10}\tau^2 - (Tl_{10} + l_{20})\tau + \tfrac12 l_{10}T^2 + l_{20}T "
+        r"+ l_{30}",
+    )
 
 
 @claim(
@@ -153,7 +162,11 @@ def minimal_element_in_powers():
 def chebyshev_in_time():
     key = r"T_2(2\tau/T - 1)"
     printed = 8 * tau**2 / T**2 - 8 * tau / T + 1
-    return Equality({key: printed}, lambda: {key: chebyshev.chebyshev_in_time()})
+    return Equality(
+        {key: printed},
+        lambda: {key: chebyshev.chebyshev_in_time()},
+        display=r"T_2\left(\frac{2\tau}{T} - 1\right) = \frac{8\tau^2}{T^2} - \frac{8\tau}{T} + 1",
+    )
 
 
 @claim("before (4.6): system", "equal coefficients of h0 and ρ~0 T2, and (4.3)", verdict="holds")
@@ -170,7 +183,14 @@ def matching_system():
         gap = chebyshev.dual_in_time() - signed_norm * chebyshev.chebyshev_in_time()
         return [*(gap.subs(tau, instant) for instant in (0, T / 2, T)), (multipliers.T * c)[0] - 1]
 
-    return LinearSystem(printed, derived, [*multipliers, signed_norm])
+    return LinearSystem(
+        printed,
+        derived,
+        [*multipliers, signed_norm],
+        display=r"\tfrac1{16}T^2l_{10} - \tilde\rho_0 = 0;\quad \tfrac18T^2l_{10} + \tfrac18Tl_{20} - "
+        r"\tilde\rho_0 = 0;\quad "
+        r"\tfrac12T^2l_{10} + Tl_{20} + l_{30} - \tilde\rho_0 = 0",
+    )
 
 
 @claim("(4.6)", "Cramer's rule for l10, l20, l30 and ρ~0", verdict="holds")
@@ -217,7 +237,12 @@ def multipliers_of_the_polynomial():
         scale = (sp.Matrix([end[2], end[1], end[0]]).T * c)[0]
         return dict(zip(printed, (end[2] / scale, end[1] / scale, end[0] / scale, 1 / scale), strict=True))
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"l_{10} = \frac{16}{F};\quad l_{20} = -\frac{8T}{F};\quad l_{30} = \frac{T^2}{F};\quad "
+        r"\tilde\rho_0 = \frac{T^2}{F}",
+    )
 
 
 def element() -> sp.Expr:

@@ -20,17 +20,11 @@ claim = Page("Gorelov & Morozova 2012")
 R = sp.Rational
 c1, c2, c3 = c
 to_go = tf - tau
-turn = sp.Symbol("gamma_T", positive=True)
 
 
 def inverse_form() -> sp.Expr:
     """c' D^-1 c."""
     return sp.expand((c.T * energy.gramian().inv() * c)[0])
-
-
-def example_1() -> dict[sp.Symbol, sp.Expr]:
-    """Moments of the turn by gamma_T from rest to rest."""
-    return {c1: turn, c2: sp.S.Zero, c3: sp.S.Zero}
 
 
 def in_paper_time(program: sp.Expr) -> sp.Expr:
@@ -91,6 +85,9 @@ def gramian_in_powers():
         dict(zip(keys, seen, strict=True)),
         lambda: dict(zip(keys, energy.gramian(), strict=True)),
         legible=("D_{22}", "D_{23}", "D_{32}", "D_{33}"),
+        display=r"D = \begin{bmatrix} \frac{T^5}{6} & \frac{T^4}{2} & \frac{T^3}{2} \\ \frac{20}{8} & "
+        r"\frac{T^3}{3} & "
+        r"\frac{T^2}{2} \\ \frac{T^4}{8} & \frac{T^2}{2} & T \end{bmatrix}",
     )
 
 
@@ -165,7 +162,7 @@ def multiplier_of_the_optimum():
         found = sp.solve(sp.cancel(reached[0]) - c1, factor)[0]
         return {r"\mu": found}
 
-    return Equality({r"\mu": 1 / energy.dual_norm() ** 2}, derived, display=r"\mu = \frac{1}{\rho_0^2}")
+    return Equality({r"\mu": inverse_form()}, derived, display=r"\mu = \frac{1}{\rho_0^2}")
 
 
 @claim("(2.2)", "least-energy programme u* = c'D⁻¹ Φ(tf, τ)b", verdict="holds")
@@ -235,4 +232,8 @@ def programme_written_out():
         lambda: {key: in_paper_time(energy.minimum_energy_control())},
         defect={key: 120 * c1 / T**3},
         consequence=consequence,
+        display=r"u^*(\tau) = \frac{30(t_f - \tau)^2}{T^3}\left(\frac{12c_1}{T^2} - \frac{6c_2}{T} + "
+        r"c_3\right) - "
+        r"\frac{36(t_f - \tau)}{T^2}\left(\frac{10c_1}{T^2} - \frac{16c_2}{3T} + c_3\right) + "
+        r"\frac{9}{T}\left(\frac{20c_1}{T^2} - \frac{4c_2}{T} + c_3\right)",
     )

@@ -5,7 +5,7 @@ import sympy as sp
 from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
 from pontryagin.triple_integrator.derivation import channel, energy
-from pontryagin.triple_integrator.derivation.channel import tau, tf
+from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.model import (
     T,
     c,
@@ -14,10 +14,13 @@ from pontryagin.triple_integrator.derivation.model import (
 
 claim = Page("Gorelov & Morozova 2012")
 
-R = sp.Rational
 c1, c2, c3 = c
-to_go = tf - tau
 turn = sp.Symbol("gamma_T", positive=True)
+
+
+def example_1() -> dict[sp.Symbol, sp.Expr]:
+    """Moments of the turn by gamma_T from rest to rest."""
+    return {c1: turn, c2: sp.S.Zero, c3: sp.S.Zero}
 
 
 @claim("(2.4)", "ends of example 1: a turn by γ_T from rest to rest, so c = (γ_T, 0, 0)", verdict="holds")
@@ -48,13 +51,22 @@ def programme_of_example_1() -> sp.Expr:
 def example_1_in_time_to_go():
     lag = T - tau
     printed = 360 / T**5 * (lag**2 - lag * T + T**2 / 6) * turn
-    return Equality({r"\tilde u^*(\tau)": printed}, lambda: {r"\tilde u^*(\tau)": programme_of_example_1()})
+    return Equality(
+        {r"\tilde u^*(\tau)": printed},
+        lambda: {r"\tilde u^*(\tau)": programme_of_example_1()},
+        display=r"\tilde u^*(\tau) = \frac{360}{T^5}\left[(T - \tau)^2 - (T - \tau)T + "
+        r"\tfrac16T^2\right]\gamma_T",
+    )
 
 
 @claim("(2.5)", "programme of example 1", verdict="holds")
 def example_1_programme():
     printed = 360 / T**5 * (tau**2 - T * tau + T**2 / 6) * turn
-    return Equality({r"\tilde u^*(\tau)": printed}, lambda: {r"\tilde u^*(\tau)": programme_of_example_1()})
+    return Equality(
+        {r"\tilde u^*(\tau)": printed},
+        lambda: {r"\tilde u^*(\tau)": programme_of_example_1()},
+        display=r"\tilde u^*(\tau) = \frac{360}{T^5}\left(\tau^2 - T\tau + \tfrac16T^2\right)\gamma_T",
+    )
 
 
 @claim("after (2.5): symmetry", "the programme of example 1 is symmetric about τ = T/2", verdict="holds")

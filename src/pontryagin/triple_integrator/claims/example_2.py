@@ -15,7 +15,6 @@ from pontryagin.triple_integrator.derivation.duality import area_of, dual_functi
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
 from pontryagin.triple_integrator.derivation.parabola import (
     alpha,
-    apex,
     half_width,
 )
 
@@ -23,7 +22,6 @@ claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
 c1, c2, c3 = c
-conjugate = T - apex
 turn = sp.Symbol("gamma_T", positive=True)
 peak = sp.Symbol("u_0", positive=True)
 TURN = {c1: turn, c2: sp.S.Zero, c3: sp.S.Zero}
@@ -136,4 +134,8 @@ def least_time_of_the_turn():
         found = [root for root in sp.solve(sp.Eq(peak, bang_bang_turn()[0][1]), T) if root.is_positive]
         return {r"T_{\min}": found[0]}
 
-    return Equality({r"T_{\min}": 2 * (4 * turn / peak) ** R(1, 3)}, derived)
+    return Equality(
+        {r"T_{\min}": 2 * (4 * turn / peak) ** R(1, 3)},
+        derived,
+        display=r"T_{\min} = 2\left(\frac{4\gamma_T}{u_0}\right)^{1/3}",
+    )

@@ -206,7 +206,13 @@ def end_state_under_impulses():
         first, second, third = chebyshev.impulse_transfer()
         return {"x_{3f}": third, "x_{2f}": second, "x_{1f}": first}
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"x_{3f} = x_{30} + s_0[a_0 - a_m + a_T];\quad x_{2f} = x_{20} + (x_{30} + s_0a_0)T - "
+        r"\tfrac12s_0a_mT;\quad "
+        r"x_{1f} = x_{10} + x_{20}T + \tfrac12(x_{30} + s_0a_0)T^2 - \tfrac18s_0a_mT^2",
+    )
 
 
 @claim("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)", verdict="holds")
@@ -239,7 +245,13 @@ def system_for_the_impulses():
         reached = three_impulses((a0, -am, aT), T)
         return [x - w for x, w in zip(reached, wanted, strict=True)]
 
-    return LinearSystem(printed, derived, [a0, aT, am])
+    return LinearSystem(
+        printed,
+        derived,
+        [a0, aT, am],
+        display=r"\tfrac12a_0T^2 - \tfrac18a_mT^2 = \tilde c_1;\quad a_0T - \tfrac12a_mT = \tilde c_2;\quad "
+        r"a_0 - a_m + a_T = \tilde c_3",
+    )
 
 
 @claim(
@@ -259,4 +271,9 @@ def impulses():
         found = chebyshev.amplitudes()
         return {"a_0": found[a0], "a_m": found[am], "a_T": found[aT]}
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"a_0 = s_0\frac{4c_1 - Tc_2}{T^2};\quad a_m = s_0\frac{8c_1 - 4Tc_2}{T^2};\quad "
+        r"a_T = s_0\frac{4c_1 - 3Tc_2 + T^2c_3}{T^2}",
+    )

@@ -25,7 +25,6 @@ x10, x20, x30 = channel.initial
 x1f, x2f, x3f = channel.final
 x1, x2, x3 = (sp.Function(f"x_{k}") for k in (1, 2, 3))
 kappa = sp.Symbol("kappa", real=True)
-R = sp.Rational
 
 
 @claim("(0.1)", "rotation about a fixed axis: dγ/dt = ω, dω/dt = ε", verdict="holds")
@@ -40,7 +39,11 @@ def rotation_about_an_axis():
             r"\dot\omega(t)": sp.solve(sp.Eq(along, epsilon(t)), omega(t).diff(t))[0],
         }
 
-    return Equality({r"\dot\gamma(t)": omega(t), r"\dot\omega(t)": epsilon(t)}, derived)
+    return Equality(
+        {r"\dot\gamma(t)": omega(t), r"\dot\omega(t)": epsilon(t)},
+        derived,
+        display=r"\frac{d\gamma(t)}{dt} = \omega(t);\quad \frac{d\omega(t)}{dt} = \varepsilon(t)",
+    )
 
 
 @claim("(0.2)", "ends of the turn: angle and rate at t0 and tf", verdict="holds")
@@ -123,7 +126,11 @@ def rate_of_the_torque():
         built_up = sp.Symbol("m_0") + sp.Integral(control(tau), (tau, channel.t0, t))
         return {r"\dot m(t)": built_up.diff(t)}
 
-    return Equality({r"\dot m(t)": control(t)}, derived)
+    return Equality(
+        {r"\dot m(t)": control(t)},
+        derived,
+        display=r"\frac{dm(t)}{dt} = u(t)",
+    )
 
 
 @claim(
@@ -185,7 +192,12 @@ def triple_integrator():
         r"\dot x_2(t)": x3(t) + disturbance(t),
         r"\dot x_3(t)": control(t),
     }
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"\frac{dx_1(t)}{dt} = x_2(t);\quad \frac{dx_2(t)}{dt} = x_3(t) + f(t);\quad "
+        r"\frac{dx_3(t)}{dt} = u(t)",
+    )
 
 
 @claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")

@@ -6,7 +6,6 @@ from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
 from pontryagin.triple_integrator.derivation import channel
 from pontryagin.triple_integrator.derivation.channel import control, disturbance, t, t0, tau, tf
-from pontryagin.triple_integrator.derivation.duality import lengths, levels
 from pontryagin.triple_integrator.derivation.model import (
     INPUT,
     T,
@@ -17,12 +16,9 @@ from pontryagin.triple_integrator.derivation.model import (
 
 claim = Page("Gorelov & Morozova 2012")
 
-R = sp.Rational
 x10, x20, x30 = channel.initial
 x1f, x2f, x3f = channel.final
 to_go = tf - tau
-v1, v2 = levels
-T1, T2 = lengths
 p, q = sp.symbols("p q", positive=True)
 
 
@@ -81,7 +77,12 @@ def cauchy_formula():
 def transition_matrix():
     lapse = t - t0
     printed = sp.Matrix([[1, lapse, lapse**2 / 2], [0, 1, lapse], [0, 0, 1]])
-    return Equality({r"\Phi(t, t_0)": printed}, lambda: {r"\Phi(t, t_0)": transition(lapse)})
+    return Equality(
+        {r"\Phi(t, t_0)": printed},
+        lambda: {r"\Phi(t, t_0)": transition(lapse)},
+        display=r"\Phi(t, t_0) = \begin{bmatrix} 1 & t - t_0 & \tfrac12(t - t_0)^2 \\ 0 & 1 & t - t_0 \\ 0 "
+        r"& 0 & 1 \end{bmatrix}",
+    )
 
 
 @claim("(1.5)", "response to the control, Φ(tf, τ) b", verdict="holds")
@@ -90,6 +91,8 @@ def response():
     return Equality(
         {r"\Phi(t_f, \tau)\mathbf{b}": printed},
         lambda: {r"\Phi(t_f, \tau)\mathbf{b}": transition(to_go) * INPUT},
+        display=r"\Phi(t_f, \tau)\mathbf{b} = \begin{bmatrix} \tfrac12(t_f - \tau)^2 \\ t_f - \tau \\ 1 "
+        r"\end{bmatrix}",
     )
 
 
@@ -102,7 +105,11 @@ def response_components():
         after = channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
         return dict(zip(printed, after, strict=True))
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"h_1(\tau) = \tfrac12(t_f - \tau)^2;\quad h_2(\tau) = t_f - \tau;\quad h_3(\tau) = 1",
+    )
 
 
 def ramp() -> tuple[sp.Expr, list[sp.Symbol]]:
@@ -195,8 +202,3 @@ def moment_components():
         display=r"c_1 = x_{1f} - x_{10} - (t_f - t_0)x_{20} - \tfrac12 (t_f - t_0)^2 x_{30} - g_1(t_f),\quad "
         r"c_2 = x_{2f} - x_{20} - (t_f - t_0)x_{30} - g_2(t_f),\quad c_3 = x_{3f} - x_{30}",
     )
-
-
-def by_level(power: sp.Expr) -> sp.Expr:
-    """Integral of |u|^power for a control that is v1 for the time T1 and v2 for the time T2."""
-    return T1 * sp.Abs(v1) ** power + T2 * sp.Abs(v2) ** power

@@ -4,8 +4,8 @@ import sympy as sp
 
 from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
-from pontryagin.triple_integrator.derivation import channel, energy
-from pontryagin.triple_integrator.derivation.channel import tau, tf
+from pontryagin.triple_integrator.derivation import energy
+from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.duality import conjugate_norm, lengths, levels
 from pontryagin.triple_integrator.derivation.model import (
     CHAIN,
@@ -21,12 +21,14 @@ from pontryagin.triple_integrator.derivation.model import (
 claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
-x10, x20, x30 = channel.initial
-x1f, x2f, x3f = channel.final
-to_go = tf - tau
 v1, v2 = levels
 T1, T2 = lengths
 p, q = sp.symbols("p q", positive=True)
+
+
+def by_level(power: sp.Expr) -> sp.Expr:
+    """Integral of |u|^power for a control that is v1 for the time T1 and v2 for the time T2."""
+    return T1 * sp.Abs(v1) ** power + T2 * sp.Abs(v2) ** power
 
 
 @claim("before (1.11): norm in L_q", "norm of the control in L_q, 1 ≤ q < ∞", verdict="holds")

@@ -21,16 +21,14 @@ from pontryagin.triple_integrator.derivation.duality import (
     piecewise_moments,
     root_multipliers,
 )
-from pontryagin.triple_integrator.derivation.model import INPUT, T, c, multipliers, s, transition
+from pontryagin.triple_integrator.derivation.model import INPUT, T, multipliers, s, transition
 
 claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
-c1, c2, c3 = c
 l1, l2, l3 = multipliers
 v = sp.Symbol("v", positive=True)
 first, second = sp.symbols("a b", positive=True)
-psi3 = tf - tau
 
 
 def two_switches(level: sp.Expr, earlier: sp.Expr, later: sp.Expr, duration: sp.Expr) -> sp.Matrix:
@@ -94,7 +92,11 @@ def third_costate():
         middle = end[1] + sp.integrate(end[0], (clock, tau, tf))
         return {r"\psi_3(\tau)": end[2] + sp.integrate(middle.subs(tau, clock), (clock, tau, tf))}
 
-    return Equality({r"\psi_3(\tau)": printed}, derived)
+    return Equality(
+        {r"\psi_3(\tau)": printed},
+        derived,
+        display=r"\psi_3(\tau) = \tfrac12(t_f - \tau)^2\psi_1(t_f) + (t_f - \tau)\psi_2(t_f) + \psi_3(t_f)",
+    )
 
 
 @claim(

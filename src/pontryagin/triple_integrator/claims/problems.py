@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Steps
+from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN
 from pontryagin.triple_integrator.derivation.channel import t, tau, tf
@@ -10,6 +10,7 @@ from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
 from pontryagin.triple_integrator.derivation.duality import (
     conjugate_norm,
     dual_function_of,
+    impulse_bound,
     lengths,
     levels,
     peak_bound,
@@ -145,9 +146,12 @@ def problem_3():
 )
 def minimiser_in_l1():
     def argument() -> Steps:
-        constant = piecewise_moments([(R(1), 1)])
-        yield "c = (1/6, 1/2, 1), T = 1: u = 1 gets there", constant == sp.Matrix([R(1, 6), R(1, 2), 1])
-        yield "and |c3| = 1 is a lower bound for every control: attained", abs(constant[2]) == 1
+        times, sizes = sp.symbols("d_1:4", positive=True), sp.symbols("u_1:4", positive=True)
+        pieces = list(zip(times, sizes, strict=True))
+        spent = sum(duration * size for duration, size in pieces)
+        yield "a control of one sign spends c3 (three pieces)", vanishes(piecewise_moments(pieces)[2] - spent)
+        bound = impulse_bound(sp.Matrix([0, 0, 1]), sp.Matrix([0, 0, 1]), sp.S.One)
+        yield "and h = 1 proves that |c3| is the least: attained", bound == 1
 
     def counterexample() -> Steps:
         h = dual_function_of(IMPULSE_DUAL)

@@ -11,7 +11,7 @@ from pontryagin.evidence import (
     vanishes,
 )
 from pontryagin.ledger import Page
-from pontryagin.triple_integrator.derivation import channel, chebyshev, energy
+from pontryagin.triple_integrator.derivation import chebyshev, energy
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
 from pontryagin.triple_integrator.derivation.duality import (
@@ -26,10 +26,8 @@ claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
 c1, c2, c3 = c
-x10, x20, x30 = channel.initial
 a0, am, aT = chebyshev.impulses
 turn = sp.Symbol("gamma_T", positive=True)
-width0, widthT, widthm = sp.symbols("epsilon_0 epsilon_T epsilon_m", positive=True)
 F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 PULSE = [(R(5, 8), 0), (R(1, 4), 4), (R(1, 8), 0)]
@@ -76,6 +74,7 @@ def sum_of_the_impulses():
         argument,
         Equality({r"\rho_0": T**2 / (sign * F)}, lambda: {r"\rho_0": 1 / chebyshev.total()}),
         counterexample=counterexample,
+        display=r"\rho_0 = \frac{T^2}{s_0 F}",
     )
 
 

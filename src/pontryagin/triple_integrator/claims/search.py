@@ -44,21 +44,37 @@ def cubic() -> sp.Expr:
 def derivative_by_apex():
     key = r"\partial\tilde F/\partial\tau_m"
     printed = alpha * (apex**2 - conjugate**2) + 2 * price * (c2 - conjugate * c3)
-    return Equality({key: printed}, lambda: {key: parabola.gradient()[apex]})
+    return Equality(
+        {key: printed},
+        lambda: {key: parabola.gradient()[apex]},
+        display=r"\frac{\partial\tilde F}{\partial\tau_m} = \alpha_m(\tau_m^2 - \tilde{\tau}_m^2) + "
+        r"2\lambda(c_2 - \tilde{\tau}_m c_3)",
+    )
 
 
 @claim("after (3.14): ∂/∂α_m", "derivative with respect to α_m", verdict="holds")
 def derivative_by_curvature():
     key = r"\partial\tilde F/\partial\alpha_m"
     printed = (apex**3 + conjugate**3) / 3 - T * half_width**2 + R(8, 3) * half_width**3 + price / alpha**2
-    return Equality({key: printed}, lambda: {key: parabola.gradient()[alpha]})
+    return Equality(
+        {key: printed},
+        lambda: {key: parabola.gradient()[alpha]},
+        display=r"\frac{\partial\tilde F}{\partial\alpha_m} = \tfrac13(\tau_m^3 + \tilde{\tau}_m^3) - "
+        r"T\Delta_m^2 + \tfrac83\Delta_m^3 + "
+        r"\frac{\lambda}{\alpha_m^2} = 0",
+    )
 
 
 @claim("after (3.14): ∂/∂Δ_m", "derivative with respect to Δ_m", verdict="holds")
 def derivative_by_width():
     key = r"\partial\tilde F/\partial\Delta_m"
     printed = 2 * half_width * (4 * alpha * half_width - alpha * T - price * c3)
-    return Equality({key: printed}, lambda: {key: parabola.gradient()[half_width]})
+    return Equality(
+        {key: printed},
+        lambda: {key: parabola.gradient()[half_width]},
+        display=r"\frac{\partial\tilde F}{\partial\Delta_m} = 2\Delta_m(4\alpha_m\Delta_m - \alpha_m T - "
+        r"\lambda c_3) = 0",
+    )
 
 
 @claim("before (3.15)", "the three conditions with τ_m + (T − τ_m) = T", verdict="holds")
@@ -75,23 +91,43 @@ def transformed_conditions():
         by_apex, by_curvature, by_width = parabola.gradient().values()
         return dict(zip(printed, (by_apex, by_curvature, by_width / (2 * half_width)), strict=True))
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"\alpha_m T(2\tau_m - T) + 2\lambda[c_2 - (T - \tau_m)c_3] = 0;\quad \tfrac13 T^3 - T(T - "
+        r"\tau_m)\tau_m - "
+        r"T\Delta_m^2 + \tfrac83\Delta_m^3 + \frac{\lambda}{\alpha_m^2} = 0;\quad 4\alpha_m\Delta_m - "
+        r"\alpha_m T - \lambda c_3 = 0",
+    )
 
 
 @claim("(3.15)", "stationary in τ_m, with λ = α_m λ~", verdict="holds")
 def stationary_in_the_apex():
     printed = T * (2 * apex - T) + 2 * slope * (c2 - (T - apex) * c3)
-    return Equality({"0": printed}, lambda: {"0": parabola.stationarity()[0]})
+    return Equality(
+        {"0": printed},
+        lambda: {"0": parabola.stationarity()[0]},
+        display=r"T(2\tau_m - T) + 2\tilde\lambda[c_2 - (T - \tau_m)c_3] = 0",
+    )
 
 
 @claim("(3.16)", "stationary in α_m", verdict="holds")
 def stationary_in_the_curvature():
-    return Equality({"0": cubic() + slope / alpha}, lambda: {"0": parabola.stationarity()[1]})
+    return Equality(
+        {"0": cubic() + slope / alpha},
+        lambda: {"0": parabola.stationarity()[1]},
+        display=r"\tfrac13 T^3 - T(T - \tau_m)\tau_m - T\Delta_m^2 + \tfrac83\Delta_m^3 + "
+        r"\frac{\tilde\lambda}{\alpha_m} = 0",
+    )
 
 
 @claim("(3.17)", "stationary in Δ_m", verdict="holds")
 def stationary_in_the_width():
-    return Equality({"0": 4 * half_width - T - slope * c3}, lambda: {"0": parabola.stationarity()[2]})
+    return Equality(
+        {"0": 4 * half_width - T - slope * c3},
+        lambda: {"0": parabola.stationarity()[2]},
+        display=r"4\Delta_m - T - \tilde\lambda c_3 = 0",
+    )
 
 
 @claim("after (3.17): τ_m", "τ_m from (3.15), in two forms", verdict="holds")
@@ -100,12 +136,22 @@ def apex_on_the_curve():
         r"\tau_m": (T**2 - 2 * slope * (c2 - T * c3)) / (2 * (T + slope * c3)),
         r"\tau_m ": (T / 2 - slope * (c2 - T * c3) / T) / (1 + slope * c3 / T),
     }
-    return Equality(printed, lambda: dict.fromkeys(printed, parabola.curve()[apex]))
+    return Equality(
+        printed,
+        lambda: dict.fromkeys(printed, parabola.curve()[apex]),
+        display=r"\tau_m = \frac{T^2 - 2\tilde\lambda(c_2 - Tc_3)}{2(T + \tilde\lambda c_3)} = \left(\frac "
+        r"T2 - "
+        r"\frac{\tilde\lambda(c_2 - Tc_3)}{T}\right)\left(1 + \frac{\tilde\lambda c_3}{T}\right)^{-1}",
+    )
 
 
 @claim("(3.18)", "Δ_m from (3.17)", verdict="holds")
 def width_on_the_curve():
-    return Equality({r"\Delta_m": (T + slope * c3) / 4}, lambda: {r"\Delta_m": parabola.curve()[half_width]})
+    return Equality(
+        {r"\Delta_m": (T + slope * c3) / 4},
+        lambda: {r"\Delta_m": parabola.curve()[half_width]},
+        display=r"\Delta_m = \tfrac14(T + \tilde\lambda c_3)",
+    )
 
 
 @claim("(3.19)", "t1 and t2 as functions of λ~", verdict="holds")
@@ -117,7 +163,13 @@ def switches_on_the_curve():
         curve = parabola.curve()
         return {"t_1": curve[apex] - curve[half_width], "t_2": curve[apex] + curve[half_width]}
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"t_{1,2} = \tau_m \mp \Delta_m = \frac{T^2 - 2\tilde\lambda(c_2 - Tc_3)}{2(T + "
+        r"\tilde\lambda c_3)} \mp "
+        r"\tfrac14(T + \tilde\lambda c_3)",
+    )
 
 
 @claim(
@@ -190,7 +242,11 @@ def vertex_from_the_switches():
         found = sp.solve([apex - half_width - t1, apex + half_width - t2], [apex, half_width], dict=True)[0]
         return {r"\tau_m^*": found[apex], r"\Delta_m^*": found[half_width]}
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"\tau_m^* = \frac{t_2^* + t_1^*}{2},\quad \Delta_m^* = \frac{t_2^* - t_1^*}{2}",
+    )
 
 
 @claim(
@@ -217,6 +273,9 @@ def curvature_from_the_search():
         lambda: {key: parabola.curvature_on_the_curve()},
         defect={key: -slope * cubic() + slope / cubic()},
         consequence=consequence,
+        display=r"\alpha_m = -\tilde\lambda^*\left[\tfrac13 T^3 - T(T - \tau_m^*)\tau_m^* - T(\Delta_m^*)^2 "
+        r"+ "
+        r"\tfrac83(\Delta_m^*)^3\right]",
     )
 
 

@@ -1,4 +1,4 @@
-"""The unit turn, by 1 in unit time from rest to rest: examples 1 and 2 in numbers, with their certificates."""
+"""The unit turn, by 1 in unit time from rest to rest: examples 1 and 2 in numbers, certified."""
 
 import sympy as sp
 

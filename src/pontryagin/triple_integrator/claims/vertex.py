@@ -58,7 +58,11 @@ def vertex_form():
         inverse = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
         return {r"\psi_3^*(\tau)": parabola.parabola().subs(tf, T).subs(inverse)}
 
-    return Equality({r"\psi_3^*(\tau)": printed}, derived)
+    return Equality(
+        {r"\psi_3^*(\tau)": printed},
+        derived,
+        display=r"\psi_3^*(t) = \alpha_m (t - \tau_m)^2 - \beta_m",
+    )
 
 
 @claim("after (3.8): vertex", "τ_m = tf + l20/l10 = (t1 + t2)/2", verdict="holds")
@@ -128,6 +132,7 @@ def zeros_of_the_parabola():
     return Equality(
         {"t_1": apex - root, "t_2": apex + root},
         lambda: dict(zip(("t_1", "t_2"), parabola.zeros(), strict=True)),
+        display=r"t_{1,2} = \tau_m \mp \sqrt{\frac{\beta_m}{\alpha_m}} = \tau_m \mp \Delta_m",
     )
 
 
@@ -161,7 +166,12 @@ def vertex_from_multipliers():
         sides = (alpha, 2 * alpha * apex, alpha * apex**2 - beta)
         return dict(zip(keys, (side.subs(found) for side in sides), strict=True))
 
-    return Equality(printed, derived)
+    return Equality(
+        printed,
+        derived,
+        display=r"\alpha_m = \tfrac12l_{10},\quad 2\alpha_m\tau_m = l_{10}T + l_{20},\quad "
+        r"\alpha_m\tau_m^2 - \beta_m = \tfrac12l_{10}T^2 + l_{20}T + l_{30}",
+    )
 
 
 @claim("(3.10)", "multipliers from the vertex form", verdict="holds")
@@ -171,20 +181,34 @@ def multipliers_from_the_vertex():
         "l_{20}": 2 * alpha * (apex - T),
         "l_{30}": alpha * (apex - T) ** 2 - beta,
     }
-    return Equality(printed, lambda: dict(zip(printed, parabola.multipliers_from_vertex(), strict=True)))
+    return Equality(
+        printed,
+        lambda: dict(zip(printed, parabola.multipliers_from_vertex(), strict=True)),
+        display=r"l_{10} = 2\alpha_m;\quad l_{20} = 2\alpha_m(\tau_m - T);\quad l_{30} = \alpha_m(\tau_m - "
+        r"T)^2 - \beta_m",
+    )
 
 
 @claim("(3.11)", "the condition l'c = 1 in the vertex form", verdict="holds")
 def condition_on_the_vertex():
     printed = 2 * alpha * c1 + 2 * alpha * (apex - T) * c2 + (alpha * (apex - T) ** 2 - beta) * c3
-    return Equality({"1": printed}, lambda: {"1": parabola.normalisation()})
+    return Equality(
+        {"1": printed},
+        lambda: {"1": parabola.normalisation()},
+        display=r"2\alpha_m c_1 + 2\alpha_m(\tau_m - T)c_2 + [\alpha_m(\tau_m - T)^2 - \beta_m]c_3 = 1",
+    )
 
 
 @claim("before (3.12): S_k", "S_k in terms of α_m, τ_m and Δ_m", verdict="holds")
 def piece_in_the_vertex_form():
     a, b = lower, upper
     printed = alpha * (b - a) * (apex**2 - half_width**2 - apex * (b + a) + (b**2 + b * a + a**2) / 3)
-    return Equality({"S_k": printed}, lambda: {"S_k": parabola.area(a, b)})
+    return Equality(
+        {"S_k": printed},
+        lambda: {"S_k": parabola.area(a, b)},
+        display=r"S_k = \alpha_m (b_k - a_k)\left[\tau_m^2 - \Delta_m^2 - \tau_m(b_k + a_k) + "
+        r"\tfrac13 (b_k^2 + b_k a_k + a_k^2)\right]",
+    )
 
 
 @claim(
@@ -206,6 +230,7 @@ def limits_of_the_third_piece():
         lambda: {"a_2": sp.solve(parabola.vertex_form().subs(beta, alpha * half_width**2), tau)[0]},
         defect={"a_2": 2 * half_width},
         consequence=consequence,
+        display=r"b_3 = T,\quad a_2 = \tau_m + \Delta_m",
     )
 
 
@@ -219,13 +244,25 @@ def three_areas():
         * (T - apex - half_width)
         * (half_width * (T - apex - 2 * half_width) + (T - apex) ** 2),
     }
-    return Equality(printed, lambda: dict(zip(printed, parabola.areas(), strict=True)))
+    return Equality(
+        printed,
+        lambda: dict(zip(printed, parabola.areas(), strict=True)),
+        display=r"S_1 = \tfrac13 \alpha_m(\tau_m - \Delta_m)^2(\tau_m + 2\Delta_m);\quad S_2 = -\tfrac43 "
+        r"\alpha_m"
+        r"\Delta_m^3;\quad S_3 = \tfrac13 \alpha_m(T - \tau_m - \Delta_m)[\Delta_m(T - \tau_m - 2\Delta_m) + "
+        r"(T - \tau_m)^2]",
+    )
 
 
 @claim("after (3.12): S3", "S3 in the conjugate parameter T − τ_m", verdict="holds")
 def third_area_conjugate():
     printed = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
-    return Equality({"S_3": printed}, lambda: {"S_3": parabola.areas()[2]})
+    return Equality(
+        {"S_3": printed},
+        lambda: {"S_3": parabola.areas()[2]},
+        display=r"S_3 = \tfrac13 \alpha_m(\tilde{\tau}_m^3 - 3\tilde{\tau}_m\Delta_m^2 + 2\Delta_m^3),\quad "
+        r"\tilde{\tau}_m = T - \tau_m",
+    )
 
 
 @claim("after (3.12): S1", "S1 has the same form with τ_m for T − τ_m", verdict="holds")
@@ -236,13 +273,21 @@ def first_area_conjugate():
         # The parabola is symmetric about its apex: S1 is S3 with time reversed.
         return {"S_1": parabola.areas()[2].subs(apex, T - apex)}
 
-    return Equality({"S_1": printed}, derived)
+    return Equality(
+        {"S_1": printed},
+        derived,
+        display=r"S_1 = \tfrac13 \alpha_m(\tau_m^3 - 3\tau_m\Delta_m^2 + 2\Delta_m^3)",
+    )
 
 
 @claim("(3.13)", "the condition l'c = 1 in α_m, τ_m and Δ_m", verdict="holds")
 def condition_on_the_zeros():
     printed = alpha * (2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3)
-    return Equality({"1": printed}, lambda: {"1": parabola.normalisation().subs(beta, alpha * half_width**2)})
+    return Equality(
+        {"1": printed},
+        lambda: {"1": parabola.normalisation().subs(beta, alpha * half_width**2)},
+        display=r"\alpha_m[2c_1 - 2\tilde{\tau}_m c_2 + (\tilde{\tau}_m^2 - \Delta_m^2)c_3] = 1",
+    )
 
 
 @claim(
@@ -271,4 +316,9 @@ def auxiliary_function():
     third_area = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
     condition = 2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3 - 1 / alpha
     printed = first_area + R(4, 3) * alpha * half_width**3 + third_area + price * condition
-    return Equality({r"\tilde F": printed}, lambda: {r"\tilde F": parabola.lagrangian()})
+    return Equality(
+        {r"\tilde F": printed},
+        lambda: {r"\tilde F": parabola.lagrangian()},
+        display=r"\tilde F = S_1 - S_2 + S_3 + \lambda\left[2c_1 - 2\tilde{\tau}_m c_2 + (\tilde{\tau}_m^2 - "
+        r"\Delta_m^2)c_3 - \frac{1}{\alpha_m}\right]",
+    )

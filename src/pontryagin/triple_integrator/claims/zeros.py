@@ -96,7 +96,13 @@ def system_for_the_multipliers():
         found = sp.solve(matching, [height, l2, l3], dict=True)[0]
         return [l2 - found[l2], l3 - found[l3], (multipliers.T * c)[0] - 1]
 
-    return LinearSystem(printed, derived, list(multipliers))
+    return LinearSystem(
+        printed,
+        derived,
+        list(multipliers),
+        display=r"\tfrac12 (t_f - t_k)^2 l_{10} + (t_f - t_k) l_{20} + l_{30} = 0,\ k = 1, 2;\quad "
+        r"c_1 l_{10} + c_2 l_{20} + c_3 l_{30} = 1",
+    )
 
 
 def denominator() -> sp.Expr:
@@ -122,7 +128,11 @@ def multipliers_from_the_zeros():
 
 @claim("after (3.5): c0", "the denominator c0", verdict="holds")
 def denominator_of_the_multipliers():
-    return Equality({"c_0": denominator()}, lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]})
+    return Equality(
+        {"c_0": denominator()},
+        lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]},
+        display=r"c_0 = c_1 - c_2\left(t_f - \frac{t_1 + t_2}{2}\right) + \frac12 c_3 (t_f - t_1)(t_f - t_2)",
+    )
 
 
 @claim(
@@ -221,4 +231,9 @@ def piece_of_the_integral():
     printed = (b - a) * (
         (l1 * tf**2 / 2 + l2 * tf + l3) - (l1 * tf + l2) * (b + a) / 2 + l1 * (b**2 + b * a + a**2) / 6
     )
-    return Equality({"S_k": printed}, lambda: {"S_k": parabola.piece()})
+    return Equality(
+        {"S_k": printed},
+        lambda: {"S_k": parabola.piece()},
+        display=r"S_k = (b_k - a_k)\left[\left(\tfrac12 l_{10} t_f^2 + l_{20} t_f + l_{30}\right) - "
+        r"\tfrac12 (l_{10} t_f + l_{20})(b_k + a_k) + \tfrac16 l_{10}(b_k^2 + b_k a_k + a_k^2)\right]",
+    )

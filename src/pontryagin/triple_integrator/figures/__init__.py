@@ -8,4 +8,4 @@ from pontryagin.triple_integrator.figures.homotopy import norm_family
 from pontryagin.triple_integrator.figures.onesigned import equally_cheap
 from pontryagin.triple_integrator.figures.search import search_routes
 from pontryagin.triple_integrator.figures.turn import real_turn
-from pontryagin.triple_integrator.figures.coupling import coupling_convergence
+from pontryagin.triple_integrator.figures.coupling import attempts, attempts_table, coupling_convergence

@@ -1,43 +1,96 @@
 """How fast the iteration over the cross-coupling of three channels settles, and from what angle on it does not."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
+from pontryagin.errors import NotConverged
 from pontryagin.plotting import BLUE, INK, RED, SEQUENTIAL, styled, subplots
-from pontryagin.triple_integrator.coupling import CoupledManeuver, spherical_factor
+from pontryagin.triple_integrator.coupling import CoupledManeuver, couple, spherical_factor
+from pontryagin.triple_integrator.energy import minimum_energy
+from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.rigid_body import RigidBody
+
+TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A turn from rest to rest by an angle (degrees), coupled; or why it could not be."""
+
+    degrees: float
+    turn: CoupledManeuver | None
+    remark: str
+
+
+def attempts(
+    body: RigidBody, direction: ArrayLike, degrees: Sequence[float], duration: float
+) -> list[Attempt]:
+    """Turns about one direction by several angles in one time, each iterated to 1e-6 rad.
+
+    Parameters
+    ----------
+    body : RigidBody
+    direction : (3,) array_like
+        Of the rotation vector to reach.
+    degrees : sequence of float
+        The angles.
+    duration : float
+        T, s.
+    """
+    unit = np.asarray(direction, dtype=float) / np.linalg.norm(np.asarray(direction, dtype=float))
+    return [_attempt(body, unit, angle, duration) for angle in degrees]
+
+
+def attempts_table(tried: Sequence[Attempt]) -> dict[str, list]:
+    """A row for each angle: iterations, factor measured and of a spherical body, what became of it."""
+    return {
+        "angle, degrees": [attempt.degrees for attempt in tried],
+        "first miss, rad": [attempt.turn.misses[0] if attempt.turn else None for attempt in tried],
+        "motions integrated": [len(attempt.turn.misses) if attempt.turn else None for attempt in tried],
+        "factor": [attempt.turn.factor if attempt.turn else None for attempt in tried],
+        "spherical body": [float(spherical_factor(np.deg2rad(attempt.degrees))) for attempt in tried],
+        "outcome": [attempt.remark for attempt in tried],
+    }
 
 
 @styled
-def coupling_convergence(turns: Sequence[CoupledManeuver]) -> Figure:
+def coupling_convergence(tried: Sequence[Attempt]) -> Figure:
     """What each iterate misses of the target, and the factor between iterates against the angle of the turn.
 
     Parameters
     ----------
-    turns : sequence of CoupledManeuver
-        Turns from rest to rest by increasing angles, that settled.
+    tried : sequence of Attempt
+        What `attempts` returned; those that did not settle are marked in the second panel.
     """
-    import matplotlib as mpl
-
     figure, (left, right) = subplots(1, 2, height=3.4, width_ratios=(1.15, 1))
-    angles = np.array([_angle(turn) for turn in turns])
-    for turn, angle in zip(turns, angles, strict=True):
-        paint = mpl.colormaps[SEQUENTIAL](0.85 * angle / angles.max())
-        left.semilogy(turn.misses, "o-", color=paint, markersize=3, label=f"{np.rad2deg(angle):.0f}°")
+    settled = [(attempt.degrees, attempt.turn) for attempt in tried if attempt.turn]
+    for degrees, turn in settled:
+        paint = mpl.colormaps[SEQUENTIAL](0.85 * degrees / settled[-1][0])
+        left.semilogy(turn.misses, "o-", color=paint, markersize=3, label=f"{degrees:g}°")
     left.set(xlabel="iteration", ylabel="miss of the target, rad")
     left.legend(title="angle", loc="upper right")
-    every = np.linspace(0.01, 2.6, 300)
+    every = np.linspace(0.5, 150, 300)
     right.axhspan(1, 2, color=RED, alpha=0.08, linewidth=0)
-    right.text(8, 1.03, "leads away", color=RED, va="bottom")
-    right.plot(np.rad2deg(every), spherical_factor(every), color=INK, label="spherical body, exact")
-    right.plot(np.rad2deg(angles), [turn.factor for turn in turns], "o", color=BLUE, label="this body")
+    right.text(6, 1.03, "leads away", color=RED, va="bottom")
+    right.plot(every, spherical_factor(np.deg2rad(every)), color=INK, label="spherical body, exact")
+    right.plot(*zip(*[(x, turn.factor) for x, turn in settled], strict=True), "o", color=BLUE, label="this body")
+    lost = [attempt.degrees for attempt in tried if not attempt.turn]
+    right.plot(lost, np.full(len(lost), 1.07), "x", color=RED, markersize=7, label="this body, did not settle")
     right.set(xlabel="angle of the turn, degrees", ylabel="factor per iteration")
-    right.set(xlim=(0, np.rad2deg(every[-1])), ylim=(0, 1.6))
-    right.legend(loc="lower right")
+    right.set(xlim=(0, every[-1]), ylim=(0, 1.6))
+    right.legend(loc="lower right", fontsize=8.5)
     return figure
 
 
-def _angle(turn: CoupledManeuver) -> float:
-    """Angle of the rotation vector that the channels are to reach."""
-    return float(np.linalg.norm([programme.maneuver.xf[0] for programme in turn.programmes]))
+def _attempt(body: RigidBody, unit: np.ndarray, degrees: float, duration: float) -> Attempt:
+    ends = np.deg2rad(degrees) * unit
+    channels = [Maneuver([0, 0, 0], [end, 0, 0], tf=duration) for end in ends]  # type: ignore[arg-type, list-item]
+    try:
+        return Attempt(degrees, couple(body, channels, minimum_energy, tol=TOLERANCE), "settles")
+    except NotConverged as reason:
+        return Attempt(degrees, None, str(reason).partition(" (")[0])

@@ -201,4 +201,6 @@ def gauge_stack(factors, gram_factor, targets, costates, results):
     """`gauge_of` for each row of targets (states, n), into costates (states, n) and results (states, 2)."""
     controls = np.empty((factors.shape[0], factors.shape[2]))
     for row in range(targets.shape[0]):
-        results[row, 0], results[row, 1] = gauge_of(factors, gram_factor, targets[row], costates[row], controls)
+        results[row, 0], results[row, 1] = gauge_of(
+            factors, gram_factor, targets[row], costates[row], controls
+        )

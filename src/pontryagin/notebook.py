@@ -1,0 +1,172 @@
+"""What notebooks display besides figures and tables: derived formulas, and entries of the ledger judged anew."""
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from pontryagin import ledger
+from pontryagin.ledger import Entry
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
+
+TILES = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
+SECTIONS = {
+    "0": "introduction",
+    "1": "1 moments",
+    "2": "2 energy",
+    "3": "3 peak",
+    "4": "4 impulse",
+}
+_SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
+
+
+def equation(left: str, right: Any) -> None:
+    r"""Display ``left = right`` as mathematics.
+
+    Parameters
+    ----------
+    left : str
+        LaTeX.
+    right : SymPy expression or matrix, or LaTeX
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> equation("J", sp.Symbol("x") ** 2)
+    {'text/latex': '$\\displaystyle J = x^{2}$', 'text/plain': ...}
+    """
+    equations({left: right})
+
+
+def equations(sides: Mapping[str, Any]) -> None:
+    r"""Display several equations, one below the other, aligned at the sign of equality.
+
+    Parameters
+    ----------
+    sides : mapping of str to SymPy expression, matrix or LaTeX
+        Left-hand sides as LaTeX, and the right-hand sides.
+    """
+    lines = [(left, right if isinstance(right, str) else _latex(right)) for left, right in sides.items()]
+    if len(lines) == 1:
+        body = " = ".join(lines[0])
+    else:
+        rows = r" \\ ".join(f"{left} &= {right}" for left, right in lines)
+        body = rf"\begin{{aligned}} {rows} \end{{aligned}}"
+    _publish({"text/latex": rf"$\displaystyle {body}$"})
+
+
+def entry(label: str, paper: str | None = None) -> None:
+    """Check an entry of the ledger and display what is printed, what is derived, the verdict and its proof.
+
+    Parameters
+    ----------
+    label : str
+        Equation number or place, as in the ledger.
+    paper : str, optional
+        A paper's name or part of it.
+
+    Raises
+    ------
+    ValueError
+        If there is no such entry.
+    pontryagin.ledger.Unsupported
+        If the verdict does not stand.
+    """
+    found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
+    if not found:
+        raise ValueError(f"label: got {label!r}, takes one of the ledger's")
+    for one in found:
+        _publish({"text/markdown": account(one)})
+
+
+def verdicts(verdict: str, paper: str | None = None) -> None:
+    """Display every entry of a verdict, as `entry` does."""
+    for one in ledger.entries(paper, verdict):
+        _publish({"text/markdown": account(one)})
+
+
+def account(entry: Entry) -> str:
+    """An entry checked anew, as Markdown: print and derivation typeset, the remark, the steps of the proof."""
+    steps = entry.proof()
+    parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
+    if entry.printed_latex:
+        parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
+    if entry.verdict != "holds" and entry.derived_latex:
+        parts.append(f"Derived:\n\n$${entry.derived_latex}$$")
+    if entry.remark:
+        parts.append(_text(entry.remark))
+    if entry.verdict == "holds" and entry.printed_latex:
+        parts.append("Derived: the same.")
+    if entry.verdict != "holds":
+        parts.append("Checked here, step by step:\n\n" + "\n".join(f"- {_text(step)}" for step in steps))
+    return "\n\n".join(parts)
+
+
+def counts_table(paper: str | None = None) -> dict[str, list[Any]]:
+    """Entries of each verdict by section of the paper: columns for `plotting.show_table`."""
+    rows = sections(ledger.entries(paper))
+    names = [*rows, "all"]
+    groups = [*rows.values(), [one for group in rows.values() for one in group]]
+    tallies = [ledger.counts(group) for group in groups]
+    seen = [verdict for verdict in ledger.VERDICTS if tallies[-1][verdict]]
+    columns: dict[str, list[Any]] = {"section": names}
+    columns |= {verdict: [tally[verdict] for tally in tallies] for verdict in seen}
+    return columns | {"entries": [len(group) for group in groups]}
+
+
+def sections(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
+    """Entries by section, read off the equation number in their labels; others stay with the one before."""
+    grouped: dict[str, list[Entry]] = {}
+    section = "0"
+    for one in entries:
+        numbered = re.search(r"\((\d)\.", one.label)
+        section = numbered[1] if numbered else section
+        grouped.setdefault(SECTIONS.get(section, section), []).append(one)
+    return grouped
+
+
+@styled
+def verdict_tiles(paper: str | None = None) -> Figure:
+    """One tile for each entry in the order of the paper, a row a section, coloured by verdict."""
+    grouped = sections(ledger.entries(paper))
+    across = 36
+    lines = [
+        (name if start == 0 else "", group[start : start + across])
+        for name, group in grouped.items()
+        for start in range(0, len(group), across)
+    ]
+    figure = Figure(figsize=(WIDTH, 0.5 + 0.165 * len(lines)), layout="constrained")
+    ax = figure.subplots()
+    for row, (name, group) in enumerate(lines):
+        ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)
+        for column, one in enumerate(group):
+            faint = 0.35 if one.verdict == "holds" else 1.0
+            tile = Rectangle((column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0)
+            ax.add_patch(tile)
+    ax.set(xlim=(-6.5, across), ylim=(len(lines), 0), aspect="equal")
+    ax.axis("off")
+    present = [verdict for verdict, count in ledger.counts(ledger.entries(paper)).items() if count]
+    handles = [Patch(color=TILES[verdict], alpha=0.35 if verdict == "holds" else 1.0) for verdict in present]
+    figure.legend(handles, present, loc="outside lower center", ncols=len(present), handlelength=1.0)
+    return figure
+
+
+def _latex(expression: Any) -> str:
+    import sympy as sp
+
+    return sp.latex(expression)
+
+
+def _text(words: str) -> str:
+    """Words for Markdown: what stands between dollars is kept, the rest means itself."""
+    parts = re.split(r"(\$[^$]*\$)", words)
+    return "".join(part if part.startswith("$") else _SPECIAL.sub(r"\\\1", part) for part in parts)
+
+
+def _publish(data: dict[str, str]) -> None:
+    from IPython.display import display
+
+    plain = next(iter(data.values()))
+    display({**data, "text/plain": plain}, raw=True)

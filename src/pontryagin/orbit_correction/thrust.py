@@ -1,0 +1,155 @@
+"""The three sets of admissible impulses, and their gauges for states and numbers of steps side by side.
+
+ball    the paper's: three impulse components in succession, together in a ball of the peak's radius
+disc    each impulse (radial, transverse) in a disc: an engine that turns
+box     each component within the peak: two engines, and the paper's own constraint before its last step
+"""
+
+from dataclasses import dataclass
+from math import fabs
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.compile import compiled
+from pontryagin.orbit_correction import satellite
+from pontryagin.orbit_correction.disc import disc_gauge
+from pontryagin.orbit_correction.ellipsoids import gauge_of
+from pontryagin.orbit_correction.zonotope import zonotope_gauge
+
+THRUSTS = ("ball", "disc", "box")
+SIGNATURE = (
+    "void(int64,float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],"
+    "float64[:,::1],float64[:,:,::1],float64[:,::1])"
+)
+MISS_SIGNATURE = (
+    "void(float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],float64[:,:,::1],float64[::1])"
+)
+COMPILE_FROM = 60
+"""States times steps from which loading the compiled kernel pays."""
+
+
+def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, results):
+    """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`."""
+    width = factors.shape[2]
+    for row in range(targets.shape[0]):
+        n = counts[row]
+        b, psi = targets[row], costates[row]
+        if n == 0:
+            continue
+        if kind == 0:
+            found = gauge_of(factors[:n], gram_factors[n - 1], b, psi, controls[row, :n])
+        elif kind == 1:
+            found = disc_gauge(factors[:n], gram_factors[n - 1], b, psi, controls[row, :n])
+        else:
+            segments, flat = np.empty((2 * n, 3)), np.empty(2 * n)
+            for k in range(n):
+                for j in range(2):
+                    for i in range(3):
+                        segments[2 * k + j, i] = factors[k, i, j]
+            found = zonotope_gauge(segments, b, psi, flat)
+            for k in range(n):
+                for j in range(width):
+                    controls[row, k, j] = flat[2 * k + j]
+        results[row, 0], results[row, 1] = found
+
+
+def misses_of(transitions, inputs, counts, states, controls, results):
+    """What remains of each state (rows, 3) after its steps, flown one by one, relative to its start.
+
+    ``transitions`` and ``inputs`` hold the matrices of an even and an odd step.
+    """
+    current, following = np.empty(3), np.empty(3)
+    for row in range(states.shape[0]):
+        size = 0.0
+        for i in range(3):
+            current[i] = states[row, i]
+            size = max(size, fabs(current[i]))
+        for k in range(counts[row]):
+            parity = k % 2
+            for i in range(3):
+                following[i] = 0.0
+                for j in range(3):
+                    following[i] += transitions[parity, i, j] * current[j]
+                for j in range(inputs.shape[2]):
+                    following[i] += inputs[parity, i, j] * controls[row, k, j]
+            for i in range(3):
+                current[i] = following[i]
+        left = 0.0
+        for i in range(3):
+            left = max(left, fabs(current[i]))
+        results[row] = left / size if size > 0.0 else 0.0
+
+
+@dataclass(frozen=True)
+class Gauges:
+    """Gauges of states, each for its own number of steps: bounds, costates and controls."""
+
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    costates: NDArray[np.float64]
+    controls: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Thrust:
+    """What the impulses of a step do to the initial state, for as many steps as asked.
+
+    Attributes
+    ----------
+    name : str
+        One of `THRUSTS`.
+    interval, peak : float
+        Time between impulses (radians of the orbit) and bound on them (orbital speeds).
+    """
+
+    name: str
+    interval: float
+    peak: float
+
+    @property
+    def fewest(self) -> int:
+        """Steps below which the impulses span less than the space."""
+        return 1 if self.name == "ball" else 2
+
+    def factors(self, steps: int) -> NDArray[np.float64]:
+        """G_k, (steps, 3, components)."""
+        make = satellite.step_factors if self.name == "ball" else satellite.impulse_columns
+        return self.peak * make(steps, self.interval)
+
+    def step_transition(self, k: int) -> NDArray[np.float64]:
+        """A(k), (3, 3)."""
+        if self.name == "ball":
+            return satellite.step_transition(k, self.interval)
+        return satellite.transition(self.interval)
+
+    def step_input(self, k: int) -> NDArray[np.float64]:
+        """B(k), (3, components)."""
+        if self.name == "ball":
+            return satellite.step_input(k, self.interval)
+        return satellite.transition(self.interval)[:, 1:]
+
+    def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> NDArray[np.float64]:
+        """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
+        transitions = np.stack([self.step_transition(k) for k in range(2)])
+        inputs = self.peak * np.stack([self.step_input(k) for k in range(2)])
+        results = np.empty(len(z0))
+        small = len(z0) * controls.shape[1] <= COMPILE_FROM
+        run = misses_of if small else compiled(misses_of, MISS_SIGNATURE)
+        run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
+        return results
+
+    def gauges(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> Gauges:
+        """Gauges of the states (rows, 3) for their numbers of steps (rows,)."""
+        most = max(int(counts.max(initial=0)), self.fewest)
+        factors = np.ascontiguousarray(self.factors(most))
+        gram = np.cumsum(np.einsum("kij,klj->kil", factors, factors), axis=0)
+        gram_factors = np.zeros_like(gram)
+        gram_factors[self.fewest - 1 :] = np.linalg.cholesky(gram[self.fewest - 1 :])
+        targets = np.ascontiguousarray(-z0)
+        costates, results = np.zeros_like(targets), np.zeros((len(targets), 2))
+        controls = np.zeros((len(targets), most, factors.shape[2]))
+        small = len(targets) * most <= COMPILE_FROM
+        run = gauges_of if small else compiled(gauges_of, SIGNATURE)
+        run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
+        return Gauges(results[:, 0], results[:, 1], costates, controls)
