@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from benchmarks.contest import Row
+from benchmarks.contest import CALL, STACK, Row
 from benchmarks.transfers import Cell
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SEQUENTIAL, SKY, styled, subplots
 
@@ -20,43 +20,37 @@ MARKS = {
 }
 """Marker and colour of each contestant."""
 
+OURS = {CALL: "one call", STACK: "stack"}
+
 FLOOR = 1e-16
 """Errors below this are drawn here."""
 
 
 @styled
 def accuracy_and_time(rows: Sequence[Row]) -> Figure:
-    """Worst relative error against time per problem, one panel a problem."""
+    """Worst relative error against time per problem, one panel a problem, and a panel for the legend."""
     problems = list(dict.fromkeys(row.problem for row in rows))
-    columns = 2
-    figure, axes = subplots(
-        -(-len(problems) // columns),
-        columns,
-        sharex=True,
-        sharey=True,
-        height=2.1 * -(-len(problems) // columns) + 0.7,
-        squeeze=False,
-    )
+    lines = len(problems) // 2 + 1
+    figure, axes = subplots(lines, 2, height=2.1 * lines, sharex=True, sharey=True, squeeze=False)
     handles: dict[str, Line2D] = {}
     for axis, problem in zip(axes.flat, problems, strict=False):
-        axis.set_title(problem[0].upper() + problem[1:])
-        axis.set_xscale("log")
-        axis.set_yscale("log")
+        axis.set(title=problem[0].upper() + problem[1:], xscale="log", yscale="log")
+        axis.tick_params(labelbottom=True)
         for row in rows:
             if row.problem != problem or not row.error >= 0:
                 continue
-            marker, colour = MARKS[row.method.split(",")[0].split(" ")[0]]
-            (handle,) = axis.plot(
-                1e6 * row.timing.typical, max(row.error, FLOOR), marker, color=colour, linestyle="none"
-            )
-            handles.setdefault(row.method.split(",")[0], handle)
+            name = row.method.split(",")[0]
+            marker, colour = MARKS[name.split(" ")[0]]
+            place = (1e6 * row.timing.typical, max(row.error, FLOOR))
+            (handle,) = axis.plot(*place, marker, color=colour, linestyle="none")
+            handles.setdefault(name, handle)
+            if row.method in OURS:
+                axis.annotate(OURS[row.method], place, (0, 5), textcoords="offset points", ha="center")
     for axis in axes.flat[len(problems) :]:
-        axis.set_visible(False)
-    for axis in axes[-1]:
-        axis.set_xlabel(r"processor time per problem, $\mu$s")
-    for axis in axes[:, 0]:
-        axis.set_ylabel("worst relative error")
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=len(handles))
+        axis.set_axis_off()
+    axes.flat[-1].legend(handles.values(), handles.keys(), loc="center", ncols=2)
+    figure.supxlabel(r"processor time per problem, $\mu$s", fontsize="medium")
+    figure.supylabel("worst relative error of the cost", fontsize="medium")
     return figure
 
 
@@ -65,7 +59,7 @@ def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
     """Time per problem against the number of problems handed over at once."""
     figure, axis = subplots(height=3.2)
     sizes, *times = table.values()
-    for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=True):
+    for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=False):
         axis.loglog(sizes, values, marker=marker, label=heading.split(",")[0])
     axis.axvline(compiled_from, color=INK, linestyle=":", linewidth=1.0)
     axis.annotate(

@@ -51,13 +51,14 @@ def rows(problem: str, peers: Mapping[str, Peer], count: int, large: int, rounds
 
 def _entrant(peer: Peer, x0: NDArray, xf: NDArray, optimum: NDArray) -> Contestant:
     starts, targets = x0[: peer.count], xf[: peer.count]
+    count = len(starts)
 
     def run() -> int:
         for ends in zip(starts, targets, strict=True):
             peer.solve(*ends)
-        return peer.count
+        return count
 
     values = np.array([peer.solve(*ends) for ends in zip(starts, targets, strict=True)])
     found = np.isfinite(values)
-    error = worst((values / optimum[: peer.count] - 1)[found])
+    error = worst((values / optimum[:count] - 1)[found])
     return Contestant(run, error, float(found.mean()))

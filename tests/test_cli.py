@@ -269,7 +269,7 @@ class TestRefusals:
 
 
 class TestBatch:
-    HEADER = ["name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "t0", "tf"]
+    HEADER = ("name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "t0", "tf")
     ROWS = (
         ["first", "0", "0", "0", "1", "0", "0", "0", "2"],
         ["second", "-1", "0.5", "0", "pi/4", "0", "-0.2", "1", "3.5"],

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import pytest
 import sympy as sp
+from rich.console import Console
+
 from pontryagin import ledger
 from pontryagin.evidence import (
     Conditional,
@@ -20,7 +22,6 @@ from pontryagin.evidence import (
     vanishes,
 )
 from pontryagin.ledger import Entry, Page, Unsupported
-from rich.console import Console
 
 x, y = sp.symbols("x y", real=True)
 T = sp.Symbol("T", positive=True)
@@ -62,9 +63,7 @@ EARNED = {
 }
 
 
-@pytest.mark.parametrize(
-    ("verdict", "evidence"), [(v, e) for v, kinds in EARNED.items() for e in kinds]
-)
+@pytest.mark.parametrize(("verdict", "evidence"), [(v, e) for v, kinds in EARNED.items() for e in kinds])
 def test_a_verdict_is_earned_by_its_evidence_and_by_no_other(verdict, evidence):
     entry(verdict, evidence).check()
     for other in set(ledger.VERDICTS) - {verdict}:

@@ -65,7 +65,8 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     def call(*values: ArrayLike) -> tuple[NDArray[np.float64], ...]:
         arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
         shape = arrays[0].shape if arrays else ()
-        columns = [np.broadcast_to(np.asarray(column, dtype=float), shape) for column in evaluate(*arrays)]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            columns = [np.broadcast_to(_real(name, column), shape) for column in evaluate(*arrays)]
         results, position = [], 0
         for matrix in matrices.values():
             if matrix is None:
@@ -82,6 +83,13 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     signature = ", ".join(str(argument) for argument in arguments)
     call.__doc__ = f"{name}({signature})\n\n" + "\n".join(f"{k} = {v}" for k, v in outputs.items())
     return call
+
+
+def _real(name: str, value: object) -> NDArray[np.float64]:
+    array = np.asarray(value)
+    if np.iscomplexobj(array):
+        raise TypeError(f"{name}: an expression takes complex values")
+    return array.astype(float, copy=False)
 
 
 def source(name: str, arguments: Sequence, outputs: Mapping[str, object], doc: str) -> str:
@@ -138,9 +146,6 @@ def _scalar_printer():
                 product = "*".join([factor] * abs(int(exponent)))
                 return f"({product})" if exponent > 0 else f"1/({product})"
             return super()._print_Pow(expr, rational)
-
-        def _print_Mul(self, expr):
-            return super()._print_Mul(expr).replace("*(", "*(")
 
     return ScalarPrinter({"fully_qualified_modules": False})
 
@@ -223,7 +228,7 @@ def compiled(kernel: Callable, signature: str) -> Callable:
     if not has_numba():
         return kernel
     text = _closure_source(kernel) + (
-        f"\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model=\"numpy\")"
+        f'\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model="numpy")'
         f"({kernel.__name__}.py_func)\n"
     )
     return _load(text).compiled
@@ -232,14 +237,19 @@ def compiled(kernel: Callable, signature: str) -> Callable:
 def _closure_source(kernel: Callable) -> str:
     """The kernel's source and that of everything it calls, as the text of one module."""
     functions: dict[str, Callable] = {}
+    seen: list[Callable] = []
+    ordered: list[Callable] = []
     constants: dict[str, float] = {}
     imported: set[str] = set()
     arrays = False
 
     def visit(target: Callable) -> None:
         nonlocal arrays
-        if target.__name__ in functions:
+        if functions.setdefault(target.__name__, target) is not target:
+            raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
+        if target in seen:
             return
+        seen.append(target)
         for name in _names(target.__code__):
             if name not in target.__globals__:
                 continue
@@ -247,7 +257,8 @@ def _closure_source(kernel: Callable) -> str:
             if isinstance(value, types.FunctionType):
                 visit(value)
             elif isinstance(value, int | float):
-                constants[name] = value
+                if constants.setdefault(name, value) != value:
+                    raise TypeError(f"two numbers called {name} meet in {kernel.__name__}")
             elif getattr(math, name, None) is value:
                 imported.add(name)
             elif value is np:
@@ -256,7 +267,7 @@ def _closure_source(kernel: Callable) -> str:
                 raise TypeError(
                     f"{target.__name__} uses {name}, which is neither a number nor a plain function"
                 )
-        functions[target.__name__] = target
+        ordered.append(target)
 
     visit(kernel)
     parts = ["from numba import njit, types"]
@@ -265,7 +276,7 @@ def _closure_source(kernel: Callable) -> str:
     if imported:
         parts.append("from math import " + ", ".join(sorted(imported)))
     parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]
-    for target in functions.values():
+    for target in ordered:
         parts.append('\n@njit(cache=True, nogil=True, error_model="numpy")\n' + inspect.getsource(target))
     return "\n".join(parts)
 

@@ -22,7 +22,16 @@ def vanishes(difference: Any) -> bool:
     if isinstance(difference, sp.MatrixBase):
         return all(vanishes(entry) for entry in difference)
     difference = sp.sympify(difference)
+    somewhere = difference.subs(sample_point(difference))
+    if somewhere.is_Rational and somewhere != 0:
+        return False
     return any(rule(difference) == 0 for rule in (sp.expand, sp.cancel, sp.simplify))
+
+
+def sample_point(expression: sp.Expr) -> dict[sp.Symbol, sp.Rational]:
+    """Positive rationals for the symbols of an expression, in which little cancels by chance."""
+    symbols = sorted(expression.free_symbols, key=str)
+    return {symbol: sp.Rational(sp.prime(k + 5), sp.prime(k + 3)) for k, symbol in enumerate(symbols)}
 
 
 def followed(steps: Steps) -> list[tuple[str, bool]]:
@@ -40,6 +49,11 @@ def followed(steps: Steps) -> list[tuple[str, bool]]:
 def no_steps() -> Steps:
     """The argument that says nothing: alone, it is refused."""
     yield from ()
+
+
+def _told(value: Any) -> str:
+    """A number or a column of numbers, in words."""
+    return str(tuple(value)) if isinstance(value, sp.MatrixBase) else str(value)
 
 
 class Evidence:
@@ -99,8 +113,9 @@ class Equality(Evidence):
 
     def steps(self) -> Steps:
         """One step per equation."""
+        left_over = self.differences()
         for left in self.printed:
-            yield f"printed and derived ${left}$ agree", left not in self.differences()
+            yield f"printed and derived ${left}$ agree", left not in left_over
 
 
 @dataclass(frozen=True)
@@ -140,7 +155,10 @@ class Misprint(Equality):
         for left, defect in self.defect.items():
             yield f"printed minus derived ${left}$ is ${sp.latex(defect)}$", True
         shown = self.consequence()
-        yield f"{shown.words}: the print gives {shown.printed}, required is {shown.required}", True
+        yield (
+            f"{shown.words}: the print gives {_told(shown.printed)}, required is {_told(shown.required)}",
+            True,
+        )
 
 
 @dataclass(frozen=True)

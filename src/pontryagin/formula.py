@@ -5,6 +5,7 @@ functions of `FUNCTIONS`. Everything else is refused by name, so that text from 
 """
 
 import ast
+import math
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -110,8 +111,12 @@ def number(text: str) -> float:
     >>> number("pi/2 - 1e-3")
     1.5697963267948967
     """
-    value = read(text)
-    assert isinstance(value, float)
+    try:
+        value: float | Formula = float(text)
+    except ValueError:
+        value = read(text)
+    if not isinstance(value, float) or not math.isfinite(value):
+        raise ValueError(f"{text!r} has no finite real value")
     return value
 
 

@@ -1,4 +1,4 @@
-"""What notebooks display besides figures and tables: derived formulas, and entries of the ledger judged anew."""
+"""What notebooks display besides figures and tables: formulas, and entries of the ledger judged anew."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -11,7 +11,7 @@ from pontryagin import ledger
 from pontryagin.ledger import Entry
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 
-TILES = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
+TILES: dict[str, str] = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
 SECTIONS = {
     "0": "introduction",
     "1": "1 moments",
@@ -22,14 +22,12 @@ SECTIONS = {
 _SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
 
 
-def equation(left: str, right: Any) -> None:
+def equation(left: Any, right: Any) -> None:
     r"""Display ``left = right`` as mathematics.
 
     Parameters
     ----------
-    left : str
-        LaTeX.
-    right : SymPy expression or matrix, or LaTeX
+    left, right : SymPy expression or matrix, or LaTeX
 
     Examples
     --------
@@ -37,24 +35,29 @@ def equation(left: str, right: Any) -> None:
     >>> equation("J", sp.Symbol("x") ** 2)
     {'text/latex': '$\\displaystyle J = x^{2}$', 'text/plain': ...}
     """
-    equations({left: right})
+    equations([left], [right])
 
 
-def equations(sides: Mapping[str, Any]) -> None:
-    r"""Display several equations, one below the other, aligned at the sign of equality.
+def equations(left: Iterable[Any], right: Iterable[Any] | None = None) -> None:
+    r"""Display equations one below the other, aligned at the sign of equality.
 
     Parameters
     ----------
-    sides : mapping of str to SymPy expression, matrix or LaTeX
-        Left-hand sides as LaTeX, and the right-hand sides.
+    left, right : SymPy expressions or matrices, or LaTeX
+        Both sides; or a mapping from left-hand to right-hand sides alone.
     """
-    lines = [(left, right if isinstance(right, str) else _latex(right)) for left, right in sides.items()]
-    if len(lines) == 1:
-        body = " = ".join(lines[0])
-    else:
-        rows = r" \\ ".join(f"{left} &= {right}" for left, right in lines)
-        body = rf"\begin{{aligned}} {rows} \end{{aligned}}"
+    sides = left.items() if isinstance(left, Mapping) else zip(left, right or (), strict=True)
+    rows = [f"{_latex(a)} &= {_latex(b)}" for a, b in sides]
+    single = len(rows) == 1
+    lines = r" \\ ".join(rows)
+    body = lines.replace(" &= ", " = ") if single else rf"\begin{{aligned}} {lines} \end{{aligned}}"
     _publish({"text/latex": rf"$\displaystyle {body}$"})
+
+
+def vanishing(expressions: Iterable[Any]) -> None:
+    """Display expressions that are to be zero, as equations one below the other."""
+    listed = list(expressions)
+    equations(listed, ["0"] * len(listed))
 
 
 def entry(label: str, paper: str | None = None) -> None:
@@ -88,7 +91,7 @@ def verdicts(verdict: str, paper: str | None = None) -> None:
 
 
 def account(entry: Entry) -> str:
-    """An entry checked anew, as Markdown: print and derivation typeset, the remark, the steps of the proof."""
+    """An entry checked anew, as Markdown: print and derivation typeset, the remark, the proof."""
     steps = entry.proof()
     parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
     if entry.printed_latex:
@@ -143,7 +146,9 @@ def verdict_tiles(paper: str | None = None) -> Figure:
         ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)
         for column, one in enumerate(group):
             faint = 0.35 if one.verdict == "holds" else 1.0
-            tile = Rectangle((column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0)
+            tile = Rectangle(
+                (column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0
+            )
             ax.add_patch(tile)
     ax.set(xlim=(-6.5, across), ylim=(len(lines), 0), aspect="equal")
     ax.axis("off")
@@ -153,10 +158,10 @@ def verdict_tiles(paper: str | None = None) -> Figure:
     return figure
 
 
-def _latex(expression: Any) -> str:
+def _latex(side: Any) -> str:
     import sympy as sp
 
-    return sp.latex(expression)
+    return side if isinstance(side, str) else sp.latex(side)
 
 
 def _text(words: str) -> str:

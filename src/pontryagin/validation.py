@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
-    """`value` as an array of finite floats.
+    """`value` as a new array of finite floats.
 
     Raises
     ------
@@ -22,7 +22,7 @@ def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
     array([0., 1., 2.])
     """
     try:
-        array = np.asarray(value)
+        array = np.array(value)
     except ValueError:
         raise ValueError(f"{name} must be {takes}, got a ragged sequence {value!r}") from None
     if array.dtype.kind not in "fiu":
@@ -47,6 +47,8 @@ def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
 def _from_objects(name: str, array: NDArray, takes: str) -> NDArray[np.float64]:
     """Numbers that NumPy does not know as such (fractions, SymPy numbers)."""
     try:
+        if any(entry is None for entry in array.flat):
+            raise TypeError
         return array.astype(float)
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be {takes}, got {array.tolist()!r}") from None

@@ -47,9 +47,8 @@ def chromium(program, profile):
 
 async def watch(port, page):
     """What became of a player page, and two pictures of it taken some time apart."""
-    (tab,) = [
-        t for t in json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/json")) if t["type"] == "page"
-    ]
+    tabs = json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/json"))
+    (tab,) = [tab for tab in tabs if tab["type"] == "page"]
     socket = await websocket_connect(tab["webSocketDebuggerUrl"], max_message_size=2**28)
     calls = iter(range(1, 10_000))
 
@@ -67,7 +66,7 @@ async def watch(port, page):
     await call("Page.navigate", url=page.as_uri())
     for _ in range(PATIENCE):
         state = await call("Runtime.evaluate", expression="document.documentElement.dataset.state || ''")
-        if state["result"]["value"]:
+        if state["result"].get("value"):
             break
         await asyncio.sleep(1)
     for _ in range(PATIENCE):
@@ -76,7 +75,7 @@ async def watch(port, page):
         second = await picture()
         if np.abs(first[100:, :600] - second[100:, :600]).max() > 50:
             break
-    return state["result"]["value"], first, second
+    return state["result"].get("value"), first, second
 
 
 def turning_box(path):

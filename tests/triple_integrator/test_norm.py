@@ -67,6 +67,14 @@ def propagated(solution):
     return x
 
 
+def assert_same_control(found, expected, q):
+    """Equal controls, for q > 2 by their powers q - 1: next to a sign change u itself is as steep as a root."""
+    power = max(q - 1, 1)
+    size = np.abs(expected).max()
+    by_power = [np.sign(u) * np.abs(u / size) ** power for u in (found, expected)]
+    assert_allclose(*by_power, atol=1e-7)
+
+
 @few
 @given(maneuvers(), exponents)
 def test_the_control_has_the_required_moments(m, q):
@@ -187,7 +195,7 @@ def test_units_and_sign_do_not_matter(m, q, amplitude, clock, sign):
     t = np.linspace(float(m.t0), float(m.tf), 5)
     control = a / T**3
     assert_allclose(other.norm, abs(control) * T ** (1 / q) * plain.norm, rtol=1e-9)
-    assert_allclose(other.control(T * t) / control, plain.control(t), atol=1e-6 * plain.peak)
+    assert_same_control(other.control(T * t) / control, plain.control(t), q)
 
 
 @few
@@ -199,7 +207,7 @@ def test_reversal_of_time(m, q):
     forth_, back_ = minimum_norm(m, q), minimum_norm(back, q)
     t = np.linspace(float(m.t0), float(m.tf), 5)
     assert_allclose(back_.norm, forth_.norm, rtol=1e-10)
-    assert_allclose(back_.control(t)[::-1], -forth_.control(t), atol=1e-6 * forth_.peak)
+    assert_same_control(back_.control(t)[::-1], -forth_.control(t), q)
 
 
 def test_a_constant_control_is_best_for_every_q():

@@ -9,14 +9,13 @@ from scipy.integrate import quad
 
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.route_formulas import area_from_zeros, zeros_from_multiplier
 from pontryagin.triple_integrator.search import (
     REASONS,
     ROUTES,
-    area_from_zeros,
     multiplier_range,
     search,
     survey,
-    zeros_from_multiplier,
 )
 
 few = settings(max_examples=20, deadline=None)
@@ -150,7 +149,7 @@ def test_opposite_moments_are_searched_alike():
     [((2, 1, -2), "outside", 0.67, 0.69), ((1, 1, 2), "crossed", 1.015, 1.016)],
 )
 def test_the_free_search_leaves_the_domain_and_is_then_no_bound(k, reason, low, high):
-    """With a zero outside, or t1 past t2, (3.6) is stationary above the true norm here and below it there."""
+    """With a zero outside, or t1 past t2, what it finds is too low here and too high there."""
     m = Maneuver(np.zeros(3), np.array(k) / SCALE, tf=1.0)
     best, result = minimum_peak(m), search(m, "zeros")
     assert best.certificate.holds(1e-12)
@@ -158,8 +157,19 @@ def test_the_free_search_leaves_the_domain_and_is_then_no_bound(k, reason, low, 
     assert low < result.peak / best.norm < high
     t1, t2 = result.switch_times
     assert t1 > t2 if reason == "crossed" else t1 < 0
-    slopes = area_from_zeros()(t1, t2, *m.moments, 1.0)[1:3]
-    assert_allclose(np.ravel(slopes) * result.peak, 0, atol=1e-5)
+
+
+@few
+@given(st.tuples(numbers, numbers, numbers))
+def test_without_its_bounds_the_area_has_zeros_whatever_is_asked(c):
+    """F vanishes at t1 = 1/2 + d, t2 = 1/2 - d, d > 0, where c0 does not: no peak is then too large."""
+    d = -min(np.roots([8, -3, 0, 1 / 4]).real)
+    if abs(np.array(c) @ [1, -1 / 2, (1 / 4 - d * d) / 2]) < 1e-3:
+        return
+    area = area_from_zeros()(0.5 + d, 0.5 - d, *c, 1.0)[0]
+    assert abs(area) <= 1e-12
+    area_in_order = area_from_zeros()(0.5 - d, 0.5 + d, *c, 1.0)[0]
+    assert abs(area_in_order) > 0.01
 
 
 def test_the_table_adds_up(found):

@@ -157,6 +157,8 @@ def newton(factors, b, psi, smoothing):
             if close or 0.5 * after * after - pairing <= value - 0.25 * length * slope:
                 break
             length *= 0.5
+        if length < 1e-6:
+            break
         for i in range(n):
             psi[i] = trial[i]
         if close:

@@ -39,7 +39,7 @@ class DiscreteSystem:
     Examples
     --------
     >>> system = DiscreteSystem(np.eye(2), np.eye(2))
-    >>> float(gauge(system, [3.0, 4.0], steps=10).alpha)
+    >>> round(float(gauge(system, [3.0, 4.0], steps=10).alpha), 12)
     0.5
     """
 

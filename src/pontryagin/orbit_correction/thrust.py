@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.compile import compiled
+from pontryagin.errors import Infeasible
 from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.disc import disc_gauge
 from pontryagin.orbit_correction.ellipsoids import gauge_of
+from pontryagin.orbit_correction.kinks import flat_gauge
 from pontryagin.orbit_correction.zonotope import zonotope_gauge
 
 THRUSTS = ("ball", "disc", "box")
@@ -37,10 +38,10 @@ def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, 
         b, psi = targets[row], costates[row]
         if n == 0:
             continue
-        if kind == 0:
+        if kind < 2 and b.shape[0] == 3:
+            found = flat_gauge(factors[:n], gram_factors[n - 1], b, psi, controls[row, :n])
+        elif kind == 0:
             found = gauge_of(factors[:n], gram_factors[n - 1], b, psi, controls[row, :n])
-        elif kind == 1:
-            found = disc_gauge(factors[:n], gram_factors[n - 1], b, psi, controls[row, :n])
         else:
             segments, flat = np.empty((2 * n, 3)), np.empty(2 * n)
             for k in range(n):
@@ -108,9 +109,14 @@ class Thrust:
     peak: float
 
     @property
+    def whole_revolutions(self) -> bool:
+        """Whether every impulse acts at the same place of the orbit; then none changes the radius there."""
+        return abs(np.sin(self.interval / 2)) < 1e-9
+
+    @property
     def fewest(self) -> int:
         """Steps below which the impulses span less than the space."""
-        return 1 if self.name == "ball" else 2
+        return 1 if self.name == "ball" or self.whole_revolutions else 2
 
     def factors(self, steps: int) -> NDArray[np.float64]:
         """G_k, (steps, 3, components)."""
@@ -141,15 +147,44 @@ class Thrust:
 
     def gauges(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> Gauges:
         """Gauges of the states (rows, 3) for their numbers of steps (rows,)."""
-        most = max(int(counts.max(initial=0)), self.fewest)
-        factors = np.ascontiguousarray(self.factors(most))
+        if self.whole_revolutions:
+            return self._gauges_of_speeds(z0, counts)
+        return self._gauges(z0, counts, self.factors(max(int(counts.max(initial=0)), self.fewest)))
+
+    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], factors: NDArray) -> Gauges:
+        most = len(factors)
+        factors = np.ascontiguousarray(factors)
         gram = np.cumsum(np.einsum("kij,klj->kil", factors, factors), axis=0)
         gram_factors = np.zeros_like(gram)
         gram_factors[self.fewest - 1 :] = np.linalg.cholesky(gram[self.fewest - 1 :])
-        targets = np.ascontiguousarray(-z0)
+        size = np.abs(z0).max(axis=1, initial=0.0)
+        targets = -z0 / np.where(size > 0, size, 1.0)[:, None]
         costates, results = np.zeros_like(targets), np.zeros((len(targets), 2))
         controls = np.zeros((len(targets), most, factors.shape[2]))
         small = len(targets) * most <= COMPILE_FROM
         run = gauges_of if small else compiled(gauges_of, SIGNATURE)
         run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
-        return Gauges(results[:, 0], results[:, 1], costates, controls)
+        return Gauges(results[:, 0] * size, results[:, 1] * size, costates, controls * size[:, None, None])
+
+    def _gauges_of_speeds(self, z0: NDArray, counts: NDArray[np.int64]) -> Gauges:
+        """Impulses that all act at one place: they change the speeds alone, and share the work equally."""
+        if z0[:, 0].any():
+            raise Infeasible(
+                f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
+                f"of the orbit and leave the radius as it is, so z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
+                "cannot be corrected"
+            )
+        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), 1)
+        if self.name == "ball":
+            found = self._gauges(speeds, counts, self.factors(most)[:, 1:])
+            costates = np.pad(found.costates, ((0, 0), (1, 0)))
+            return Gauges(found.lower, found.upper, costates, found.controls)
+        share = -speeds / (self.peak * np.maximum(counts, 1)[:, None])
+        acting = np.arange(most) < counts[:, None]
+        if self.name == "disc":
+            alpha, costates = np.linalg.norm(share, axis=1), share
+        else:
+            alpha = np.abs(share).max(axis=1)
+            costates = np.where(np.abs(share) == alpha[:, None], share, 0.0)
+        controls = share[:, None] * acting[..., None]
+        return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)

@@ -20,11 +20,11 @@ from nbformat import NotebookNode
 
 from pontryagin import files
 from pontryagin.report import dependencies
+from pontryagin.report.environment import FIXED_KEY, environment
 from pontryagin.report.workspace import Workspace
 
 CELL_TIMEOUT = 1200
 KEPT_ENTRIES = 4
-EPOCH = "1325376000"
 
 Progress = Callable[[str, int, int], None]
 """Called with a notebook's name, cells done and cells in all."""
@@ -104,7 +104,7 @@ def notebook_key(workspace: Workspace, notebook: NotebookNode) -> str:
     parts = dependencies.closure(dependencies.Source(workspace.source), plain)
     named = _files_named_in(plain, workspace.root)
     return dependencies.digest(
-        *code, *sorted(parts | named), workspace.lock_text, sys.version, _ENVIRONMENT_KEY, root=workspace.root
+        *code, *sorted(parts | named), workspace.lock_text, sys.version, FIXED_KEY, root=workspace.root
     )
 
 
@@ -120,37 +120,6 @@ def publish(workspace: Workspace, executed: Iterable[Executed]) -> int:
         changed += sum(files.write(target / name, path.read_bytes()) for name, path in drawn.items())
         files.write(workspace.build / "notebooks" / f"{result.name}.ipynb", nbformat.writes(result.notebook))
     return changed
-
-
-def environment(workspace: Workspace, **more: str) -> dict[str, str]:
-    """Environment of everything that the build runs: fixed hashes, one thread, no user settings."""
-    private = workspace.cache / "settings"
-    private.mkdir(parents=True, exist_ok=True)
-    return {
-        **os.environ,
-        **_FIXED,
-        "IPYTHONDIR": str(private / "ipython"),
-        "JUPYTER_CONFIG_DIR": str(private / "jupyter"),
-        "MPLCONFIGDIR": str(private / "matplotlib"),
-        "PYTHONPATH": str(workspace.source.parent),
-        **more,
-    }
-
-
-_FIXED = {
-    "PYTHONHASHSEED": "0",
-    "SOURCE_DATE_EPOCH": EPOCH,
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "NUMEXPR_NUM_THREADS": "1",
-    "NUMBA_NUM_THREADS": "1",
-    "RERUN_ANALYTICS": "0",
-    "PYDEVD_DISABLE_FILE_VALIDATION": "1",
-    "LC_ALL": "C.UTF-8",
-    "TZ": "UTC",
-}
-_ENVIRONMENT_KEY = repr(sorted(_FIXED.items()))
 
 
 def _run_into(

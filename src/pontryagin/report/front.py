@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 from pontryagin import files
 from pontryagin.report import dependencies
-from pontryagin.report.execute import environment
+from pontryagin.report.environment import environment
 from pontryagin.report.papers import PAPERS, Paper
 from pontryagin.report.workspace import Workspace
 from pontryagin.tables import markdown_table

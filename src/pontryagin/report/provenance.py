@@ -10,7 +10,8 @@ from typing import Any
 
 from pontryagin import __version__
 from pontryagin.report.assemble import Item
-from pontryagin.report.execute import EPOCH, Executed
+from pontryagin.report.environment import EPOCH
+from pontryagin.report.execute import Executed
 from pontryagin.report.workspace import Workspace
 from pontryagin.tables import markdown_table
 

@@ -84,6 +84,9 @@ Each recording replays in the browser, with no network. The same files open in r
 def _write_html(read: text.Text, root: Path, target: Path, title: dict[str, str]) -> None:
     page = render_html(read.document, root, title)
     program = browser.find()
+    if not read.places:
+        files.write(target, page)
+        return
     if program is None:
         files.write(target, page)
         progress.note("no Chromium here: the formulas of index.html were not looked at in a browser")

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from pontryagin import files
 from pontryagin.report import dependencies
-from pontryagin.report.execute import environment
+from pontryagin.report.environment import environment
 from pontryagin.report.papers import PAPERS
 from pontryagin.report.workspace import Workspace
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pontryagin import files
 from pontryagin.report import tex, tree
-from pontryagin.report.execute import EPOCH
+from pontryagin.report.environment import EPOCH
 from pontryagin.report.render_html import ASSETS
 
 

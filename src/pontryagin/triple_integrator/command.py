@@ -90,6 +90,10 @@ def solve(
     _print(solution, json, samples)
 
 
+in_silence = np.errstate(all="ignore")
+"""What overflows fails its certificate; a warning beside the error would be a second voice."""
+
+
 class Goal(NamedTuple):
     """What is least: the norm with exponent q, or the time under a bound on |u|."""
 
@@ -139,10 +143,11 @@ def _ends(goal: Goal, x0: str, xf: str, t0: str, duration: str) -> Ends:
     return Ends(start, end, first, first + elapsed)
 
 
+@in_silence
 def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
     from pontryagin import triple_integrator as ti
 
-    with console.blaming(ARGUMENTS), np.errstate(all="ignore"):
+    with console.blaming(ARGUMENTS):
         try:
             if goal.least_time:
                 return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)
@@ -154,10 +159,10 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
             raise NotConverged(f"the numbers overflow: {reason}", math.inf) from reason
 
 
+@in_silence
 def _require_proof(solution: Any) -> None:
-    with np.errstate(all="ignore"):
-        proof = solution.certificate
-        left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+    proof = solution.certificate
+    left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
     open_ones = ~(left <= ACCEPTED)
     if open_ones.any():
         count = (
@@ -166,6 +171,7 @@ def _require_proof(solution: Any) -> None:
         raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
 
 
+@in_silence
 def _files(solution: Any, plot: File, record: File) -> None:
     if (plot or record) and not transcript.moves(solution):
         raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
@@ -183,6 +189,7 @@ def _files(solution: Any, plot: File, record: File) -> None:
             raise typer.TyperException(str(missing)) from missing
 
 
+@in_silence
 def _print(solution: Any, json: bool, samples: int) -> None:
     told: dict[str, Any] = transcript.transcript(solution)
     if samples:
@@ -193,6 +200,7 @@ def _print(solution: Any, json: bool, samples: int) -> None:
         console.show(transcript.account(solution).title, told, transcript.conclusion(solution))
 
 
+@in_silence
 def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     from pontryagin.triple_integrator import batch
 

@@ -35,7 +35,7 @@ def integrals(disturbance: object, start: NDArray, end: NDArray) -> Integrals:
     pontryagin.NotConverged
         If it is not resolved to 1e-13 (a singularity, or more than 4096 panels).
     """
-    if disturbance is None:
+    if disturbance is None or np.size(start) == 0:
         return lambda t, t0: np.zeros((*np.broadcast_shapes(np.shape(t), np.shape(t0)), 2))
     low, high = float(np.min(start)), float(np.max(end))
     if hasattr(disturbance, "free_symbols"):
@@ -63,7 +63,8 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
 
     from pontryagin import compile as compiler
 
-    expression = sp.sympify(expression)
+    if not isinstance(expression, sp.Expr) or expression.is_real is False:
+        raise TypeError(f"disturbance must be a real expression in t, got {expression}")
     foreign = {str(symbol) for symbol in expression.free_symbols} - {"t"}
     if foreign:
         raise ValueError(
@@ -71,7 +72,13 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
         )
     t = sp.Symbol("t", real=True)
     expression = expression.subs(dict.fromkeys(expression.free_symbols, t))
-    value = compiler.function("disturbance", [t], {"f": expression})
+    try:
+        value = compiler.function("disturbance", [t], {"f": expression})
+        value((low + high) / 2)
+    except (NameError, KeyError):
+        raise ValueError(
+            f"disturbance must be an expression that NumPy evaluates, got {expression}"
+        ) from None
     panels = Panels(lambda time: value(time)[0], low, high)
     antiderivatives = _antiderivatives(expression)
     if antiderivatives is None:
@@ -89,7 +96,10 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
     probe = np.linspace(low, high, 17)
     by_quadrature = panels.integrals(probe, np.asarray(low))
     scale = np.abs(by_quadrature).max() + np.finfo(float).tiny
-    difference = np.abs(exact(probe, np.asarray(low)) - by_quadrature).max()
+    try:
+        difference = np.abs(exact(probe, np.asarray(low)) - by_quadrature).max()
+    except (NameError, TypeError):  # a special function that NumPy does not have, or complex values
+        return panels.integrals
     return exact if difference <= 1e-11 * scale else panels.integrals
 
 
@@ -105,6 +115,13 @@ def _antiderivatives(expression) -> tuple | None:
     return first, second
 
 
+def _real(value: object) -> NDArray[np.float64]:
+    array = np.asarray(value)
+    if array.dtype.kind in "cUS":
+        raise TypeError(f"got {value!r}")
+    return array.astype(float)
+
+
 @dataclass(frozen=True)
 class Panels:
     """A function of time as Chebyshev series on panels, halved until each is resolved to rounding."""
@@ -116,7 +133,7 @@ class Panels:
     def values(self, t: NDArray) -> NDArray:
         """f at the times (k,), called with an array if it takes one and with numbers if not."""
         try:
-            result = np.asarray(self.function(t), dtype=float)
+            result = _real(self.function(t))
         except (TypeError, ValueError):
             result = np.empty(())
         if result.shape == ():
@@ -132,7 +149,12 @@ class Panels:
         return result
 
     def _at(self, time: float) -> float:
-        value = np.asarray(self.function(time), dtype=float)
+        try:
+            value = _real(self.function(time))
+        except TypeError as error:
+            raise TypeError(
+                f"disturbance must be a function f(t) that takes a time and returns a number: {error}"
+            ) from error
         if value.shape != ():
             raise ValueError(
                 f"disturbance must return one number for each time: got shape {value.shape} for a number"

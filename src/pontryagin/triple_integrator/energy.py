@@ -68,10 +68,13 @@ class EnergySolution:
     @cached_property
     def multipliers(self) -> NDArray[np.float64]:
         """l0 = D^-1 c / (c'D^-1 c), (..., 3); zeros where c = 0."""
-        m = self.maneuver
-        c1, c2, c3 = np.moveaxis(m.moments, -1, 0)
-        parts = kernels.energy_multipliers(c1, c2, c3, m.duration)
-        return trajectory.normalised(np.stack(parts, axis=-1), m.moments)
+        c = self.maneuver.moments
+        powers = self.maneuver.duration[..., None] ** np.array([3.0, 2.0, 1.0])
+        k = c / powers
+        size = np.abs(k).max(axis=-1, keepdims=True)
+        k1, k2, k3 = np.moveaxis(k / np.where(size == 0, 1.0, size), -1, 0)
+        parts = kernels.energy_multipliers(k1, k2, k3, 1.0)  # type: ignore[call-arg]
+        return trajectory.normalised(np.stack(parts, axis=-1) / powers, c)
 
     def control(self, t: ArrayLike) -> NDArray[np.float64]:
         """u at the times t, (k,) -> (..., k)."""

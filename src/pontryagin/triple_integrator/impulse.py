@@ -40,7 +40,8 @@ def one_impulse(m0, m1):
 
 def solve_impulse(c1, c2, c3, T):
     """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
-    m0, m1, m2 = c3, c2 / T, 2.0 * c1 / T / T
+    share = 1.0 / T
+    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
     scale = max(fabs(m0), fabs(m1), fabs(m2))
     if scale == 0.0:
         return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
@@ -54,18 +55,22 @@ def solve_impulse(c1, c2, c3, T):
     ):
         if candidate > bound:
             bound, regime = candidate, name
-    place, unique, middle, at_start = 0.5, 1.0, 0.0, 0.0
+    place, unique, at_end, middle, at_start = 0.5, 1.0, 0.0, 0.0, 0.0
+    smallest = ROUNDING * bound
     if regime == CHEBYSHEV:
         at_end, middle, at_start = chebyshev_amplitudes(m0, m1, m2)
-    elif regime == START:
+        if at_end * middle > 0.0 and fabs(at_end) > smallest:
+            regime = START
+        elif at_start * middle > 0.0 and fabs(at_start) > smallest:
+            regime = END
+    if regime == START:
         at_start, middle = two_impulses(n0, n1, n2)
         at_end, place = 0.0, max(0.0, 1.0 - n2 / n1)
-    elif regime == END or (m0 * m1 > 0.0 and m0 * m2 > 0.0 and m0 * m2 >= m1 * m1):
+    elif regime == END or (regime == MOMENT and m0 * m1 > 0.0 and m0 * m2 > 0.0 and m0 * m2 >= m1 * m1):
         at_end, middle = two_impulses(m0, m1, m2)
-        place = min(1.0, m2 / m1)
-    else:
+        at_start, place = 0.0, min(1.0, m2 / m1)
+    elif regime == MOMENT:
         at_end, middle, place = one_impulse(m0, m1)
-    smallest = ROUNDING * bound
     if regime == MOMENT and fabs(m1 - m2) > smallest and m0 * m2 - m1 * m1 > smallest * fabs(m0):
         unique = 0.0
     at_end = at_end if fabs(at_end) > smallest else 0.0

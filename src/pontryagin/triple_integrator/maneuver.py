@@ -114,4 +114,6 @@ class Maneuver:
 
 
 def _shape(disturbance: object) -> tuple[int, ...]:
-    return np.shape(disturbance) if isinstance(disturbance, np.ndarray | list | tuple) else ()  # type: ignore[arg-type]
+    if not isinstance(disturbance, np.ndarray | list | tuple):
+        return ()
+    return finite("disturbance", disturbance, "a number or an array (...)").shape  # type: ignore[arg-type]

@@ -116,7 +116,8 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     TypeError, ValueError
         If q is not a number greater than 1 and finite; those ends are `minimum_impulse`, `minimum_peak`.
     pontryagin.NotConverged
-        If the moments are missed, or the bound is, by more than 1e-10. Seen for q - 1 below 3e-5 only.
+        If the moments are missed, or the bound is, by more than 1e-10: seen for q - 1 <= 1e-4, and
+        for q = 1e6 next to a constant control.
 
     Examples
     --------

@@ -3,13 +3,15 @@
 Both look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus as long
 as 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F is a number without meaning, and where
 c0 of (3.5) vanishes it is infinite. Within the domain |F| is stationary at the optimum only, because the norm
-is convex on the plane l'c = 1; so a search that fails has left it, met its boundary or a pole.
+is convex on the plane l'c = 1; so a search that fails has left it, met its boundary or a pole. Outside there
+is nothing to find: where t1 has passed t2 there are points with F = 0 for every c, so that (3.6) without its
+bounds has no minimum worth the name, and a free search is right only as long as it stays near.
 """
 
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -138,7 +140,7 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
     follow = _by_zeros if route.startswith("zeros") else _by_multiplier
     zeros, by_multiplier, evaluations = follow(unit, route)
     with np.errstate(all="ignore"):
-        area, _, _, c0 = (float(part) for part in area_from_zeros()(*zeros, *unit, 1.0))
+        area, _, _, c0 = (float(part) for part in _formulas().area_from_zeros()(*zeros, *unit, 1.0))
         alpha, by_multiplier = (part / (size * T**3) for part in (0.5 / np.float64(c0), by_multiplier))
     certified = minimum_peak(Maneuver(np.zeros(3), unit, tf=np.asarray(1.0)))
     peak = size / abs(area) if area and np.isfinite(area) else np.nan
@@ -170,6 +172,13 @@ def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> S
     return Survey(directions, {route: tuple(search(m, route) for m in maneuvers) for route in routes})
 
 
+def _formulas() -> ModuleType:
+    """The compiled formulas; asked for late, because they take SymPy's import and a derivation."""
+    from pontryagin.triple_integrator import route_formulas
+
+    return route_formulas
+
+
 def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: float) -> str:
     """Empty if 1/|area| is the least peak and the zeros lie within [0, 1]; else why not."""
     if not np.isfinite(area) or abs(c0) < 1e-6:
@@ -184,44 +193,12 @@ def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: floa
     return "boundary" if room < 1e-6 else "early"
 
 
-@cache
-def area_from_zeros() -> Callable[..., tuple]:
-    """(t1, t2, c1, c2, c3, T) -> F of (3.6) with l from (3.5), its derivatives by t1 and t2, and c0."""
-    import sympy as sp
-
-    from pontryagin.compile import function
-    from pontryagin.triple_integrator.derivation import parabola
-    from pontryagin.triple_integrator.derivation.channel import tf
-
-    t1, t2, c, T = parabola.t1, parabola.t2, parabola.c, parabola.T
-    area = sp.cancel(parabola.objective((t1, t2), c, T))
-    c0 = sp.expand(1 / parabola.multipliers_from_zeros()[0]).subs(tf, T)
-    outputs = {"F": area, "F1": sp.diff(area, t1), "F2": sp.diff(area, t2), "c0": c0}
-    return function("area_from_zeros", [t1, t2, *c, T], outputs)
-
-
-@cache
-def zeros_from_multiplier() -> Callable[..., tuple]:
-    """(lambda~, c1, c2, c3, T) -> t1 and t2 of (3.19), and alpha_m of (3.16)."""
-    from pontryagin.compile import function
-    from pontryagin.triple_integrator.derivation import parabola
-
-    curve = parabola.curve()
-    apex, half_width = curve[parabola.apex], curve[parabola.half_width]
-    outputs = {
-        "t1": apex - half_width,
-        "t2": apex + half_width,
-        "alpha": parabola.curvature_on_the_curve().subs(curve),
-    }
-    return function("zeros_from_multiplier", [parabola.slope, *parabola.c, parabola.T], outputs)
-
-
 def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
     """Zeros and evaluations of the two-variable minimisation (3.6)."""
 
     def area(zeros: NDArray) -> tuple[float, NDArray]:
         with np.errstate(all="ignore"):
-            value, *slopes = (float(part) for part in area_from_zeros()(*zeros, *c, 1.0)[:3])
+            value, *slopes = (float(part) for part in _formulas().area_from_zeros()(*zeros, *c, 1.0)[:3])
         return abs(value), np.sign(value) * np.array(slopes)
 
     start = np.array([0.25, 0.75])
@@ -245,8 +222,8 @@ def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
 
     def area(multiplier: NDArray | float) -> NDArray:
         with np.errstate(all="ignore"):
-            t1, t2, _ = zeros_from_multiplier()(multiplier, *c, 1.0)
-            return area_from_zeros()(t1, t2, *c, 1.0)[0]
+            t1, t2, _ = _formulas().zeros_from_multiplier()(multiplier, *c, 1.0)
+            return _formulas().area_from_zeros()(t1, t2, *c, 1.0)[0]
 
     if route == "multiplier within":
         multiplier, evaluations = _least_on_a_grid(lambda x: np.abs(area(x)), *multiplier_range(c))
@@ -255,7 +232,7 @@ def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
         found = minimize_scalar(lambda x: float(value(x)), bracket=(0.0, 0.01))
         multiplier, evaluations = float(found.x), int(found.nfev)
     with np.errstate(all="ignore"):
-        t1, t2, curvature = zeros_from_multiplier()(multiplier, *c, 1.0)
+        t1, t2, curvature = _formulas().zeros_from_multiplier()(multiplier, *c, 1.0)
     return np.array([float(t1), float(t2)]), float(curvature), evaluations
 
 
@@ -269,29 +246,10 @@ def multiplier_range(c: NDArray) -> tuple[float, float]:
     limits = [-reach, reach]
     if c[2] != 0:
         limits.append(-1.0 / c[2])
-    for numerator in _conditions()(*c, 1.0):
+    for numerator in _formulas().domain_conditions()(*c, 1.0):
         roots = np.roots(numerator)
         limits += [float(root.real) for root in roots if abs(root.imag) <= 1e-12 * abs(root)]
     return max(x for x in limits if x < 0), min(x for x in limits if x > 0)
-
-
-@cache
-def _conditions() -> Callable[..., tuple]:
-    """(c1, c2, c3, T) -> coefficients in lambda~ of the numerators of t1 and T - t2 over T + lambda~ c3."""
-    import sympy as sp
-
-    from pontryagin.compile import function
-    from pontryagin.triple_integrator.derivation import parabola
-
-    curve, T = parabola.curve(), parabola.T
-    apex, half_width = curve[parabola.apex], curve[parabola.half_width]
-    span = T + parabola.slope * parabola.c[2]
-    outputs = {}
-    for name, distance in (("start", apex - half_width), ("end", T - apex - half_width)):
-        numerator = sp.Poly(sp.cancel(distance * span), parabola.slope)
-        outputs[name] = sp.Matrix([[numerator.coeff_monomial(parabola.slope**i) for i in (2, 1, 0)]])
-    raw = function("conditions", [*parabola.c, T], outputs)
-    return lambda *values: tuple(np.ravel(part) for part in raw(*values))
 
 
 def _least_on_a_grid(value: Callable[[NDArray], NDArray], low: float, high: float) -> tuple[float, int]:

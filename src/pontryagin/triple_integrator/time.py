@@ -32,7 +32,7 @@ from pontryagin.triple_integrator.quartic import (
     stationary_points,
     upper_bound,
 )
-from pontryagin.validation import common_shape, finite, positive, vectors
+from pontryagin.validation import common_shape, finite, positive, times, vectors
 
 ACCEPT = 1e-12
 """Largest residual of the moments, relative to the data's own rounding, with which a root is a control."""
@@ -214,6 +214,15 @@ class TimeSolution:
         """
         return Maneuver(self.x0, self.xf, self.duration, disturbance=self.disturbance)
 
+    @cached_property
+    def _motion(self) -> Maneuver:
+        """The same where the ends agree too: nothing of it is asked there beyond the time 0."""
+        longer = np.where(self.duration > 0, self.duration, 1.0)
+        return Maneuver(self.x0, self.xf, longer, disturbance=self.disturbance)
+
+    def _times(self, t: ArrayLike) -> NDArray[np.float64]:
+        return times("t", t, np.zeros_like(self.duration), self.duration)
+
     @property
     def norm(self) -> NDArray[np.float64]:
         """The peak of |u|, (...): the bound, or 0 where the ends agree."""
@@ -238,7 +247,8 @@ class TimeSolution:
     def multipliers(self) -> NDArray[np.float64]:
         """l0 of the minimal element at this duration, l0'c = 1, (..., 3)."""
         shape = trajectory.switching_quadratic(self.shares, self.duration)
-        return trajectory.normalised(shape, self.maneuver.moments)
+        moving = (self.duration > 0)[..., None]
+        return trajectory.normalised(shape, np.where(moving, self._motion.moments, 0.0))
 
     @property
     def switch_condition(self) -> NDArray[np.float64]:
@@ -247,19 +257,18 @@ class TimeSolution:
 
     def control(self, t: ArrayLike) -> NDArray[np.float64]:
         """u at the times t, (k,) -> (..., k)."""
-        return trajectory.bang_bang(self.maneuver.times(t), self.switch_times, self.first_sign * self.norm)
+        return trajectory.bang_bang(self._times(t), self.switch_times, self.first_sign * self.norm)
 
     def state(self, t: ArrayLike) -> NDArray[np.float64]:
         """x at the times t, (k,) -> (..., k, 3)."""
-        m = self.maneuver
-        time = m.times(t)
-        return m.drift(time) + trajectory.bang_bang_response(
-            time, m.t0, self.switch_times, self.first_sign * self.norm
+        time, start = self._times(t), np.zeros_like(self.duration)
+        return self._motion.drift(time) + trajectory.bang_bang_response(
+            time, start, self.switch_times, self.first_sign * self.norm
         )
 
     def costate(self, t: ArrayLike) -> NDArray[np.float64]:
         """psi at the times t, (k,) -> (..., k, 3)."""
-        return trajectory.costate(self.duration, self.maneuver.times(t), self.multipliers)
+        return trajectory.costate(self.duration, self._times(t), self.multipliers)
 
 
 def minimum_time(

@@ -13,12 +13,20 @@ def over_stack(
     kernel: Callable[..., tuple], stack: Callable[..., NDArray], maneuver: Maneuver
 ) -> NDArray[np.float64]:
     """Run a scalar solver (c1, c2, c3, T) -> numbers over a manoeuvre or a stack, as (..., numbers)."""
-    c = maneuver.moments
+    c = _within_range(maneuver.moments)
     if c.ndim == 1:
-        return np.array(kernel(*c.tolist(), float(maneuver.duration)))
-    flat = c.reshape(-1, 3)
-    result = stack(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
-    return result.reshape(*maneuver.shape, result.shape[-1])
+        result = np.array(kernel(*c.tolist(), float(maneuver.duration)))
+    else:
+        flat = c.reshape(-1, 3)
+        result = stack(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
+        result = result.reshape(*maneuver.shape, result.shape[-1])
+    return _within_range(result)
+
+
+def _within_range(numbers: NDArray) -> NDArray[np.float64]:
+    if not np.isfinite(numbers).all():
+        raise ValueError("x0, xf and tf - t0 must give a control within the range of floating point")
+    return numbers
 
 
 def truncated_power(t: NDArray, knots: NDArray, order: int) -> NDArray[np.float64]:
@@ -96,7 +104,7 @@ def costate(tf: NDArray, t: NDArray, multipliers: NDArray) -> NDArray[np.float64
 
 
 def switch_condition(shares: NDArray) -> NDArray[np.float64]:
-    """Displacement of each switch per relative change of the scaled moments, (..., 2).
+    """Displacement of each switch of `switch_times` per relative change of the scaled moments, (..., 2).
 
     From the derivative of the moments by (v, a, b): 1 outside and -1 inside, -2 v (3a^2, 2a, 1) and
     2 v (3b^2, 2b, 1).
@@ -111,4 +119,6 @@ def switch_condition(shares: NDArray) -> NDArray[np.float64]:
     narrow = np.abs(np.linalg.det(jacobian)) < 1e-290
     inverse = np.linalg.inv(np.where(narrow[..., None, None], np.eye(3), jacobian))
     reaction = np.abs(inverse[..., 1:, :]).sum(axis=-1)
-    return np.where(happens & ~narrow[..., None], reaction, np.inf)
+    result = np.where(happens & ~narrow[..., None], reaction, np.inf)
+    alone = happens[..., 1:] & ~happens[..., :1]
+    return np.where(alone, result[..., ::-1], result)

@@ -84,7 +84,8 @@ def conditions_on_the_optimum():
     verdict="misprint",
     remark="Printed: I_m = [−ε_m, +ε_m]. Right: [T/2 − ε_m, T/2 + ε_m], where the sign h0(T/2) in the same "
     "line "
-    "and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 would end at (0, 0, 4) "
+    "and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would end at "
+    "(0, 0, 4) "
     "instead of (1, 0, 0).",
 )
 def approximating_pulses():
@@ -177,7 +178,7 @@ def impulses_are_not_integrable():
             vanishes(sp.limit(drive(kick(sp.zeros(3, 1), a0), width, sp.S.Zero)[2], width, 0) - a0),
         )
         grown = drive(sp.zeros(3, 1), width, bound)[2]
-        yield "an integrable u adds next to nothing", sp.limit(grown, width, 0) == 0
+        yield "a bounded u at most U ε, and bounded u are dense in L_1", sp.limit(grown, width, 0) == 0
 
     return Proof(argument)
 

@@ -105,9 +105,12 @@ def norm_estimate():
         yield "L2: any other control is u* + n with n orthogonal to u*", vanishes(cross) and noise != 0
         own = sp.integrate(sp.expand(program**2), (s, 0, T))
         yield "and ‖u*‖ = 1/ρ0", vanishes(own - 1 / energy.dual_norm() ** 2)
-        dual, gap = sp.symbols("h g", real=True)
-        square = sp.expand((dual * gap) ** 2)
-        yield "in general 1 = Φ(h0) ≤ ‖Φ‖ ρ0", vanishes(square - dual**2 * gap**2)
+        h1, h2 = sp.symbols("h_1 h_2", real=True)
+        room = (T1 * v1**2 + T2 * v2**2) * (T1 * h1**2 + T2 * h2**2) - (T1 * v1 * h1 + T2 * v2 * h2) ** 2
+        yield (
+            "in general 1 = Φ(h0) ≤ ‖Φ‖ρ0 by Hölder; on two levels ‖u‖²‖h‖² − (∫hu)² = T1T2(v1h2 − v2h1)²",
+            (vanishes(room - T1 * T2 * (v1 * h2 - v2 * h1) ** 2)),
+        )
 
     return Proof(argument, display=r"\lVert \Phi \rVert_{L_p^*} \ge \frac{1}{\rho_0}")
 

@@ -2,7 +2,7 @@
 
 here            meaning
 --------------  ----------------------------------------------------------------------------
-J, w, M         inertia tensor, angular rate and torque, all in body axes
+J, w, M         inertia tensor, angular rate and torque, all in body axes; K = J^-1
 q               attitude as a unit quaternion (scalar first), body axes to inertial axes
 phi, theta      attitude as a rotation vector: a turn by theta = |phi| about phi
 m, u            control acceleration m = J^-1 M by channel, and its rate u = dm/dt, (0.4)
@@ -14,6 +14,7 @@ from functools import cache
 import sympy as sp
 
 inertia = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"J{min(i, j) + 1}{max(i, j) + 1}", real=True))
+inverse_inertia = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"K{min(i, j) + 1}{max(i, j) + 1}", real=True))
 rate = sp.Matrix(sp.symbols("w1:4", real=True))
 acceleration = sp.Matrix(sp.symbols("a1:4", real=True))
 axis = sp.Matrix(sp.symbols("e1:4", real=True))
@@ -105,26 +106,24 @@ def inverse_rate_matrix() -> sp.Matrix:
     return sp.eye(3) + cross / 2 + (1 - angle / 2 * sp.cot(angle / 2)) / angle**2 * cross**2
 
 
-def free_acceleration() -> sp.Matrix:
+def free_acceleration(w: sp.Matrix = rate) -> sp.Matrix:
     """-J^-1 (w x J w): what Euler's equations w' = m + ... add to the control acceleration m = J^-1 M."""
-    return -inertia.inv() * rate.cross(inertia * rate)
+    return -inverse_inertia * w.cross(inertia * w)
 
 
-@cache
-def cross_coupling() -> sp.Matrix:
+def cross_coupling(
+    phi_rate: sp.Matrix = rotation_vector_rate, m: sp.Matrix = control_acceleration
+) -> sp.Matrix:
     """f = phi'' - m of the three channels phi'' = m + f, along the motion (phi, phi', m).
 
     phi' = B^-1 w gives phi'' = B^-1 (w' - B' phi'), and w' = m - J^-1 (w x J w).
     """
-    inverse, matrix = inverse_rate_matrix(), rate_matrix_in_closed_form()
+    matrix = rate_matrix_in_closed_form()
     matrix_rate = sum(
-        (along(matrix, x) * v for x, v in zip(rotation_vector, rotation_vector_rate, strict=True)),
-        sp.zeros(3, 3),
+        (along(matrix, x) * v for x, v in zip(rotation_vector, phi_rate, strict=True)), sp.zeros(3, 3)
     )
-    body_rate = matrix * rotation_vector_rate
-    free = free_acceleration().subs(dict(zip(rate, body_rate, strict=True)), simultaneous=True)
-    angular_acceleration = control_acceleration + free
-    return inverse * (angular_acceleration - matrix_rate * rotation_vector_rate) - control_acceleration
+    angular_acceleration = m + free_acceleration(matrix * phi_rate)
+    return inverse_rate_matrix() * (angular_acceleration - matrix_rate * phi_rate) - m
 
 
 def leading_cross_coupling() -> sp.Matrix:
@@ -132,5 +131,4 @@ def leading_cross_coupling() -> sp.Matrix:
 
     B^-1 = 1 + [phi]/2 + O(phi^2), and B' phi' = -(phi' x phi')/2 + ... vanishes at second order.
     """
-    free = free_acceleration().subs(dict(zip(rate, rotation_vector_rate, strict=True)), simultaneous=True)
-    return rotation_vector.cross(control_acceleration) / 2 + free
+    return rotation_vector.cross(control_acceleration) / 2 + free_acceleration(rotation_vector_rate)

@@ -1,4 +1,4 @@
-"""How fast the iteration over the cross-coupling of three channels settles, and from what angle on it does not."""
+"""How fast the iteration over the cross-coupling settles, and from what angle on it does not."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -78,9 +78,13 @@ def coupling_convergence(tried: Sequence[Attempt]) -> Figure:
     right.axhspan(1, 2, color=RED, alpha=0.08, linewidth=0)
     right.text(6, 1.03, "leads away", color=RED, va="bottom")
     right.plot(every, spherical_factor(np.deg2rad(every)), color=INK, label="spherical body, exact")
-    right.plot(*zip(*[(x, turn.factor) for x, turn in settled], strict=True), "o", color=BLUE, label="this body")
+    right.plot(
+        *zip(*[(x, turn.factor) for x, turn in settled], strict=True), "o", color=BLUE, label="this body"
+    )
     lost = [attempt.degrees for attempt in tried if not attempt.turn]
-    right.plot(lost, np.full(len(lost), 1.07), "x", color=RED, markersize=7, label="this body, did not settle")
+    right.plot(
+        lost, np.full(len(lost), 1.07), "x", color=RED, markersize=7, label="this body, did not settle"
+    )
     right.set(xlabel="angle of the turn, degrees", ylabel="factor per iteration")
     right.set(xlim=(0, every[-1]), ylim=(0, 1.6))
     right.legend(loc="lower right", fontsize=8.5)

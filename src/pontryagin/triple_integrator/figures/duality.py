@@ -5,11 +5,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pontryagin.plotting import INK, styled, subplots
-from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.figures import labels
-from pontryagin.triple_integrator.impulse import minimum_impulse
+from pontryagin.triple_integrator.figures.labels import Solution
+from pontryagin.triple_integrator.impulse import ImpulseSolution
 from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
 
 
 @styled
@@ -28,13 +27,13 @@ def dual_functions(maneuver: Maneuver) -> Figure:
     ValueError
         If it is a stack, or c = 0, where no dual function has l'c = 1.
     """
-    labels.single(maneuver)
+    energy, peak, impulse = labels.three(maneuver)
     if not maneuver.moments.any():
         raise ValueError("maneuver: got one with c = 0, takes one that needs a control")
-    energy, peak, impulse = (solve(maneuver) for solve in (minimum_energy, minimum_peak, minimum_impulse))
+    solutions: list[Solution] = [energy, peak, impulse]
     figure, axes = subplots(1, 3, height=2.9, sharex=True, sharey=True)
     t = labels.instants(peak)
-    for ax, solution in zip(axes, (energy, peak, impulse), strict=True):
+    for ax, solution in zip(axes, solutions, strict=True):
         ax.axhline(0, color=INK, linewidth=0.6)
         ax.plot(t, solution.costate(t)[:, 2], color=labels.colour(solution))
         ax.set_xlabel(labels.TIME)
@@ -48,7 +47,7 @@ def dual_functions(maneuver: Maneuver) -> Figure:
         r"$u = \mathrm{sign}\,h_0/\rho_0$,  $\rho_0 = \int\,|h_0|\,dt$",
         r"impulses where $|h_0| = \rho_0$",
     )
-    for ax, solution, words in zip(axes, (energy, peak, impulse), titles, strict=True):
+    for ax, solution, words in zip(axes, solutions, titles, strict=True):
         ax.set_title(words, fontsize=9.5, color=labels.colour(solution))
     return figure
 
@@ -70,19 +69,19 @@ def _mark_signs(ax: Axes, t: np.ndarray, h: np.ndarray, colour: str) -> None:
         ax.text(place, height, "$+$" if sign > 0 else "$-$", ha="center", va="center", color=colour)
 
 
-def _mark_touching(ax: Axes, impulse) -> None:
+def _mark_touching(ax: Axes, impulse: ImpulseSolution) -> None:
     colour, bound = labels.colour(impulse), 1 / float(impulse.norm)
     ax.axhspan(-bound, bound, color=colour, alpha=0.12, linewidth=0)
     for side, words in ((bound, r"$+\rho_0$"), (-bound, r"$-\rho_0$")):
         ax.axhline(side, color=colour, linewidth=0.9, linestyle="--")
-        place = {"xytext": (4, -4), "va": "top"} if side > 0 else {"xytext": (4, 3), "va": "bottom"}
         ax.annotate(
             words,
             (0.12, side),
             xycoords=("axes fraction", "data"),
+            xytext=(4, -4 if side > 0 else 3),
             textcoords="offset points",
+            va="top" if side > 0 else "bottom",
             color=colour,
-            **place,
         )
     times = impulse.impulse_times[impulse.impulses != 0]
     ax.plot(times, impulse.costate(times)[:, 2], "o", color=colour, markersize=6, clip_on=False)

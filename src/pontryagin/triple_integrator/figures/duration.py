@@ -1,4 +1,4 @@
-"""The least peak as a function of the time allowed: where it rises, and the three times that one bound has."""
+"""The least peak as a function of the time allowed: where it rises, and the times of one bound."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -43,7 +43,7 @@ def peak_over_duration(
 
 
 def hamiltonian(solution: PeakSolution) -> np.ndarray:
-    """psi'x' at the start, with the costate for which u0 is the dual value: du0/dT = -u0 times this, (...)."""
+    """psi'x' at the start, of the costate with l'c = 1, (...): du0/dT is -u0 times this."""
     m = solution.maneuver
     force = 0.0 if m.disturbance is None else np.asarray(m.disturbance, dtype=float)
     x2, x3 = m.x0[..., 1], m.x0[..., 2] + force

@@ -1,6 +1,6 @@
 """From impulses to a parabola to bang-bang: the programmes of least L_q norm as q runs from 1 to infinity."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import matplotlib as mpl
 import numpy as np
@@ -51,7 +51,7 @@ def norm_family(maneuver: Maneuver, exponents: Sequence[float] = EXPONENTS) -> F
     return figure
 
 
-def mean_norms(maneuver: Maneuver, exponents: Sequence[float]) -> NDArray[np.float64]:
+def mean_norms(maneuver: Maneuver, exponents: Iterable[float]) -> NDArray[np.float64]:
     """Least values of (mean of |u|^q)^(1/q) over one manoeuvre, rad/s^3, (len(exponents),)."""
     T = float(maneuver.duration)
     return np.array([float(minimum_norm(maneuver, q).norm) * T ** (-1 / q) for q in exponents])
@@ -68,7 +68,8 @@ def _draw_norms(ax: Axes, maneuver: Maneuver) -> None:
     for place, level, colour, words in marks:
         ax.plot(place, level, "o", color=colour, markersize=6, clip_on=False)
         ax.annotate(
-            f"{words}\n${level:.4g}$", (place, level), xytext=(-6 if place else 8, -6), textcoords="offset points",
+            f"{words}\n${level:.4g}$", (place, level),
+            xytext=(-6 if place else 8, -6), textcoords="offset points",
             ha="right" if place else "left", va="top", color=colour,
         )  # fmt: skip
     ax.set_xticks([0, 0.25, 0.5, 0.75, 1], [r"$\infty$", "$4$", "$2$", "$4/3$", "$1$"])

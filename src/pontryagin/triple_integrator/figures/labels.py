@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
-from pontryagin.triple_integrator.energy import EnergySolution
-from pontryagin.triple_integrator.impulse import ImpulseSolution
+from pontryagin.triple_integrator.energy import EnergySolution, minimum_energy
+from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.norm import NormSolution
-from pontryagin.triple_integrator.peak import PeakSolution
+from pontryagin.triple_integrator.peak import PeakSolution, minimum_peak
 from pontryagin.triple_integrator.time import TimeSolution
 
 Solution = EnergySolution | PeakSolution | ImpulseSolution | NormSolution | TimeSolution
@@ -31,6 +31,12 @@ COLOURS = {
     NormSolution: PURPLE,
     TimeSolution: ORANGE,
 }
+
+
+def three(maneuver: Maneuver) -> tuple[EnergySolution, PeakSolution, ImpulseSolution]:
+    """The paper's three programmes for one manoeuvre."""
+    single(maneuver)
+    return minimum_energy(maneuver), minimum_peak(maneuver), minimum_impulse(maneuver)
 
 
 def name(solution: Solution) -> str:
@@ -78,7 +84,7 @@ def single(solution: Any) -> Maneuver:
 
 
 def instants(solution: Solution, count: int = 400) -> np.ndarray:
-    """Times (k,) over the manoeuvre with both sides of every instant where the programme is not smooth, the ends too."""
+    """Times (k,) over the manoeuvre, with both sides of every instant where the programme is not smooth."""
     m = single(solution)
     even = np.linspace(float(m.t0), float(m.tf), count)
     cuts = solution.breakpoints

@@ -68,8 +68,9 @@ def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> No
             color=colour if colour == RED else INK,
         )  # fmt: skip
     ax.plot(0, level_equation(0.0, *k)[0], "o", color=INK, markersize=4)
-    ax.annotate("$G(0) = -3/16$", (0, -3 / 16), xytext=(-7, -3), textcoords="offset points",
-                ha="right", va="top")
+    ax.annotate(
+        "$G(0) = -3/16$", (0, -3 / 16), xytext=(-7, -3), textcoords="offset points", ha="right", va="top"
+    )
     ax.set(xlabel="$t = 1/v$, s³/rad", ylabel="$G(t)$", ylim=(-0.32, 0.75))
 
 

@@ -37,7 +37,9 @@ def equally_cheap(maneuver: Maneuver, exponents: Sequence[float] = (2.0, 1.3, 1.
             t, minimum_norm(maneuver, q).control(t), color=paint(0.15 + 0.6 * place / len(exponents)),
             label=f"least $L_q$ norm, $q = {q:g}$",
         )  # fmt: skip
-    ax.plot(t, entropy.control(t), color=ORANGE, linewidth=2.6, linestyle=(0, (4, 2)), label="greatest entropy")
+    ax.plot(
+        t, entropy.control(t), color=ORANGE, linewidth=2.6, linestyle=(0, (4, 2)), label="greatest entropy"
+    )
     ax.plot([], [], color=GREEN, linewidth=2, label="two impulses, rad/s²")
     draw_impulses(ax, impulse.impulse_times, impulse.impulses, 2.3 * float(np.abs(entropy.peak)), GREEN)
     ax.set(xlabel=labels.TIME, ylabel=labels.CONTROL)

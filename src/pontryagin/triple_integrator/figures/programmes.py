@@ -7,12 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pontryagin.plotting import INK, styled, subplots
-from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.impulse import ImpulseSolution
 from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
 
 
 @styled
@@ -29,11 +27,12 @@ def three_programmes(maneuver: Maneuver) -> Figure:
     >>> three_programmes(Maneuver([0, 0, 0], [1, 0, 0], tf=1.0)).get_label()
     'three-programmes'
     """
-    labels.single(maneuver)
-    solutions = [solve(maneuver) for solve in (minimum_energy, minimum_peak, minimum_impulse)]
+    solutions: list[Solution] = [*labels.three(maneuver)]
     figure, axes = subplots(4, 3, height=6.6, sharex=True, sharey="row")
     for column, solution in zip(axes.T, solutions, strict=True):
-        column[0].set_title(f"{labels.name(solution)}\n{labels.value(solution)}", color=labels.colour(solution))
+        column[0].set_title(
+            f"{labels.name(solution)}\n{labels.value(solution)}", color=labels.colour(solution)
+        )
         draw_control(column[0], solution, peak=max(finite_peak(s) for s in solutions))
         for state, ax in zip((2, 1, 0), column[1:], strict=True):
             draw_state(ax, solution, state)
@@ -92,7 +91,11 @@ def draw_control(ax: Axes, solution: Solution, peak: float) -> None:
 
 
 def draw_impulses(
-    ax: Axes, times: Sequence[float] | np.ndarray, sizes: Sequence[float] | np.ndarray, peak: float, colour: str
+    ax: Axes,
+    times: Sequence[float] | np.ndarray,
+    sizes: Sequence[float] | np.ndarray,
+    peak: float,
+    colour: str,
 ) -> None:
     """Impulses as arrows from the axis, each with its size in rad/s²."""
     present = [(time, size) for time, size in zip(times, sizes, strict=True) if size]

@@ -67,16 +67,20 @@ def _draw_boundaries(ax: Axes) -> None:
         (0.0, "one impulse\nat the end", (0.0, 0.16)),
         (0.4, "one impulse", (0.0, -0.15)),
     ):
-        place = sphere.to_disc(sphere.unit_impulse(np.array(sigma)))
+        x, y = sphere.to_disc(sphere.unit_impulse(np.array(sigma)))
         line = {"arrowstyle": "-", "lw": 0.6, "shrinkA": 1, "shrinkB": 2}
-        ax.annotate(words, place, place + shift, ha="center", va="center", fontsize=9, arrowprops=line)
-        ax.plot(*place, "o" if sigma in (0.0, 1.0) else "", color=INK, markersize=4)
+        ax.annotate(
+            words, (x, y), (x + shift[0], y + shift[1]), ha="center", va="center", fontsize=9, arrowprops=line
+        )
+        ax.plot(x, y, "o" if sigma in (0.0, 1.0) else "", color=INK, markersize=4)
 
 
 def _pictogram(ax: Axes, place: tuple[float, float], colour: str) -> None:
     solution = minimum_impulse(sphere.maneuvers(sphere.from_disc(np.array(place))))
     width, height = 0.2, 0.17
-    inset = ax.inset_axes((place[0] - width / 2, place[1] - height / 2, width, height), transform=ax.transData)
+    inset = ax.inset_axes(
+        (place[0] - width / 2, place[1] - height / 2, width, height), transform=ax.transData
+    )
     inset.axis("off")
     largest = np.abs(solution.impulses).max()
     inset.axhline(0, color=INK, linewidth=0.8)

@@ -58,7 +58,7 @@ def grid(size: int) -> tuple[Array, Array]:
 
 def maneuvers(directions: Array) -> Maneuver:
     """From rest at zero to the state whose moments are in these directions, T = 1."""
-    return Maneuver(np.zeros(3), directions / SCALES, 1.0)
+    return Maneuver(np.zeros(3), directions / SCALES, np.asarray(1.0))
 
 
 def arc(first: Array, last: Array, count: int = 200) -> Array:

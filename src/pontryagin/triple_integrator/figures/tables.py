@@ -1,14 +1,15 @@
 """Tables of this paper, as columns for `plotting.show_table`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.triple_integrator.attitude import turn
-from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.figures import duration, labels, overpayment, sphere
+from pontryagin.triple_integrator.figures.labels import Solution
 from pontryagin.triple_integrator.impulse import REGIMES, ImpulseSolution, minimum_impulse
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import minimum_peak
@@ -17,14 +18,13 @@ from pontryagin.triple_integrator.time import minimum_time
 
 Columns = dict[str, list[Any]]
 
-SOLVERS = (minimum_energy, minimum_peak, minimum_impulse)
-
 
 def examples(angle: float, T: float) -> Columns:
     """What the paper prints for the turn from rest to rest by an angle, in numbers, next to the solvers'."""
     maneuver = Maneuver([0, 0, 0], [angle, 0, 0], tf=T)  # type: ignore[arg-type, list-item]
-    energy, peak, impulse = (solve(maneuver) for solve in SOLVERS)
+    energy, peak, impulse = labels.three(maneuver)
     level = 32 * angle / T**3
+    time = 2 * np.cbrt(4 * angle / level)
     least = minimum_time([0, 0, 0], [angle, 0, 0], level)
     start, middle = energy.control([0.0, T / 2])
     first, second = peak.switch_times
@@ -34,7 +34,7 @@ def examples(angle: float, T: float) -> Columns:
         ("least peak", r"$32\gamma_T/T^3$", level, peak.norm, peak),
         ("its first switch", r"$T/4$", T / 4, first, peak),
         ("its second switch", r"$3T/4$", 3 * T / 4, second, peak),
-        ("least time for that peak", r"$2(4\gamma_T/u_0)^{1/3}$", 2 * (4 * angle / level) ** (1 / 3), least.duration, least),
+        ("least time for it", r"$2(4\gamma_T/u_0)^{1/3}$", time, least.duration, least),
         ("least total impulse", r"$16\gamma_T/T^2$", 16 * angle / T**2, impulse.norm, impulse),
         ("total impulse of the least peak", r"$32\gamma_T/T^2$", 32 * angle / T**2, peak.norm * T, peak),
     ]  # fmt: skip
@@ -51,7 +51,7 @@ def examples(angle: float, T: float) -> Columns:
 def crossed_norms(maneuver: Maneuver) -> Columns:
     """What each of the three programmes costs in each of the three norms."""
     T = float(labels.single(maneuver).duration)
-    energy, peak, impulse = (solve(maneuver) for solve in SOLVERS)
+    energy, peak, impulse = labels.three(maneuver)
     t = np.linspace(float(maneuver.t0), float(maneuver.tf), 20001)
     u = np.abs(energy.control(t))
     area = float(np.sum((u[1:] + u[:-1]) * np.diff(t)) / 2)
@@ -67,7 +67,7 @@ def crossed_norms(maneuver: Maneuver) -> Columns:
 
 def certificates(maneuver: Maneuver) -> Columns:
     """Residual, value, bound from the other side, and gap, for each of the three problems."""
-    solutions = [solve(maneuver) for solve in SOLVERS]
+    solutions: list[Solution] = [*labels.three(maneuver)]
     proofs = [solution.certificate for solution in solutions]
     return {
         "problem": [labels.name(solution) for solution in solutions],
@@ -78,8 +78,8 @@ def certificates(maneuver: Maneuver) -> Columns:
     }
 
 
-def regime_shares(size: int = 1200) -> Columns:
-    """Share of all directions of (6 c1, 2 c2, c3), T = 1, in each regime, and what the printed formula does there.
+def regime_shares(size: int = 800) -> Columns:
+    """Share of the directions of (6 c1, 2 c2, c3), T = 1, in each regime, and what (4.10) does there.
 
     Parameters
     ----------
@@ -94,9 +94,9 @@ def regime_shares(size: int = 1200) -> Columns:
     return {
         "regime": list(REGIMES[1:]),
         "share of directions": [round(float(row.mean()), 3) for row in rows],
-        r"least $\lvert F\rvert/T^2$ over least impulse": [float((value / solution.norm)[row].min()) for row in rows],
-        "most paid for the printed impulses": [float((total / solution.norm)[row].max()) for row in rows],
-        "mean paid": [float((total / solution.norm)[row].mean()) for row in rows],
+        r"least $\lvert F\rvert/T^2$ over least impulse": _rounded(value / solution.norm, rows, np.min),
+        "most paid for the printed impulses": _rounded(total / solution.norm, rows, np.max),
+        "mean paid": _rounded(total / solution.norm, rows, np.mean),
     }
 
 
@@ -106,7 +106,7 @@ def impulse_examples(moments: Sequence[ArrayLike]) -> Columns:
     solution = minimum_impulse(Maneuver(np.zeros(3), c, 1.0))  # type: ignore[arg-type]
     value, total = overpayment.printed(c)
     return {
-        "$c$": [f"({', '.join(f'{x:g}' for x in row)})" for row in c],
+        "$c$": [f"({', '.join(str(Fraction(x).limit_denominator(1000)) for x in row)})" for row in c],
         "regime": list(solution.regime),
         "impulses": [_impulses(solution, i) for i in range(len(c))],
         "total": list(solution.norm),
@@ -136,20 +136,32 @@ def times_of_one_bound(x0: ArrayLike, xf: ArrayLike, bound: float, durations: tu
 
 def turn_misses(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Columns:
     """Where the body ends with the gyroscopic torque fed forward, and without it."""
-    columns: Columns = {"programme": [], "gyroscopic torque": [], "attitude missed, degrees": [], "rate missed, rad/s": []}
-    for solve in SOLVERS:
-        programme = solve(maneuver)
+    columns: Columns = {
+        "programme": [],
+        "gyroscopic torque": [],
+        "attitude missed, degrees": [],
+        "rate missed, rad/s": [],
+    }
+    programmes: list[Solution] = [*labels.three(maneuver)]
+    for programme in programmes:
         for feedforward in (True, False):
             made = turn(body, axis, programme, feedforward)
             row = (labels.name(programme), "fed forward" if feedforward else "left out")
-            for column, value in zip(columns.values(), (*row, np.rad2deg(made.attitude_miss), made.rate_miss), strict=True):
+            for column, value in zip(
+                columns.values(), (*row, np.rad2deg(made.attitude_miss), made.rate_miss), strict=True
+            ):
                 column.append(value)
     return columns
 
 
 def _impulses(solution: ImpulseSolution, i: int) -> str:
     present = zip(solution.impulse_times[i], solution.impulses[i], strict=True)
-    return ", ".join(f"{size:.4g} at {time:.4g}" for time, size in present if size)
+    return ", ".join(f"{size:.4g} at {time:.4g}" for time, size in present if size).replace("-", "−")
+
+
+def _rounded(ratio: np.ndarray, rows: Sequence[np.ndarray], of: Callable) -> list[float]:
+    """To three digits: what a count over cells can tell."""
+    return [round(float(of(ratio[row])), 3) for row in rows]
 
 
 def _refined(x0: ArrayLike, xf: ArrayLike, bound: float, near: float) -> float:

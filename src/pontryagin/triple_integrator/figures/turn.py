@@ -1,4 +1,4 @@
-"""The real turn: torque that the channel asks for and torque it does not know, and what leaving it out costs."""
+"""The real turn: the torque no channel knows, and what leaving it out costs."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -6,11 +6,9 @@ from numpy.typing import ArrayLike
 
 from pontryagin.plotting import INK, RED, SKY, styled, subplots
 from pontryagin.triple_integrator.attitude import turn
-from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.figures import labels
-from pontryagin.triple_integrator.impulse import minimum_impulse
+from pontryagin.triple_integrator.figures.labels import Solution
 from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
 from pontryagin.triple_integrator.rigid_body import RigidBody
 
 
@@ -30,9 +28,9 @@ def real_turn(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Figure:
     maneuver : Maneuver
         One manoeuvre of the angle about the axis.
     """
+    programmes: list[Solution] = [*labels.three(maneuver)]
     figure, axes = subplots(2, 3, height=4.7, sharex=True, sharey="row")
-    for column, solve in zip(axes.T, (minimum_energy, minimum_peak, minimum_impulse), strict=True):
-        programme = solve(maneuver)
+    for column, programme in zip(axes.T, programmes, strict=True):
         fed, unfed = (turn(body, axis, programme, feedforward) for feedforward in (True, False))
         t, colour = labels.instants(programme), labels.colour(programme)
         along = body.inertia @ fed.axis

@@ -1,0 +1,11 @@
+"""Hypothesis profiles: the same examples every time, and `HYPOTHESIS_PROFILE=deep` for a long random run."""
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+settings.register_profile("steady", derandomize=True, max_examples=25, deadline=None, database=None)
+settings.register_profile(
+    "deep", max_examples=2000, deadline=None, suppress_health_check=[HealthCheck.too_slow], print_blob=True
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))

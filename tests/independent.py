@@ -1,0 +1,167 @@
+"""What answers are compared with: SciPy's integrator, HiGHS on grids, and roots of exact polynomials."""
+
+from fractions import Fraction
+
+import mpmath as mp
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import linprog
+
+
+def force_of(maneuver):
+    """The disturbance as a function of time."""
+    f = maneuver.disturbance
+    if f is None:
+        return lambda t: 0.0
+    return f if callable(f) else lambda t: float(f)
+
+
+def propagate(maneuver, control, breakpoints=(), impulses=()):
+    """Final state of x1' = x2, x2' = x3 + f, x3' = u by SciPy, restarted where u is not smooth or jumps.
+
+    Returns the state and the largest modulus that any coordinate took.
+    """
+    start, end = float(maneuver.t0), float(maneuver.tf)
+    jumps = dict(impulses)
+    force = force_of(maneuver)
+    x = np.array(maneuver.x0, dtype=float)
+    x[2] += jumps.get(start, 0.0)
+    largest = np.abs(x)
+    edges = [start, *sorted({*map(float, breakpoints), *(t for t in jumps if start < t < end)}), end]
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        last = np.nextafter(high, low)
+
+        def rate(t, x, last=last):
+            return [x[1], x[2] + force(t), control(min(t, last))]
+
+        run = solve_ivp(rate, (low, high), x, method="DOP853", rtol=1e-12, atol=1e-13)
+        largest = np.maximum(largest, np.abs(run.y).max(axis=1))
+        x = run.y[:, -1].copy()
+        x[2] += jumps.get(high, 0.0)
+    return x, np.maximum(largest, np.abs(x))
+
+
+def response(s):
+    """h(s) = (s^2/2, s, 1), (..., 3)."""
+    s = np.asarray(s, dtype=float)
+    return np.stack([s**2 / 2, s, np.ones_like(s)], axis=-1)
+
+
+def peak_bracket(c, duration, cells=160):
+    """Lower and upper bound on the least peak, by two linear programmes on a grid of [0, T].
+
+    Above: the best control that is constant on each cell. Below: the best dual function, whose integral of
+    |h| is at most that of the interpolated |h| plus |h''| step^2 / 8.
+    """
+    edges = np.linspace(0, duration, cells + 1)
+    step = duration / cells
+    exact = np.stack([edges**3 / 6, edges**2 / 2, edges])
+    moments = np.diff(exact, axis=1)
+    above = linprog(
+        np.r_[np.zeros(cells), 1],
+        A_ub=np.block([[np.eye(cells), -np.ones((cells, 1))], [-np.eye(cells), -np.ones((cells, 1))]]),
+        b_ub=np.zeros(2 * cells),
+        A_eq=np.c_[moments, np.zeros(3)],
+        b_eq=c,
+        bounds=(None, None),
+    )
+    h = response(edges)
+    weights = np.r_[step / 2, np.full(cells - 1, step), step / 2]
+    below = linprog(
+        np.r_[-np.asarray(c, dtype=float), np.zeros(cells + 2)],
+        A_ub=np.vstack(
+            [
+                np.c_[h, -np.eye(cells + 1), np.zeros(cells + 1)],
+                np.c_[-h, -np.eye(cells + 1), np.zeros(cells + 1)],
+                [[1, 0, 0, *np.zeros(cells + 1), -1], [-1, 0, 0, *np.zeros(cells + 1), -1]],
+                [[0, 0, 0, *weights, duration * step**2 / 8]],
+            ]
+        ),
+        b_ub=np.r_[np.zeros(2 * cells + 4), 1],
+        bounds=(None, None),
+    )
+    return -below.fun, above.fun
+
+
+def impulse_bracket(c, duration, cells=160):
+    """The same for the least total impulse: impulses on the grid; |h| at most 1 - |h''| step^2 / 8 there."""
+    s = np.linspace(0, duration, cells + 1)
+    h = response(s)
+    above = linprog(np.ones(2 * cells + 2), A_eq=np.c_[h.T, -h.T], b_eq=c, bounds=(0, None))
+    slack = np.full((cells + 1, 1), (duration / cells) ** 2 / 8)
+    below = linprog(
+        np.r_[-np.asarray(c, dtype=float), 0],
+        A_ub=np.vstack([np.c_[h, slack], np.c_[-h, slack], [[1, 0, 0, -1], [-1, 0, 0, -1]]]),
+        b_ub=np.r_[np.ones(2 * cells + 2), 0, 0],
+        bounds=(None, None),
+    )
+    return -below.fun, above.fun
+
+
+def exactly(number):
+    """A float as an mpmath number, without rounding."""
+    ratio = Fraction(float(number))
+    return mp.mpf(ratio.numerator) / ratio.denominator
+
+
+def exact_peak(c, digits=60):
+    """Least peak for T = 1 as the largest |v| among the real roots of the printed-nowhere quartic P(v)."""
+    with mp.workdps(digits):
+        c1, c2, c3 = map(exactly, c)
+        quartic = [
+            mp.mpf(3),
+            48 * c2 - 96 * c1 - 12 * c3,
+            96 * c1 * c3 - 48 * c2**2 - 6 * c3**2,
+            4 * c3**3,
+            -(c3**4),
+        ]
+        while quartic[-1] == 0 and len(quartic) > 1:
+            quartic.pop()
+        roots = mp.polyroots(quartic, maxsteps=1000, extraprec=800) if len(quartic) > 1 else []
+        real = [abs(mp.re(r)) for r in roots if abs(mp.im(r)) <= mp.mpf(10) ** (-digits // 3) * abs(r)]
+        return max(real, default=mp.mpf(0))
+
+
+def exact_bang_bang_times(x0, xf, peak, force=0.0, digits=60):
+    """All T with |u| = peak, at most two switches, steering x0 to xf, and by how much each leaves [0, T].
+
+    From the quartic 16 v^2 p1 p3 - 12 v^2 p2^2 - p3^4 = 0 of either sign, in exact coefficients; pairs
+    (violation, T), a violation of zero or less being admissible.
+    """
+    with mp.workdps(digits):
+        start, end = [exactly(x) for x in x0], [exactly(x) for x in xf]
+        k = start[2] + exactly(force)
+        dx, dv, c3 = end[0] - start[0], end[1] - start[1], end[2] - start[2]
+        found = []
+        for v in (exactly(peak), -exactly(peak)):
+            p1, p2, p3 = [v, 3 * k, 6 * start[1], -6 * dx], [v, 2 * k, -2 * dv], [v, -c3]
+            square = product(p3, p3)
+            parts = (
+                [16 * v * v * x for x in product(p1, p3)],
+                [-12 * v * v * x for x in product(p2, p2)],
+                [-x for x in product(square, square)],
+            )
+            quartic = [sum(column) for column in zip(*parts, strict=True)]
+            while quartic[-1] == 0:
+                quartic.pop()
+            for root in mp.polyroots(quartic, maxsteps=2000, extraprec=800) if len(quartic) > 1 else []:
+                T = mp.re(root)
+                if abs(mp.im(root)) > mp.mpf(10) ** (-digits // 3) * abs(root) or T <= 0:
+                    continue
+                difference = v * T - c3
+                d = difference / (2 * v * T)
+                if abs(d) < mp.mpf(10) ** (-digits // 3):
+                    found.append((mp.mpf(0), T))
+                    continue
+                m = (v * T - 2 * (dv - k * T) / T) / difference
+                found.append((max((d - m) / 2, (m + d) / 2 - 1, -d), T))
+        return found
+
+
+def product(p, q):
+    """Coefficients of the product of two polynomials."""
+    result = [mp.mpf(0)] * (len(p) + len(q) - 1)
+    for i, x in enumerate(p):
+        for j, y in enumerate(q):
+            result[i + j] += x * y
+    return result

@@ -1,0 +1,90 @@
+"""The three exact gauges against linear programmes, and their own bounds from both sides."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.optimize import linprog
+
+from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+
+INTERVALS = (0.25, 1.0, np.pi / 2, np.pi, 4.0)
+
+
+def least_peak_by_linear_programme(factors, z0, normals):
+    """Least scale of polygons {w: normals w <= 1} whose impulses bring z0 to rest, by HiGHS."""
+    steps, _, width = factors.shape
+    sides = len(normals)
+    within = np.zeros((steps * sides, steps * width + 1))
+    for k in range(steps):
+        within[k * sides : (k + 1) * sides, k * width : (k + 1) * width] = normals
+    within[:, -1] = -1.0
+    reach = np.hstack([np.moveaxis(factors, 0, 1).reshape(3, -1), np.zeros((3, 1))])
+    cost = np.zeros(steps * width + 1)
+    cost[-1] = 1.0
+    free = [(None, None)] * (steps * width) + [(0, None)]
+    answer = linprog(cost, A_ub=within, b_ub=np.zeros(len(within)), A_eq=reach, b_eq=-z0, bounds=free)
+    assert answer.success
+    return answer.fun
+
+
+def states():
+    return (
+        st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3)
+        .map(np.array)
+        .filter(lambda z: np.abs(z).max() > 1e-5)
+    )
+
+
+@given(states(), st.sampled_from(INTERVALS), st.integers(2, 12), st.sampled_from(THRUSTS))
+def test_controls_and_costate_agree_from_both_sides(z0, interval, steps, name):
+    thrust = Thrust(name, interval, 0.0035)
+    found = thrust.gauges(z0[None], np.array([steps]))
+    factors = thrust.factors(steps)
+    reached = np.einsum("kij,kj->i", factors, found.controls[0])
+    assert_allclose(reached, -z0, atol=1e-13)
+    sizes = np.abs(found.controls[0]) if name == "box" else np.linalg.norm(found.controls[0], axis=1)
+    assert_allclose(sizes.max(), found.upper[0], rtol=1e-12)
+    along = np.einsum("kij,i->kj", factors, found.costates[0])
+    support = np.abs(along).sum() if name == "box" else np.linalg.norm(along, axis=1).sum()
+    assert_allclose(found.lower[0], -z0 @ found.costates[0] / support, rtol=1e-12)
+    assert_allclose(found.upper[0], found.lower[0], rtol=5e-12)
+
+
+@given(states(), st.sampled_from(INTERVALS), st.integers(2, 9))
+def test_the_box_is_the_linear_programme(z0, interval, steps):
+    thrust = Thrust("box", interval, 0.0035)
+    square = np.vstack([np.eye(2), -np.eye(2)])
+    by_highs = least_peak_by_linear_programme(thrust.factors(steps), z0, square)
+    assert_allclose(thrust.gauges(z0[None], np.array([steps])).upper[0], by_highs, rtol=1e-8)
+
+
+@given(states(), st.sampled_from(INTERVALS), st.integers(2, 6))
+def test_the_disc_lies_between_its_polygons(z0, interval, steps):
+    thrust = Thrust("disc", interval, 0.0035)
+    angles = np.arange(96) * 2 * np.pi / 96
+    around = np.column_stack([np.cos(angles), np.sin(angles)])
+    outer = least_peak_by_linear_programme(thrust.factors(steps), z0, around)
+    found = thrust.gauges(z0[None], np.array([steps])).upper[0]
+    assert outer * (1 - 1e-8) <= found <= outer / np.cos(np.pi / 96) * (1 + 1e-8)
+
+
+@given(states(), st.sampled_from(THRUSTS))
+def test_the_gauge_falls_with_the_number_of_steps_and_scales_with_the_state(z0, name):
+    thrust = Thrust(name, 0.25, 0.0035)
+    counts = np.arange(2, 20)
+    rows = np.broadcast_to(z0, (len(counts), 3))
+    alpha = thrust.gauges(rows, counts).lower
+    assert (np.diff(alpha) < 0).all()
+    assert_allclose(thrust.gauges(-3 * rows, counts).lower, 3 * alpha, rtol=1e-11)
+
+
+@pytest.mark.parametrize("name", THRUSTS)
+def test_compiled_and_plain_kernels_agree(name):
+    generator = np.random.default_rng(5)
+    rows = generator.normal(size=(40, 3)) * 0.01
+    thrust = Thrust(name, 0.25, 0.0035)
+    together = thrust.gauges(rows, np.full(40, 7))
+    alone = [thrust.gauges(row[None], np.array([7])).upper[0] for row in rows]
+    assert_allclose(together.upper, alone, rtol=1e-12)

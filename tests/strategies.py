@@ -1,0 +1,77 @@
+"""What the property tests draw: numbers of every size, manoeuvres, and moments of every structure."""
+
+import numpy as np
+from hypothesis import strategies as st
+
+from pontryagin.triple_integrator import Maneuver
+
+shares = st.floats(0, 1, allow_subnormal=False).map(lambda x: round(x, 6))
+signs = st.sampled_from([-1.0, 1.0])
+angles = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 4))
+multipliers = st.tuples(angles, angles, angles).map(np.array)
+
+
+@st.composite
+def wide(draw, decades=3):
+    """Zero, or a number of either sign between 10**-decades and 10**decades."""
+    if draw(st.integers(0, 9)) == 0:
+        return 0.0
+    return draw(signs) * draw(st.floats(1, 10)) * 10.0 ** draw(st.integers(-decades, decades - 1))
+
+
+def states(coordinate=angles):
+    """A state (3,)."""
+    return st.tuples(coordinate, coordinate, coordinate).map(np.array)
+
+
+@st.composite
+def maneuvers(draw, coordinate=angles):
+    """One manoeuvre between arbitrary ends, from any start, with a constant force or none."""
+    start = draw(st.sampled_from([0.0, -1.5, 2.25]))
+    duration = draw(st.floats(0.3, 3.0))
+    force = draw(st.one_of(st.none(), angles))
+    return Maneuver(
+        draw(states(coordinate)), draw(states(coordinate)), start + duration, t0=start, disturbance=force
+    )
+
+
+@st.composite
+def places(draw):
+    """Switches a >= b in shares of T to go: apart, close, at the ends, or none."""
+    kind = draw(st.sampled_from(["apart", "narrow", "first only", "last only", "none", "ends"]))
+    width = 10.0 ** -draw(st.floats(1, 8))
+    at = draw(st.floats(0.0, 1.0))
+    if kind == "apart":
+        other = draw(shares)
+        return max(at, other), min(at, other)
+    return {
+        "narrow": (at * (1 - width) + width, at * (1 - width)),
+        "first only": (at, 0.0),
+        "last only": (1.0, at),
+        "none": (0.0, 0.0),
+        "ends": (1 - width * at, width * (1 - at)),
+    }[kind]
+
+
+@st.composite
+def moments(draw):
+    """Moments (c1, c2, c3) for T = 1: of any three numbers, degenerate, or of a control with known structure."""
+    kind = draw(st.sampled_from(["any", "wide", "bang-bang", "impulses", "degenerate"]))
+    if kind == "any":
+        return draw(states())
+    if kind == "wide":
+        return draw(states(wide()))
+    if kind == "degenerate":
+        return draw(states(st.sampled_from([0.0, 0.0, 1.0, -1.0, 0.5, 1 / 6])))
+    level = draw(signs)
+    if kind == "bang-bang":
+        a, b = draw(places())
+        return level * np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])
+    at = np.array([0.0, draw(shares), 1.0])
+    amplitudes = np.array(draw(states()))
+    return np.array([at**2 / 2, at, np.ones(3)]) @ amplitudes
+
+
+def maneuver_with(c, duration=1.0):
+    """The manoeuvre from rest at the origin whose moments are c."""
+    return Maneuver(np.zeros(np.shape(c)), c, duration)

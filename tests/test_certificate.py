@@ -1,0 +1,49 @@
+"""A certificate holds when residual and gap are small, and never otherwise."""
+
+import numpy as np
+import pytest
+
+from pontryagin.certificate import Certificate
+
+
+def certificate(residual, primal, dual):
+    return Certificate(np.array(residual), np.array(primal), np.array(dual))
+
+
+def test_the_gap_is_relative_for_large_values_and_absolute_for_small_ones():
+    gap = certificate([0.0] * 3, [200.0, 0.5, -200.0], [100.0, 0.25, -300.0]).gap
+    assert gap.tolist() == [0.5, 0.25, 0.5]
+
+
+def test_it_holds_for_nothing_that_is_not_small():
+    assert certificate(1e-11, 1.0, 1.0).holds()
+    assert not certificate(1e-9, 1.0, 1.0).holds()
+    assert not certificate(-1e-9, 1.0, 1.0).holds()
+    assert not certificate(0.0, 1.0, 1.0 - 1e-9).holds()
+    assert not certificate(0.0, 1.0, 1.0 + 1e-9).holds(), "a bound above the value is as wrong as a low one"
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_nan_never_holds(place):
+    values = [0.0, 1.0, 1.0]
+    values[place] = np.nan
+    assert not certificate(*values).holds(tol=np.inf)
+
+
+def test_one_bad_problem_spoils_the_stack():
+    assert certificate([0.0, 0.0], [1.0, 2.0], [1.0, 2.0]).holds()
+    assert not certificate([0.0, 1e-3], [1.0, 2.0], [1.0, 2.0]).holds()
+
+
+def test_the_tolerance_is_the_largest_value_allowed():
+    assert certificate(0.25, 1.0, 0.75).holds(0.25)
+    assert not certificate(0.25, 1.0, 0.75).holds(0.24)
+
+
+def test_a_stack_of_none_holds():
+    assert certificate(np.empty(0), np.empty(0), np.empty(0)).holds()
+
+
+def test_nothing_in_it_can_be_replaced():
+    with pytest.raises(AttributeError):
+        certificate(0.0, 1.0, 1.0).dual_value = np.array(2.0)
