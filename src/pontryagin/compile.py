@@ -237,19 +237,14 @@ def compiled(kernel: Callable, signature: str) -> Callable:
 def _closure_source(kernel: Callable) -> str:
     """The kernel's source and that of everything it calls, as the text of one module."""
     functions: dict[str, Callable] = {}
-    seen: list[Callable] = []
-    ordered: list[Callable] = []
     constants: dict[str, float] = {}
     imported: set[str] = set()
     arrays = False
 
     def visit(target: Callable) -> None:
         nonlocal arrays
-        if functions.setdefault(target.__name__, target) is not target:
-            raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
-        if target in seen:
+        if functions.get(target.__name__) is target:
             return
-        seen.append(target)
         for name in _names(target.__code__):
             if name not in target.__globals__:
                 continue
@@ -267,7 +262,8 @@ def _closure_source(kernel: Callable) -> str:
                 raise TypeError(
                     f"{target.__name__} uses {name}, which is neither a number nor a plain function"
                 )
-        ordered.append(target)
+        if functions.setdefault(target.__name__, target) is not target:
+            raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
 
     visit(kernel)
     parts = ["from numba import njit, types"]
@@ -276,7 +272,7 @@ def _closure_source(kernel: Callable) -> str:
     if imported:
         parts.append("from math import " + ", ".join(sorted(imported)))
     parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]
-    for target in ordered:
+    for target in functions.values():
         parts.append('\n@njit(cache=True, nogil=True, error_model="numpy")\n' + inspect.getsource(target))
     return "\n".join(parts)
 

@@ -61,7 +61,7 @@ def vanishing(expressions: Iterable[Any]) -> None:
 
 
 def entry(label: str, paper: str | None = None) -> None:
-    """Check an entry of the ledger and display what is printed, what is derived, the verdict and its proof.
+    """Check an entry of the ledger; display what is printed, what is derived, the verdict and the remark.
 
     Parameters
     ----------
@@ -81,29 +81,27 @@ def entry(label: str, paper: str | None = None) -> None:
     if not found:
         raise ValueError(f"label: got {label!r}, takes one of the ledger's")
     for one in found:
+        one.check()
         _publish({"text/markdown": account(one)})
 
 
 def verdicts(verdict: str, paper: str | None = None) -> None:
-    """Display every entry of a verdict, as `entry` does."""
+    """Check every entry of a verdict; display each as `entry` does, with the steps of its proof."""
     for one in ledger.entries(paper, verdict):
-        _publish({"text/markdown": account(one)})
+        steps = "\n".join(f"- {_text(step)}" for step in one.proof())
+        _publish({"text/markdown": f"{account(one)}\n\nChecked here, step by step:\n\n{steps}"})
 
 
 def account(entry: Entry) -> str:
-    """An entry checked anew, as Markdown: print and derivation typeset, the remark, the proof."""
-    steps = entry.proof()
+    """An entry as Markdown: print and derivation typeset, then the remark."""
     parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
     if entry.printed_latex:
         parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
-    if entry.verdict != "holds" and entry.derived_latex:
-        parts.append(f"Derived:\n\n$${entry.derived_latex}$$")
+    if entry.derived_latex:
+        same = entry.verdict == "holds"
+        parts.append("Derived: the same." if same else f"Derived:\n\n$${entry.derived_latex}$$")
     if entry.remark:
         parts.append(_text(entry.remark))
-    if entry.verdict == "holds" and entry.printed_latex:
-        parts.append("Derived: the same.")
-    if entry.verdict != "holds":
-        parts.append("Checked here, step by step:\n\n" + "\n".join(f"- {_text(step)}" for step in steps))
     return "\n\n".join(parts)
 
 

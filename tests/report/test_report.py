@@ -189,6 +189,12 @@ def test_a_piece_that_pandoc_cannot_read_is_placed():
         text.read(cells("fine", "[a]: b\n\n[a]: c\n\n[a]"))
 
 
+def test_a_link_that_leads_nowhere_is_placed():
+    assert text.read(cells("# Title {#nb-01}", "[there](#nb-01)")).places == {}
+    with pytest.raises(tree.PandocWarning, match=r"notebooks/02\.ipynb, cell 2: a link leads to #nb-02"):
+        text.read(cells("# Title {#nb-01}", "[there](#nb-02)"))
+
+
 def test_two_figures_of_one_name_are_refused(checkout):
     result = execute(checkout.workspace, checkout.notebook("01", "# Title", DRAW, "show(line())"))
     with pytest.raises(

@@ -37,7 +37,7 @@ def read(markdown: str) -> Text:
     Raises
     ------
     PandocWarning
-        When pandoc warns about a piece; the message names the cell.
+        When pandoc warns about a piece or a link leads nowhere; the message names the cell.
     """
     try:
         document = tree.read(markdown)
@@ -50,7 +50,18 @@ def read(markdown: str) -> Text:
         for math in tree.elements(block, "Math"):
             places.setdefault(math["c"][1], []).append(place or OWN_PAGES)
         blocks.extend(block["c"][1] if place else [block])
+    _check_links(document["blocks"])
     return Text({**document, "blocks": blocks}, places)
+
+
+def _check_links(blocks: list[tree.Node]) -> None:
+    known = set(tree.identifiers(blocks))
+    for block in blocks:
+        for link in tree.elements(block, "Link"):
+            target: str = link["c"][2][0]
+            if target.startswith("#") and target[1:] not in known:
+                place = _place(block) or OWN_PAGES
+                raise tree.PandocWarning(f"{place}: a link leads to {target}, which is not in the report")
 
 
 def _place(block: tree.Node) -> str | None:

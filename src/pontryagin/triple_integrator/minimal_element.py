@@ -7,8 +7,10 @@ bound is the one that meets the moments.
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pontryagin.triple_integrator.newton import minimise
 from pontryagin.triple_integrator.quadrature import (
@@ -63,11 +65,11 @@ def _chunk(w: Array, q: float) -> tuple[Quadratic, Array]:
     for stage in stages:
         p = 1 + (stage if q < 2 else 1 / stage)
         tolerance = 1e-14 if stage == excess else 1e-3
-        h, residual = minimise(lambda h, _, p=p: derivatives(h, p), plane.tangent, h, tolerance)
+        h, residual = minimise(partial(derivatives, p=p), plane.tangent, h, tolerance)
     return h, residual
 
 
-def derivatives(h: Quadratic, p: float) -> tuple[Array, Array, Array]:
+def derivatives(h: Quadratic, _: NDArray[np.intp], p: float) -> tuple[Array, Array, Array]:
     """N, gradient and Hessian of N in the orthonormal basis: (n,), (n, 3), (n, 3, 3)."""
     rule = logistic_rule()
     s, values, weights = h.sample(rule)

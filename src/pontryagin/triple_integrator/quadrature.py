@@ -8,7 +8,7 @@ other.
 
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,8 +81,8 @@ class Quadratic:
         """The quadratic times a positive number."""
         return Quadratic(self.coefficients * factor[..., None], self.discriminant * factor**2)
 
-    def __getitem__(self, index: object) -> "Quadratic":
-        return Quadratic(self.coefficients[index], self.discriminant[index])  # type: ignore[index]
+    def __getitem__(self, index: Any) -> "Quadratic":
+        return Quadratic(self.coefficients[index], self.discriminant[index])
 
     @cached_property
     def zeros(self) -> Array:

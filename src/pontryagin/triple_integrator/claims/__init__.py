@@ -7,6 +7,7 @@ One module per step of the paper. A module transcribes and judges; what is deriv
 from itertools import chain
 
 from pontryagin.triple_integrator.claims import (
+    areas,
     chebyshev,
     energy,
     example_1,
@@ -35,6 +36,7 @@ IN_ORDER = (
     peak,
     zeros,
     vertex,
+    areas,
     search,
     example_2,
     chebyshev,

@@ -8,8 +8,10 @@ from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import sign, signed_norm, z
 from pontryagin.triple_integrator.derivation.duality import (
+    conjugate_norm,
     dual_function_of,
     impulse_bound,
+    levels,
     peak_of,
     piecewise_moments,
 )
@@ -21,6 +23,17 @@ R = sp.Rational
 c1, c2, c3 = c
 l1, l2, l3 = multipliers
 F = 16 * c1 - 8 * T * c2 + T**2 * c3
+
+
+@claim("before (4.1)", "norm of h in L_∞, the essential maximum of |h|", verdict="holds")
+def norm_of_the_dual_function():
+    key = r"\lVert h(\cdot) \rVert_{L_\infty}"
+    return Equality(
+        {key: sp.Max(*map(sp.Abs, levels))},
+        lambda: {key: conjugate_norm(sp.oo)},
+        display=r"\lVert h(\cdot) \rVert_{L_\infty} = \operatorname{vrai\,max}_{\tau \in [t_0, t_f]} "
+        r"\left| h(\tau) \right|",
+    )
 
 
 @claim(

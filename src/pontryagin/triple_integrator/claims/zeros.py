@@ -220,7 +220,8 @@ def limits_of_the_pieces():
     return Equality(
         printed,
         derived,
-        display=r"(a_1, b_1) = (t_0, t_1),\; (a_2, b_2) = (t_1, t_2),\; "
+        display=r"S_k = \int_{a_k}^{b_k} \psi_3^*(\tau)\,d\tau,\quad (a_1, b_1) = (t_0, t_1),\; (a_2, b_2) "
+        r"= (t_1, t_2),\; "
         r"(a_3, b_3) = (t_2, t_f)",
     )
 

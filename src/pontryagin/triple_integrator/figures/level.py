@@ -27,13 +27,12 @@ def convex_level_equation(maneuver: Maneuver) -> Figure:
     Raises
     ------
     ValueError
-        If it is a stack, or G has one root only.
+        If it is a stack, the control is constant, or G has one root only.
     """
     labels.single(maneuver)
     T = float(maneuver.duration)
     k = maneuver.moments * np.array([6 / T**3, 2 / T**2, 1 / T])
-    nearer = 1 / float(minimum_peak(maneuver).levels)
-    farther = _other_root(nearer, k)
+    nearer, farther = _roots(float(minimum_peak(maneuver).levels), k)
     figure, (left, right) = subplots(1, 2, height=3.3, width_ratios=(1.25, 1))
     _draw_equation(left, k, nearer, farther)
     for root, colour in ((farther, SKY), (nearer, RED)):
@@ -74,12 +73,17 @@ def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> No
     ax.set(xlabel="$t = 1/v$, s³/rad", ylabel="$G(t)$", ylim=(-0.32, 0.75))
 
 
-def _other_root(nearer: float, k: np.ndarray) -> float:
+def _roots(level: float, k: np.ndarray) -> tuple[float, float]:
+    """The root of the least peak, and the one on the other side."""
+    nearer = 1 / level if level else np.inf
+    if not 1 - k[2] * nearer > 1e-9:
+        raise ValueError("maneuver: got one with a constant control, takes one with two switches")
     side = -np.sign(nearer)
     limit = 0.999 * abs(1 / k[2]) if side * k[2] > 0 else 100 * abs(nearer)
     if level_equation(side * limit, *k)[0] < 0:
         raise ValueError("maneuver: G has one root only, takes one with a root on either side")
-    return float(brentq(lambda t: level_equation(t, *k)[0], side * abs(nearer) * 1e-9, side * limit))
+    farther = brentq(lambda t: level_equation(t, *k)[0], side * abs(nearer) * 1e-9, side * limit)
+    return nearer, float(farther)
 
 
 def _function_of(root: float, k: np.ndarray, T: float) -> tuple[np.ndarray, np.ndarray]:

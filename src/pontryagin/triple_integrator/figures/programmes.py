@@ -64,7 +64,7 @@ def solution_figure(solution: Solution) -> Figure:
     draw_control(panels[0], solution, finite_peak(solution))
     panels[0].set_ylabel(labels.CONTROL)
     if isinstance(solution, ImpulseSolution):
-        panels[0].set_yticks([0.0])
+        panels[0].set(ylabel="impulses of $u$, rad/s²", yticks=[0.0])
     for ax, state in zip(panels[1:], (2, 1, 0), strict=True):
         draw_state(ax, solution, state)
         ax.set_ylabel(labels.STATES[state])
@@ -81,7 +81,6 @@ def draw_control(ax: Axes, solution: Solution, peak: float) -> None:
     ax.axhline(0, color=INK, linewidth=0.6)
     if isinstance(solution, ImpulseSolution):
         draw_impulses(ax, solution.impulse_times, solution.impulses, peak, colour)
-        ax.set_title("impulses, rad/s²", loc="right", fontsize=9.5, color=colour, y=0.86)
     else:
         ax.plot(t, u, color=colour)
         ax.fill_between(t, u, color=colour, alpha=0.12, linewidth=0)

@@ -1,7 +1,7 @@
 """Directions of c as points of a disc: half the sphere of (6 c1, 2 c2, c3), T = 1, with areas kept.
 
-A constant control lies at the centre, the unit impulses at the start and at the end are as far to the left
-and to the right of it. Opposite directions have opposite programmes, so that half the sphere shows all.
+A constant control lies at the centre, the impulses at the start and at the end to its left and right.
+Opposite directions have opposite programmes, so that half the sphere shows all.
 """
 
 from functools import cache

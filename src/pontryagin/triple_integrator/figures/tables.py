@@ -28,7 +28,7 @@ def examples(angle: float, T: float) -> Columns:
     least = minimum_time([0, 0, 0], [angle, 0, 0], level)
     start, middle = energy.control([0.0, T / 2])
     first, second = peak.switch_times
-    rows = [
+    rows: list[tuple[str, str, float, Any, Any]] = [
         ("least energy, start", r"$60\gamma_T/T^3$", 60 * angle / T**3, start, energy),
         ("least energy, middle", r"$-30\gamma_T/T^3$", -30 * angle / T**3, middle, energy),
         ("least peak", r"$32\gamma_T/T^3$", level, peak.norm, peak),
