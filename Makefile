@@ -102,7 +102,7 @@ $(VENV)/bin/python:
 
 # uv where it can be had, pip where it cannot; both check every hash of the lock.
 define install
-{ [ -x $(BIN)/uv ] || $(PY) -m pip install -q uv || echo "   uv cannot be had here: pip does it, more slowly" >&2; }; \
+{ [ -x $(BIN)/uv ] || $(PY) -m pip install -q uv 2>/dev/null || echo "   uv cannot be had here: pip does it, more slowly" >&2; }; \
 if [ -x $(BIN)/uv ]; then \
   $(BIN)/uv pip install -q --python $(PY) --require-hashes -r $(1); \
   $(BIN)/uv pip install -q --python $(PY) --no-deps --no-build-isolation --offline -e .; \

@@ -20,6 +20,11 @@ class Timing:
     count: int
 
 
+def repeated(run: Callable[[], int], times: int) -> Callable[[], int]:
+    """A contestant that runs several times over, so that what only its first run pays does not count."""
+    return lambda: sum(run() for _ in range(times))
+
+
 def take_turns(contestants: Mapping[str, Callable[[], int]], rounds: int = 5) -> dict[str, Timing]:
     """Time each contestant once a round, after one round that does not count.
 

@@ -67,7 +67,7 @@ def run(quick: bool) -> None:
 
 def side_by_side(quick: bool) -> list[Row]:
     """All problems and methods."""
-    count, large, rounds = (50, 20_000, 2) if quick else (500, 1_000_000, 5)
+    count, large, rounds = (50, 20_000, 2) if quick else (500, stacks.STACK_SIZE, 5)
     result = transfers.rows(quick)
     for problem in fixed_time.OURS:
         opponents: dict[str, fixed_time.Peer] = {}

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from benchmarks import problems
-from benchmarks.clock import take_turns
+from benchmarks.clock import repeated, take_turns
 from pontryagin.triple_integrator import (
     Maneuver,
     impulse,
@@ -20,14 +20,20 @@ from pontryagin.triple_integrator import time as least_time
 AIMS = {"least peak": 2.0, "least impulse": 20.0, "least time": 1.0}
 """Million problems a second on one core."""
 
+STACK_SIZE = 100_000
+"""Problems in a stack where throughput is measured: enough to forget the call, few enough for the cache."""
+
 AIM_CALL = 30.0
 """Microseconds for one call from Python."""
 
 
 def throughput(quick: bool) -> dict[str, list]:
     """Million problems a second of the compiled loop and of the whole call; microseconds of one call."""
-    count, rounds = (20_000, 3) if quick else (1_000_000, 7)
-    loop, whole = take_turns(_loops(count), rounds), take_turns(whole_calls(count), rounds)
+    count, rounds = (20_000, 3) if quick else (STACK_SIZE, 7)
+    loop, whole = (
+        take_turns({name: repeated(run, 10) for name, run in runs.items()}, rounds)
+        for runs in (_loops(count), whole_calls(count))
+    )
     single = take_turns(_single_calls(200 if quick else 2000), rounds)
     return {
         "problem": list(whole),
@@ -44,20 +50,11 @@ def by_size(quick: bool) -> dict[str, list]:
     sizes = (1, 10, 100, 1000) if quick else tuple(round(10 ** (k / 2)) for k in range(13))
     result: dict[str, list] = {"stack": list(sizes)}
     for size in sizes:
-        repeated = {name: _repeated(run, size) for name, run in whole_calls(size).items()}
-        for name, timing in take_turns(repeated, 3 if quick else 5).items():
+        times = max(1, 2000 // size)
+        runs = {name: repeated(run, times) for name, run in whole_calls(size).items()}
+        for name, timing in take_turns(runs, 3 if quick else 5).items():
             result.setdefault(f"{name}, microseconds", []).append(1e6 * timing.typical)
     return result
-
-
-def _repeated(run: Callable[[], int], size: int) -> Callable[[], int]:
-    """A run long enough to be timed."""
-    times = max(1, 2000 // size)
-
-    def repeated() -> int:
-        return sum(run() for _ in range(times))
-
-    return repeated
 
 
 def whole_calls(count: int) -> dict[str, Callable[[], int]]:

@@ -14,6 +14,7 @@ NOTES = (
     "Times are processor time of one thread, medians of rounds in which all contestants take turns;",
     "input set-up from Python is included unless the row says otherwise. Ratios are to our own rows on the",
     "same problem. The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost.",
+    "Stacks hold 100000 problems, fewer in a quick run.",
     "A problem counts as solved where an answer came and, for least time, where independent propagation of",
     "it reaches the target to 1e-9 of the motion.",
 )

@@ -110,7 +110,7 @@ def rows(quick: bool) -> list[Row]:
 
 
 def _rows(problem: str, name: str, count: int, rounds: int) -> list[Row]:
-    work, large = problems.transfers(name, count), problems.transfers(name, 100 * count)
+    work, large = problems.transfers(name, count), problems.transfers(name, 50 * count)
     lists = as_lists(work)
 
     def one_by_one() -> int:

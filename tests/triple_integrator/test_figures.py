@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sp
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
@@ -21,7 +22,7 @@ from pontryagin.triple_integrator import (
     minimum_time,
     search,
 )
-from pontryagin.triple_integrator.derivation import coverage
+from pontryagin.triple_integrator.derivation import coverage, peak
 from pontryagin.triple_integrator.figures import duration, overpayment, sphere, tables
 from pontryagin.triple_integrator.rigid_body import RigidBody
 
@@ -76,11 +77,11 @@ class TestDualFunctions:
         axes = figures.dual_functions(MOVING).axes
         lines = [curves(ax)[0] for ax in axes]
         controls = (minimum_energy(MOVING), minimum_peak(MOVING), minimum_impulse(MOVING))
-        energy, peak, impulse = (1 / float(s.norm) for s in controls)
+        energy, area, height = (1 / float(s.norm) for s in controls)
         (t, h), (s, g), (_, p) = lines
         assert_allclose(np.sqrt(trapezoid(h * h, t)), energy, rtol=1e-4)
-        assert_allclose(trapezoid(np.abs(g), s), peak, rtol=1e-4)
-        assert_allclose(np.abs(p).max(), impulse, rtol=1e-12)
+        assert_allclose(trapezoid(np.abs(g), s), area, rtol=1e-4)
+        assert_allclose(np.abs(p).max(), height, rtol=1e-12)
 
     def test_each_pairs_to_one_with_every_control_of_these_moments(self):
         t = np.linspace(1.0, 3.0, 4001)
@@ -177,6 +178,12 @@ class TestLevelEquation:
         assert np.all(np.diff(slopes) > 0)
         assert np.interp(0.0, t, g) == pytest.approx(-3 / 16, abs=1e-3)
 
+    def test_its_second_derivative_is_the_sum_shown(self):
+        k2, k3, t = peak.k2, peak.k3, peak.t
+        y = 1 - k3 * t
+        shown = 3 * (k2 - k3) ** 2 / (2 * y**3) + 3 * k3**2 * y / 8
+        assert sp.simplify(sp.diff(peak.level_equation(), t, 2) - shown) == 0
+
     @pytest.mark.parametrize(
         ("c", "words"),
         [((1.0, 0.0, 0.0), "one root only"), ((1 / 6, 0.5, 1.0), "constant"), ((0.0, 0.0, 0.0), "constant")],
@@ -191,12 +198,12 @@ class TestDuration:
     def test_the_least_peak_changes_with_time_as_the_hamiltonian_says(self, maneuver):
         force, T = maneuver.disturbance, float(maneuver.duration)
 
-        def peak(time):
+        def solved(time):
             return minimum_peak(Maneuver(maneuver.x0, maneuver.xf, time, disturbance=force))
 
-        centre, step = peak(T), 1e-5 * T
+        centre, step = solved(T), 1e-5 * T
         assume(float(centre.norm) > 1e-3 and np.all(np.abs(centre.switch_condition) < 1e3))
-        slope = (float(peak(T + step).norm) - float(peak(T - step).norm)) / (2 * step)
+        slope = (float(solved(T + step).norm) - float(solved(T - step).norm)) / (2 * step)
         predicted = -float(centre.norm) * float(duration.hamiltonian(centre))
         assert_allclose(slope, predicted, rtol=1e-4, atol=1e-4 * float(centre.norm) / T)
 
@@ -283,7 +290,13 @@ class TestTables:
         assert_allclose(table["printed impulses pay"], [16, 1.25])
 
 
-def test_failures_of_the_search_are_marked():
+def test_every_outcome_of_the_search_has_a_mark():
+    from pontryagin.triple_integrator.figures.search import OUTCOMES, WORDS
+
+    assert list(OUTCOMES) == ["", *search.REASONS] and list(WORDS) == list(search.ROUTES)
+
+
+def test_every_direction_of_the_search_is_drawn():
     survey = search.survey(12, routes=["multiplier", "multiplier within"])
     axes = figures.search_routes(survey).axes
     drawn = [sum(len(line.get_xdata()) for line in ax.lines) for ax in axes[:2]]

@@ -74,9 +74,8 @@ def elements(node: Any, kind: str) -> Iterator[Node]:
 
 def identifiers(node: Any) -> Iterator[str]:
     """Every identifier below `node` that a link can lead to."""
-    if isinstance(node, list):
-        if len(node) == 3 and isinstance(node[0], str) and isinstance(node[1], list):
-            yield node[0]
+    if isinstance(node, list) and len(node) == 3 and isinstance(node[0], str) and isinstance(node[1], list):
+        yield node[0]
     children = node.values() if isinstance(node, dict) else node if isinstance(node, list) else ()
     for child in children:
         yield from identifiers(child)

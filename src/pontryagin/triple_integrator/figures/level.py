@@ -75,9 +75,9 @@ def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> No
 
 def _roots(level: float, k: np.ndarray) -> tuple[float, float]:
     """The root of the least peak, and the one on the other side."""
-    nearer = 1 / level if level else np.inf
-    if not 1 - k[2] * nearer > 1e-9:
+    if not abs(level) > 0 or 1 - k[2] / level < 1e-9:
         raise ValueError("maneuver: got one with a constant control, takes one with two switches")
+    nearer = 1 / level
     side = -np.sign(nearer)
     limit = 0.999 * abs(1 / k[2]) if side * k[2] > 0 else 100 * abs(nearer)
     if level_equation(side * limit, *k)[0] < 0:

@@ -3,17 +3,18 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import BLUE, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.search import Survey
 
 OUTCOMES = {
     "": (SKY, "least peak found"),
     "singular": (RED, "runs to $c_0 = 0$"),
-    "outside": (ORANGE, "a switch outside"),
     "sign": (PURPLE, "curvature of the wrong sign"),
+    "crossed": (GREEN, "$t_1$ passes $t_2$"),
+    "outside": (ORANGE, "a switch outside"),
     "boundary": (BLUE, "stuck at an end"),
-    "elsewhere": (INK, "elsewhere"),
+    "early": (INK, "stops early"),
 }
 WORDS = {
     "zeros": "over $t_1, t_2$, free",
