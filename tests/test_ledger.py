@@ -10,6 +10,7 @@ import sympy as sp
 from rich.console import Console
 
 from pontryagin import ledger
+from pontryagin.decimals import Decimals, unit
 from pontryagin.evidence import (
     Conditional,
     Consequence,
@@ -18,6 +19,7 @@ from pontryagin.evidence import (
     Misprint,
     Proof,
     Refutation,
+    Slip,
     Unreadable,
     vanishes,
 )
@@ -53,9 +55,10 @@ slip = Misprint(
 )
 garbled = Unreadable({"a": x, "b": y}, lambda: {"a": x, "b": x}, legible=("a",))
 system = LinearSystem([x + y - 2, x - y], lambda: [x - 1, y - 1], [x, y])
+rounded = Decimals({"a": "0.15", "b": "3"}, lambda: {"a": 0.1416, "b": 3.0}, true_steps)
 EARNED = {
-    "holds": [square, system, Proof(true_steps), Proof(true_steps, square)],
-    "misprint": [slip],
+    "holds": [square, rounded, system, Proof(true_steps), Proof(true_steps, square)],
+    "misprint": [slip, Slip(true_steps, counterexample=true_steps)],
     "unreadable": [garbled],
     "false": [Refutation(true_steps), Refutation(true_steps, {"y": x}, lambda: {"y": 2 * x})],
     "conditional": [Conditional(true_steps, counterexample=true_steps)],
@@ -94,6 +97,14 @@ def test_a_verdict_is_earned_by_its_evidence_and_by_no_other(verdict, evidence):
         ("conditional", Conditional(true_steps, counterexample=false_steps)),
         ("conditional", Conditional(false_steps, counterexample=true_steps)),
         ("conditional", Conditional(true_steps)),
+        ("misprint", Slip(true_steps, counterexample=false_steps)),
+        ("misprint", Slip(false_steps, counterexample=true_steps)),
+        ("misprint", Slip(true_steps)),
+        ("holds", replace(rounded, printed={"a": "0.12", "b": "3"})),
+        ("holds", replace(rounded, printed={"a": "0.15", "b": "4"})),
+        ("holds", replace(rounded, printed={"b": "3", "a": "0.15"})),
+        ("holds", replace(rounded, certificate=false_steps)),
+        ("holds", replace(rounded, certificate=no_steps)),
     ],
 )
 def test_broken_evidence_supports_nothing(broken):
@@ -176,6 +187,8 @@ def test_printed_and_derived_forms_are_latex():
     assert entry("holds", square).derived_latex == "y = x^{2} + 2 x + 1"
     assert entry("holds", system).printed_latex == r"x + y - 2 = 0,\quad x - y = 0"
     assert entry("holds", Proof(true_steps, display="a < b")).printed_latex == "a < b"
+    assert entry("holds", rounded).printed_latex == r"a = 0.15,\quad b = 3"
+    assert entry("holds", rounded).derived_latex == r"a = 0.1416,\quad b = 3"
     assert entry("not checked", None).printed_latex == entry("holds", Proof(true_steps)).derived_latex == ""
 
 
@@ -185,5 +198,16 @@ def test_a_proof_is_told_step_by_step():
         "printed minus derived $y$ is $- x$",
         "y at x = 1: the print gives 2, required is 3",
     ]
+    assert entry("holds", rounded).proof() == [
+        "one is one",
+        "$a$ is 0.1416, printed 0.15: 0.84 of a unit off",
+        "$b$ is 3, as printed",
+    ]
     with pytest.raises(Unsupported):
         entry("holds", Proof(false_steps)).proof()
+
+
+def test_a_printed_number_has_the_unit_of_its_last_digit():
+    assert unit("0.9286") == 1e-4
+    assert unit("-0.37787e-2") == 1e-7
+    assert unit("4") == unit("0") == 0

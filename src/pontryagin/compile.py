@@ -15,6 +15,7 @@ import tempfile
 import textwrap
 import types
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -104,8 +105,7 @@ def source(name: str, arguments: Sequence, outputs: Mapping[str, object], doc: s
     >>> print(source("f", [x, y], {"value": (x + y) ** 2 / 3}, "A square."))
     def f(x, y):
         \"\"\"A square.\"\"\"
-        x0 = x + y
-        value = 1/3*x0*x0
+        value = (1/3)*((x + y)*(x + y))
         return value
     """
     import sympy as sp
@@ -150,11 +150,47 @@ def _scalar_printer():
     return ScalarPrinter({"fully_qualified_modules": False})
 
 
-def batched(kernel: Callable[..., tuple], outputs: int) -> Callable[..., NDArray[np.float64]]:
+@dataclass(frozen=True)
+class Batched:
+    """A scalar solver that runs over a stack of problems; see `batched`.
+
+    Attributes
+    ----------
+    kernel : function of n floats returning a tuple of floats
+        The plain source.
+    outputs : int
+        How many floats it returns.
+    """
+
+    kernel: Callable[..., tuple]
+    outputs: int
+
+    def __call__(self, *columns: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
+        count = len(columns[0])
+        result = np.empty((count, self.outputs))
+        if (count >= COMPILE_FROM or self.kernel in _LOADED) and has_numba():
+            compiled_loop(self.kernel, len(columns), self.outputs).loop(result, *columns)
+        else:
+            for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
+                result[i] = self.kernel(*values)
+        return result
+
+    def one(self, *values: float) -> NDArray[np.float64]:
+        """Solve one problem, as (outputs,); compiled only if a large stack was solved before."""
+        if self.kernel not in _LOADED:
+            return np.array(self.kernel(*values))
+        result = np.empty(self.outputs)
+        _LOADED[self.kernel].one(result, *values)
+        return result
+
+
+def batched(kernel: Callable[..., tuple], outputs: int) -> Batched:
     """Run a scalar solver over a stack of problems.
 
     Small stacks run the plain Python source; large ones the same source compiled by Numba and cached on
-    disk under the hash of that source, so that an edited kernel is never served stale.
+    disk under the hash of that source, so that an edited kernel is never served stale. What is compiled
+    already serves small stacks and single problems too.
 
     Parameters
     ----------
@@ -163,24 +199,18 @@ def batched(kernel: Callable[..., tuple], outputs: int) -> Callable[..., NDArray
     outputs : int
         How many floats it returns.
 
-    Returns
-    -------
-    function of n equally long 1-D arrays
-        Returns an array (problems, outputs).
+    Examples
+    --------
+    >>> def halves(x):
+    ...     return x / 2, x / 4
+    >>> batched(halves, outputs=2)(np.array([1.0, 2.0]))
+    array([[0.5 , 0.25],
+           [1.  , 0.5 ]])
     """
+    return Batched(kernel, outputs)
 
-    @functools.wraps(kernel)
-    def run(*columns: NDArray[np.float64]) -> NDArray[np.float64]:
-        count = len(columns[0])
-        result = np.empty((count, outputs))
-        if count < COMPILE_FROM or not has_numba():
-            for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
-                result[i] = kernel(*values)
-        else:
-            compiled_loop(kernel, len(columns), outputs)(result, *columns)
-        return result
 
-    return run
+_LOADED: dict[Callable, types.ModuleType] = {}
 
 
 @functools.cache
@@ -192,21 +222,31 @@ def has_numba() -> bool:
     return True
 
 
-@functools.cache
-def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> Callable[..., None]:
-    """Numba-compiled loop ``loop(result, *columns)`` over a scalar kernel."""
+def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> types.ModuleType:
+    """Numba-compiled ``loop(result, *columns)`` and ``one(result, *values)`` over a scalar kernel."""
+    if kernel in _LOADED:
+        return _LOADED[kernel]
     arguments = ", ".join(f"a{i}" for i in range(inputs))
     items = ", ".join(f"a{i}[i]" for i in range(inputs))
-    targets = ", ".join(f"result[i, {j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
-    signature = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
+    in_row, alone = (
+        ", ".join(f"result[{row}{j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
+        for row in ("i, ", "")
+    )
+    of_columns = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
+    of_values = "types.void(types.float64[::1], " + ", ".join(["types.float64"] * inputs) + ")"
+    options = 'cache=True, nogil=True, error_model="numpy"'
     text = _closure_source(kernel) + (
         '\n\ncolumn = types.Array(types.float64, 1, "A", readonly=True)\n'
-        f'\n\n@njit({signature}, cache=True, nogil=True, error_model="numpy")\n'
+        f"\n\n@njit({of_columns}, {options})\n"
         f"def loop(result, {arguments}):\n"
         f"    for i in range(result.shape[0]):\n"
-        f"        {targets} = {kernel.__name__}({items})\n"
+        f"        {in_row} = {kernel.__name__}({items})\n"
+        f"\n\n@njit({of_values}, {options})\n"
+        f"def one(result, {arguments}):\n"
+        f"    {alone} = {kernel.__name__}({arguments})\n"
     )
-    return _load(text).loop
+    _LOADED[kernel] = _load(text)
+    return _LOADED[kernel]
 
 
 @functools.cache

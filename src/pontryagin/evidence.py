@@ -286,3 +286,13 @@ class Conditional(Proof):
         """The proof's steps, then the counterexample's."""
         yield from self.argument()
         yield from self.counterexample()
+
+
+@dataclass(frozen=True)
+class Slip(Conditional):
+    """A misprint that is no formula: what is meant is proved, what is printed refuted: `misprint`."""
+
+    def finding(self) -> Verdict:
+        """`misprint` when both arguments go through."""
+        super().finding()
+        return "misprint"

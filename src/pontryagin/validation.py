@@ -65,7 +65,8 @@ def vectors(name: str, value: ArrayLike, length: int) -> NDArray[np.float64]:
 def positive(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """`value` as finite numbers greater than zero."""
     array = finite(name, value, "a positive number or an array of them")
-    if not (array > 0).all():
+    few = array.size < 4
+    if not (all(number > 0 for number in array.ravel().tolist()) if few else (array > 0).all()):
         raise ValueError(f"{name} must be positive, got {array[~(array > 0)].flat[0]}")
     return array
 

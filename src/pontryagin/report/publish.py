@@ -5,14 +5,24 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from pontryagin import __version__, files
-from pontryagin.report import assemble, browser, dependencies, front, progress, provenance, text, tree
+from pontryagin.report import (
+    assemble,
+    browser,
+    dependencies,
+    front,
+    measured,
+    progress,
+    provenance,
+    text,
+    tree,
+)
 from pontryagin.report.execute import Executed
 from pontryagin.report.recordings import Clip
 from pontryagin.report.render_html import render_html
 from pontryagin.report.render_pdf import render_pdf
 from pontryagin.report.workspace import Workspace
 
-SUBTITLE = "Optimal control of spacecraft, derived, solved and certified: four papers against their print"
+SUBTITLE = "Optimal control of spacecraft, derived, solved and certified: the papers against their print"
 
 
 def write_report(
@@ -62,10 +72,11 @@ def whole_text(
     clips: Sequence[Clip],
     entries: Sequence[Mapping[str, str]],
 ) -> str:
-    """The report as Markdown: front page, a chapter per notebook, recordings, index, provenance."""
+    """The report as Markdown: front page, a chapter per notebook, recordings, benchmarks, provenance."""
     parts = [front.front_page(entries)]
     parts += [assemble.chapter(workspace, result) for result in executed]
-    parts += [_recordings(clips), provenance.index_of(assemble.items(executed))]
+    parts += [_recordings(clips), measured.benchmarks(workspace)]
+    parts += [provenance.index_of(assemble.items(executed))]
     return "\n\n".join(part for part in [*parts, provenance.provenance(workspace, executed)] if part)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -161,12 +162,18 @@ class Panels:
             )
         return float(value)
 
+    def _start(self) -> list[tuple[float, float]]:
+        """First panels: between the function's own ``edges`` where it tells them, last one first."""
+        inner = [t for t in getattr(self.function, "edges", ()) if self.low < t < self.high]
+        edges = [self.low, *sorted(map(float, inner)), self.high]
+        return list(pairwise(edges))[::-1]
+
     @cached_property
     def series(self) -> tuple[NDArray, NDArray, NDArray]:
         """Edges (p+1,), and the running integrals (p+1, 2) at them, and coefficients (p, degree+1)."""
         nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
         invert = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
-        pending, done, area = [(self.low, self.high)], [], 0.0
+        pending, done, area = self._start(), [], 0.0
         while pending:
             low, high = pending.pop()
             middle = (low + high) / 2

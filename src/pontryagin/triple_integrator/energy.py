@@ -119,6 +119,6 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     >>> s.control([0, 0.5, 1]).round(12).tolist(), s.certificate.holds(1e-12)
     ([60.0, -30.0, 60.0], True)
     """
-    result = trajectory.over_stack(solve_energy, solve_stack, maneuver)
+    result = trajectory.over_stack(solve_stack, maneuver)
     certificate = Certificate(result[..., 3], result[..., 4], result[..., 5])
     return EnergySolution(maneuver, result[..., :3], certificate)

@@ -212,9 +212,9 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
     (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
     """
-    result = trajectory.over_stack(solve_impulse, solve_stack, maneuver)
+    result = trajectory.over_stack(solve_stack, maneuver)
     amplitudes = result[..., 1:4]
-    total = np.abs(amplitudes).sum(axis=-1)
+    total = np.abs(result[..., 1]) + np.abs(result[..., 2]) + np.abs(result[..., 3])
     certificate = Certificate(result[..., 6], total, result[..., 7])
     return ImpulseSolution(
         maneuver, result[..., 0], amplitudes, result[..., 4].astype(np.int8), result[..., 5] != 0, certificate

@@ -7,9 +7,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.compile import batched
 from pontryagin.triple_integrator import disturbance as disturbances
 from pontryagin.triple_integrator import kernels
 from pontryagin.validation import common_shape, finite, times, vectors
+
+moments_of_stack = batched(kernels.moments, outputs=3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,10 +96,9 @@ class Maneuver:
             return np.array(kernels.moments(*ends, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
         g = 0.0 if self.disturbance is None else self._integrals(self.tf, self.t0)
         g1, g2 = (g, g) if np.ndim(g) == 0 else (g[..., 0], g[..., 1])  # type: ignore[index]
-        ends = [x[..., i] for x in (self.x0, self.xf) for i in range(3)]
-        c = np.empty((*self.shape, 3))
-        c[..., 0], c[..., 1], c[..., 2] = kernels.moments(*ends, self.duration, g1, g2)  # type: ignore[call-arg]
-        return c
+        ends = [x[..., i].ravel() for x in (self.x0, self.xf) for i in range(3)]
+        rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g1, g2)]
+        return moments_of_stack(*ends, *rest).reshape(*self.shape, 3)
 
     def times(self, t: ArrayLike) -> NDArray[np.float64]:
         """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""

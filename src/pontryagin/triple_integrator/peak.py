@@ -217,10 +217,10 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     Examples
     --------
     >>> s = minimum_peak(Maneuver([0, 0, 0], [1, 0, 0], tf=2.0))
-    >>> float(s.norm), s.switch_times.tolist(), s.certificate.holds(1e-12)
+    >>> float(s.norm.round(12)), s.switch_times.round(12).tolist(), s.certificate.holds(1e-12)
     (4.0, [0.5, 1.5], True)
     """
-    result = trajectory.over_stack(solve_peak, solve_stack, maneuver)
+    result = trajectory.over_stack(solve_stack, maneuver)
     levels = result[..., 0]
     certificate = Certificate(result[..., 3], np.abs(levels), result[..., 4])
     return PeakSolution(maneuver, levels, result[..., 1:3], certificate)

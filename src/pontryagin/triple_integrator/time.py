@@ -34,11 +34,14 @@ from pontryagin.triple_integrator.quartic import (
 )
 from pontryagin.validation import common_shape, finite, positive, times, vectors
 
-ACCEPT = 1e-12
-"""Largest residual of the moments, relative to the data's own rounding, with which a root is a control."""
+ACCEPT = 2e-15
+"""Largest residual of the moments, relative to the data's own size, with which a root is a control."""
+
+ILL_POSED = 1e-12
+"""The same where no root passes: rounded data may just miss an arrival that the exact data touch."""
 
 RELUCTANT = 1e-9
-"""The same where no root passes: two roots about to merge lose half their digits."""
+"""The same again: two roots about to merge lose half their digits."""
 
 NEVER = 1e300
 
@@ -145,6 +148,8 @@ def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
     ends = (d1 * e1, x20 * e2, x30 * e3, x2f * e2, x3f * e3, (fabs(x10) + fabs(x1f)) * fabs(e1))
     force, height = f * e3, fabs(c3) * fabs(e3)
     level, z, a, b, residual = first_arrival(ACCEPT, ends, force, height)
+    if z == NEVER:
+        level, z, a, b, residual = first_arrival(ILL_POSED, ends, force, height)
     if z == NEVER:
         level, z, a, b, residual = first_arrival(RELUCTANT, ends, force, height)
     T = height + z
@@ -306,7 +311,8 @@ def minimum_time(
         raise TypeError(f"disturbance must be None or a constant for minimum_time, got {disturbance!r}")
     force = finite("disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array")
     if start.ndim == end.ndim == 1 and bound.ndim == force.ndim == 0:
-        result = np.array(solve_time(*start.tolist(), *end.tolist(), float(force), float(bound)))  # type: ignore[call-arg]
+        result = solve_stack.one(*start.tolist(), *end.tolist(), float(force), float(bound))
+        arrived = float(result[0]) < NEVER
     else:
         shape = common_shape(
             x0=start.shape[:-1], xf=end.shape[:-1], peak=bound.shape, disturbance=force.shape
@@ -315,8 +321,9 @@ def minimum_time(
         bound, force = (np.broadcast_to(value, shape) for value in (bound, force))
         columns = [x[..., i].ravel() for x in (start, end) for i in range(3)]
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
-    duration = result[..., 0]
-    if not (duration < NEVER).all():
+        arrived = bool((result[..., 0] < NEVER).all())
+    if not arrived:
         raise NotConverged("no root of the quartics reaches the target", float(result[..., 4].max()))
+    duration = result[..., 0]
     certificate = Certificate(result[..., 4], duration, result[..., 5])
     return TimeSolution(start, end, bound, force, duration, result[..., 1], result[..., 2:4], certificate)

@@ -1,30 +1,29 @@
 """From a control given by few numbers to control, state and costate at any times; shared by the solvers."""
 
-from collections.abc import Callable
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.compile import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.maneuver import Maneuver
 
 
-def over_stack(
-    kernel: Callable[..., tuple], stack: Callable[..., NDArray], maneuver: Maneuver
-) -> NDArray[np.float64]:
+def over_stack(solver: Batched, maneuver: Maneuver) -> NDArray[np.float64]:
     """Run a scalar solver (c1, c2, c3, T) -> numbers over a manoeuvre or a stack, as (..., numbers)."""
     c = _within_range(maneuver.moments)
     if c.ndim == 1:
-        result = np.array(kernel(*c.tolist(), float(maneuver.duration)))
+        result = solver.one(*c.tolist(), float(maneuver.duration))
     else:
         flat = c.reshape(-1, 3)
-        result = stack(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
+        result = solver(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
         result = result.reshape(*maneuver.shape, result.shape[-1])
     return _within_range(result)
 
 
 def _within_range(numbers: NDArray) -> NDArray[np.float64]:
-    if not np.isfinite(numbers).all():
+    if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         raise ValueError("x0, xf and tf - t0 must give a control within the range of floating point")
     return numbers
 

@@ -89,8 +89,10 @@ def quartic() -> sp.Expr:
 
 
 def second_derivative() -> sp.Expr:
-    """G'': 3 (k2 - k3)^2 / (2 (1 - k3 t)^3) + 3 k3^2 (1 - k3 t) / 8, positive where 1 - k3 t is."""
-    return sp.factor(sp.diff(level_equation(), t, 2))
+    """G'' = 3 (k2 - k3)^2 / (2 (1 - k3 t)^3) + 3 k3^2 (1 - k3 t) / 8, positive where 1 - k3 t is."""
+    second = sp.diff(level_equation(), t, 2)
+    from_cube = sp.factor(sp.diff((1 - k3 * t) ** 3 / 16, t, 2))
+    return sp.factor(sp.simplify(second - from_cube)) + from_cube
 
 
 def dual_bound() -> sp.Expr:

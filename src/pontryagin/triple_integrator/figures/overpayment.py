@@ -57,7 +57,7 @@ def _map(
     for first, last in ((start, end), (start, -middle), (end, -middle)):
         sphere.draw(ax, sphere.arc(first, last, 400), color=INK, linewidth=1.0)
     ax.text(0, 0.6, "paper is right", ha="center")
-    ax.text(0, -0.76, "paper is right", ha="center")
+    ax.text(0, -0.84, "paper is right", ha="center")
     bar = ax.figure.colorbar(image, ax=ax, orientation="horizontal", shrink=0.85, pad=0.02)
     bar.set_label(words)
     bar.outline.set_visible(False)

@@ -1,0 +1,145 @@
+"""The paper's worked example, and certificates of its plans: matrices from the derivation, flown anew."""
+
+import functools
+from collections.abc import Callable
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from pontryagin.evidence import Steps
+from pontryagin.ledger import Unsupported
+from pontryagin.orbit_correction import derivation
+from pontryagin.orbit_correction.plan import Plan, correct
+from pontryagin.orbit_correction.system import Gauge, gauge_of_factors
+
+Z0 = np.array([-0.37787e-2, -0.39109e-2, 1.41512e-2])
+INTERVAL, PEAK = 0.25, 0.0035
+EXACT = {derivation.interval: sp.Rational(1, 4)}
+SPARSE = (0, 2, 3, 5)
+"""Intervals at whose starts four impulses suffice; the engine rests at the others."""
+
+ROUNDING = 1e-12
+Inputs = Callable[[int], sp.Matrix]
+
+
+def numbers(matrix: sp.Matrix) -> NDArray[np.float64]:
+    """A derived matrix at the example's interval."""
+    return np.array(sp.Matrix(matrix).subs(EXACT).evalf(20).tolist(), dtype=float)
+
+
+@functools.cache
+def step_matrix(k: int) -> NDArray[np.float64]:
+    """A(k)."""
+    return numbers(derivation.step_matrix(k % 2))
+
+
+@functools.cache
+def step_inputs(k: int) -> NDArray[np.float64]:
+    """B(k)."""
+    return numbers(derivation.step_inputs(k % 2))
+
+
+@functools.cache
+def columns(j: int) -> NDArray[np.float64]:
+    """What the two impulses at the start of interval j do to the initial state."""
+    return numbers(sp.Matrix(derivation.transition(-j * derivation.interval)))[:, 1:]
+
+
+def ball_plan() -> Plan:
+    """Theorem 4 for the worked example."""
+    return correct(Z0, INTERVAL, PEAK, "ball")
+
+
+def box_plan() -> Plan:
+    """The fewest impulses in the paper's own square."""
+    return correct(Z0, INTERVAL, PEAK, "box")
+
+
+def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0) -> NDArray[np.float64]:
+    """G_k = (A(k) ... A(0))^-1 B(k + shift) alpha_max for k < steps."""
+    back, result = np.eye(3), []
+    for k in range(steps):
+        back = back @ np.linalg.inv(step_matrix(k))
+        result.append(PEAK * back @ numbers(inputs((k + shift) % 2)))
+    return np.array(result)
+
+
+def gauge_with(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0) -> Gauge:
+    """alpha(steps) of z0 and its costate for some B(k), between bounds from both sides."""
+    found = gauge_of_factors(factors(steps, inputs, shift), Z0)
+    if not found.certificate.holds(1e-9):
+        raise Unsupported(f"the bounds on the gauge differ by {found.certificate.gap}")
+    return found
+
+
+def bound(G: NDArray[np.float64], psi: NDArray[np.float64]) -> float:
+    """What psi proves: no smaller share of the balls than (-z0, psi) / sum |G_k'psi| reaches z0."""
+    return float(-Z0 @ psi / np.linalg.norm(np.einsum("kij,i->kj", G, psi), axis=1).sum())
+
+
+def ball_certificate() -> Steps:
+    """Four steps do with the plan's share of the peak, no smaller share does, and three steps do not."""
+    plan = ball_plan()
+    alpha, state = float(plan.gauge), Z0
+    for k, control in enumerate(plan.step_controls):
+        state = step_matrix(k) @ state + step_inputs(k) @ control
+    sizes = np.linalg.norm(plan.step_controls, axis=1)
+    yield "four steps, flown one by one, bring z0 to 0", np.abs(state).max() < 1e-16 and len(sizes) == 4
+    yield f"with |ũ(k)| at most {alpha:.5f} α_max", sizes.max() <= alpha * PEAK * (1 + ROUNDING)
+    proved = bound(factors(4), plan.initial_costate)
+    yield "ψ0 proves that no smaller share does", alpha - ROUNDING <= proved <= alpha + ROUNDING
+    shorter = bound(factors(3), gauge_with(3).costate)
+    yield f"three steps would need {shorter:.3f} α_max", shorter > 1.26
+
+
+def impulses_to_rest(impulses: dict[int, NDArray[np.float64]]) -> float:
+    """The largest deviation left of z0 when the impulses are fired at the starts of their intervals."""
+    once, state = numbers(sp.Matrix(derivation.transition(derivation.interval))), Z0
+    for j in range(max(impulses) + 1):
+        state = once @ (state + np.array([0.0, *impulses.get(j, np.zeros(2))]))
+    return float(np.abs(state).max())
+
+
+def box_certificate() -> Steps:
+    """Five impulses in the square do, four in a row do not, where the ball's four steps fire six."""
+    plan = box_plan()
+    left = impulses_to_rest(dict(enumerate(plan.impulses)))
+    yield "five impulses bring z0 to 0", left < 1e-16 and len(plan.impulses) == 5
+    share = np.abs(plan.impulses).max() / PEAK
+    yield f"each within {share:.3f} of the square |w1|, |w2| ≤ α_max", share < 0.8
+    four = np.stack([columns(j) for j in range(4)])
+    psi = shortest_box_costate(four)
+    proved = -Z0 @ psi / (PEAK * np.abs(np.einsum("kij,i->kj", four, psi)).sum())
+    yield f"four in a row would need {proved:.3f} α_max", proved > 1.17
+    yield "the ball's four steps fire six impulses", int(ball_plan().impulse_count) == 6
+
+
+def shortest_box_costate(columns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """psi that proves most for impulses in the square: least sum |g.psi| where (-z0, psi) = 1, by HiGHS."""
+    g = np.moveaxis(columns, 1, 2).reshape(-1, 3)
+    cost = np.concatenate([np.zeros(3), np.ones(len(g))])
+    above = np.block([[g, -np.eye(len(g))], [-g, -np.eye(len(g))]])
+    right = np.concatenate([-Z0, np.zeros(len(g))])[None]
+    free = [(None, None)] * 3 + [(0, None)] * len(g)
+    scaled = linprog(cost, A_ub=above, b_ub=np.zeros(len(above)), A_eq=100 * right, b_eq=[1.0], bounds=free)
+    return np.asarray(scaled.x[:3])
+
+
+def sparse_impulses() -> dict[int, NDArray[np.float64]]:
+    """Impulses of least peak at the starts of the intervals `SPARSE`, by HiGHS."""
+    g = PEAK * np.hstack([columns(j) for j in SPARSE])
+    count = g.shape[1]
+    above = np.block([[np.eye(count), -np.ones((count, 1))], [-np.eye(count), -np.ones((count, 1))]])
+    answer = linprog(
+        np.append(np.zeros(count), 1.0),
+        A_ub=above,
+        b_ub=np.zeros(2 * count),
+        A_eq=100 * np.hstack([g, np.zeros((3, 1))]),
+        b_eq=-100 * Z0,
+        bounds=[(None, None)] * count + [(0, None)],
+    )
+    w = np.asarray(answer.x[:count])
+    w += np.linalg.pinv(g) @ (-Z0 - g @ w)
+    return dict(zip(SPARSE, PEAK * w.reshape(-1, 2), strict=True))

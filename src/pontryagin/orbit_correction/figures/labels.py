@@ -1,0 +1,28 @@
+"""Names, colours and labels that the figures of this paper share."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from pontryagin.plotting import BLUE, GREEN, ORANGE, PURPLE, RED
+
+COLOURS = {"ball": BLUE, "disc": GREEN, "box": RED}
+NAMES = {"ball": "ball (the paper)", "disc": "disc", "box": "square"}
+MARKERS = {"ball": "o", "disc": "D", "box": "s"}
+POWERS = {8.0: PURPLE, 16.0: ORANGE}
+
+STATES = (r"$\Delta r$", r"$\Delta v_R$", r"$\Delta v_T$")
+IMPULSES = "number of impulses"
+TIME = r"$t$, rad of the orbit"
+DEVIATION = r"$|z_0|$, radii and speeds of the orbit"
+
+
+def whole_numbers(ax: Axes) -> None:
+    """Ticks of the horizontal axis at whole numbers only."""
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+
+
+def histogram(ax: Axes, values: np.ndarray, **style) -> None:
+    """Shares of whole numbers as bars."""
+    numbers, counts = np.unique(values, return_counts=True)
+    ax.bar(numbers, counts / len(values), **style)

@@ -1,0 +1,38 @@
+"""Impulses that the paper's ball wastes, over random states."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from pontryagin.orbit_correction.figures import labels
+from pontryagin.orbit_correction.waste import Waste
+from pontryagin.plotting import BLUE, styled, subplots
+
+
+@styled
+def wasted_impulses(found: Waste) -> Figure:
+    """Left: the impulses that the square saves, over the ball's. Right: how often how many are saved.
+
+    Parameters
+    ----------
+    found : Waste
+        Of a stack (n,) of states.
+    """
+    figure, (left, right) = subplots(1, 2, height=3.1, width_ratios=(1.3, 1))
+    ball, saved = found.counts["ball"], found.wasted("box")
+    pairs, counts = np.unique(np.column_stack([ball, saved]), axis=0, return_counts=True)
+    left.scatter(*pairs.T, s=9 * counts, color=BLUE, alpha=0.75, linewidths=0)
+    size = np.array([0, 1.02 * ball.max()])
+    share = float(saved.sum() / ball.sum())
+    left.plot(size, share * size, color="#555555", linewidth=0.9)
+    words = f"{100 * share:.0f} % of all impulses"
+    left.annotate(words, (size[1], share * size[1]), (0, 4), textcoords="offset points", ha="right")
+    left.set(xlabel="impulses of the ball", ylabel="saved by the square")
+    numbers = np.arange(0, saved.max() + 1)
+    for name, shift in (("disc", -0.2), ("box", 0.2)):
+        shares = [(found.wasted(name) == number).mean() for number in numbers]
+        words = f"{labels.NAMES[name]}: mean {found.wasted(name).mean():.2f}"
+        right.bar(numbers + shift, shares, 0.4, color=labels.COLOURS[name], label=words)
+    right.set(xlabel="impulses saved against the ball", ylabel="share of states")
+    labels.whole_numbers(right)
+    right.legend()
+    return figure

@@ -1,0 +1,217 @@
+"""The plan flown on the true equations of motion, and replanned on what it leaves.
+
+The plan is linear, the sky is not: what remains of a deviation z0 is quadratic in |z0|. A second plan for
+the remainder, and a third, bring it to rounding level.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.flow import Flow, flow
+from pontryagin.orbit_correction.plan import Plan, correct
+from pontryagin.validation import positive, vectors
+
+CIRCLE = np.array([1.0, 0.0, 1.0])
+ROUNDING = 1e-14
+ROUNDS = 12
+
+
+@cache
+def motion() -> Flow:
+    """Flow of (r, v_R, v_T, theta) in the field 1/r^2, from the derived equations of motion."""
+    import sympy as sp
+
+    from pontryagin.orbit_correction import derivation as d
+
+    rates = [*d.equations_of_motion(), d.v_transverse / d.r]
+    return flow([d.r, d.v_radial, d.v_transverse, sp.Symbol("theta", real=True)], rates)
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """A sequence of impulses flown on the true equations.
+
+    Attributes
+    ----------
+    impulses : (M, 2) array
+        Radial and transverse, at the starts of the intervals.
+    interval : float
+        Time between impulses.
+    states : (M + 1, 3) array
+        Deviations (dr, dv_R, dv_T) before each impulse, and at the end; dimensionless.
+    angles : (M + 1,) array
+        Place theta on the orbit at the same instants, rad.
+    """
+
+    impulses: NDArray[np.float64]
+    interval: float
+    states: NDArray[np.float64]
+    angles: NDArray[np.float64]
+
+    @property
+    def residual(self) -> float:
+        """Length of the deviation at the end."""
+        return float(np.linalg.norm(self.states[-1]))
+
+    def path(self, samples: int) -> tuple[NDArray, NDArray, NDArray]:
+        """Times, deviations and places with so many samples an interval, (k,), (k, 3), (k,).
+
+        Every instant of an impulse appears twice, before and after it.
+        """
+        grid = np.linspace(0.0, self.interval, samples)
+        times, states = [np.zeros(1)], [np.append(self.states[0] + CIRCLE, self.angles[0])[None]]
+        for j, impulse in enumerate(self.impulses):
+            kicked = self.states[j] + CIRCLE + np.array([0.0, *impulse])
+            times.append(j * self.interval + grid)
+            states.append(motion()(np.append(kicked, self.angles[j]), grid))
+        whole = np.concatenate(states)
+        return np.concatenate(times), whole[:, :3] - CIRCLE, whole[:, 3]
+
+
+def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0) -> Flight:
+    """Fly impulses on the true equations of motion, integrated by Taylor series or DOP853.
+
+    Parameters
+    ----------
+    z0 : (3,) array_like
+        Deviation at the start, dimensionless.
+    impulses : (M, 2) array_like
+        Radial and transverse impulses, orbital speeds.
+    interval : float
+        Time between them, rad of the orbit.
+    angle : float
+        Place on the orbit at the start, rad.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
+
+    Examples
+    --------
+    >>> plan = correct([-0.0037787, -0.0039109, 0.0141512])
+    >>> f"{fly(plan.z0, plan.impulses, 0.25).residual:.1e}"
+    '1.1e-04'
+    """
+    start, kicks = vectors("z0", z0, 3), vectors("impulses", impulses, 2)
+    if start.ndim != 1 or kicks.ndim != 2:
+        raise ValueError(f"z0 and impulses must be (3,) and (M, 2), got {start.shape} and {kicks.shape}")
+    step = float(positive("interval", interval))
+    states, angles = [start], [float(angle)]
+    for kick in kicks:
+        kicked = np.append(states[-1] + CIRCLE + np.array([0.0, *kick]), angles[-1])
+        reached = motion()(kicked, [0.0, step])[-1]
+        states.append(reached[:3] - CIRCLE)
+        angles.append(float(reached[3]))
+    return Flight(kicks, step, np.array(states), np.array(angles))
+
+
+def fly_plan(plan: Plan) -> Flight:
+    """`fly` the impulses of one plan.
+
+    Raises
+    ------
+    ValueError
+        If the plan is that of a stack.
+    """
+    single(plan)
+    return fly(plan.z0, plan.impulses, plan.thrust.interval)
+
+
+def single(plan: Plan) -> Plan:
+    """The plan itself, if it is that of one state; else `ValueError`."""
+    if plan.steps.shape:
+        raise ValueError(f"plan must be that of one state, got a stack of shape {plan.steps.shape}")
+    return plan
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedLoop:
+    """Plans one after the other, each for what the flight before it left.
+
+    Attributes
+    ----------
+    plans, flights : tuples
+        In their order.
+    """
+
+    plans: tuple[Plan, ...]
+    flights: tuple[Flight, ...]
+
+    @property
+    def residuals(self) -> NDArray[np.float64]:
+        """Length of the deviation at the start and after each flight, (rounds + 1,)."""
+        sizes = [float(np.linalg.norm(flight.states[0])) for flight in self.flights[:1]]
+        return np.array(sizes + [flight.residual for flight in self.flights])
+
+    @property
+    def impulse_counts(self) -> NDArray[np.int64]:
+        """Impulses fired in each round, (rounds,)."""
+        return np.array([int(plan.impulse_count) for plan in self.plans], dtype=np.int64)
+
+
+def close_loop(
+    z0: ArrayLike,
+    interval: float = 0.25,
+    peak: float = 0.0035,
+    thrust: str = "ball",
+    tolerance: float = ROUNDING,
+) -> ClosedLoop:
+    """Replan on the residual of the true flight until nothing is left but rounding.
+
+    Parameters
+    ----------
+    z0 : (3,) array_like
+        Deviation at the start, dimensionless.
+    interval, peak, thrust
+        As in `correct`.
+    tolerance : float
+        Length of the deviation that counts as none; speeds and radius are numbers near 1.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
+    pontryagin.NotConverged
+        If a dozen plans do not reach it.
+
+    Examples
+    --------
+    >>> loop = close_loop([-0.0037787, -0.0039109, 0.0141512])
+    >>> loop.impulse_counts.tolist()
+    [6, 2, 2]
+    """
+    state, angle = vectors("z0", z0, 3), 0.0
+    if state.ndim != 1:
+        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
+    bound = float(positive("tolerance", tolerance))
+    plans: list[Plan] = []
+    flights: list[Flight] = []
+    while np.linalg.norm(state) > bound:
+        if len(plans) == ROUNDS:
+            raise NotConverged(f"{ROUNDS} plans leave more than {bound}", float(np.linalg.norm(state)))
+        plans.append(correct(state, interval, peak, thrust))
+        flights.append(fly(state, plans[-1].impulses, interval, angle))
+        state, angle = flights[-1].states[-1], float(flights[-1].angles[-1])
+    return ClosedLoop(tuple(plans), tuple(flights))
+
+
+def residuals(
+    z0: ArrayLike,
+    scales: ArrayLike,
+    interval: float = 0.25,
+    peak: float = 0.0035,
+    thrust: str = "ball",
+) -> tuple[NDArray, NDArray]:
+    """Sizes |z0| and what the true flight leaves of them, when state and peak grow together, (k,) each.
+
+    Scaled together, all of them have the same plan but for the scale, and only the sky's curvature differs.
+    """
+    start, factors = vectors("z0", z0, 3), np.atleast_1d(positive("scales", scales))
+    plan = single(correct(start, interval, peak, thrust))
+    left = [fly(s * start, s * plan.impulses, interval).residual for s in factors]
+    return factors * float(np.linalg.norm(start)), np.array(left)
