@@ -1,6 +1,7 @@
 """What answers are compared with: SciPy's integrator, HiGHS on grids, and roots of exact polynomials."""
 
 from fractions import Fraction
+from itertools import pairwise
 
 import mpmath as mp
 import numpy as np
@@ -28,7 +29,7 @@ def propagate(maneuver, control, breakpoints=(), impulses=()):
     x[2] += jumps.get(start, 0.0)
     largest = np.abs(x)
     edges = [start, *sorted({*map(float, breakpoints), *(t for t in jumps if start < t < end)}), end]
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in pairwise(edges):
         last = np.nextafter(high, low)
 
         def rate(t, x, last=last):

@@ -55,7 +55,7 @@ def places(draw):
 
 @st.composite
 def moments(draw):
-    """Moments (c1, c2, c3) for T = 1: of any three numbers, degenerate, or of a control with known structure."""
+    """Moments (c1, c2, c3) for T = 1: any three numbers, degenerate ones, or those of a known control."""
     kind = draw(st.sampled_from(["any", "wide", "bang-bang", "impulses", "degenerate"]))
     if kind == "any":
         return draw(states())
@@ -75,3 +75,10 @@ def moments(draw):
 def maneuver_with(c, duration=1.0):
     """The manoeuvre from rest at the origin whose moments are c."""
     return Maneuver(np.zeros(np.shape(c)), c, duration)
+
+
+def stacked(members):
+    """Single manoeuvres as one stack."""
+    force = [0.0 if m.disturbance is None else m.disturbance for m in members]
+    x0, xf, tf, t0 = ([getattr(m, name) for m in members] for name in ("x0", "xf", "tf", "t0"))
+    return Maneuver(x0, xf, tf, t0, force)

@@ -25,7 +25,9 @@ def expressions(draw):
         return st.one_of(
             st.tuples(children, children).map(lambda pair: pair[0] + pair[1]),
             st.tuples(children, children).map(lambda pair: pair[0] * pair[1]),
-            st.tuples(children, st.sampled_from([-5, -4, -3, -2, -1, 2, 3, 4, 5])).map(lambda p: p[0] ** p[1]),
+            st.tuples(children, st.sampled_from([-5, -4, -3, -2, -1, 2, 3, 4, 5])).map(
+                lambda p: p[0] ** p[1]
+            ),
             children.map(lambda e: sp.sqrt(e) - e / 3),
         )
 
@@ -66,12 +68,12 @@ def test_a_symbol_that_is_no_argument_is_named():
         lambda: compiler.function("f", [x], {"value": x + y}),
         lambda: compiler.source("f", [x], {"value": x + y}, ""),
     ):
-        with pytest.raises(ValueError, match="f: .*not arguments: y"):
+        with pytest.raises(ValueError, match=r"^f: .*not arguments: y"):
             make()
 
 
 def test_complex_values_are_refused_not_cut():
-    with pytest.raises(TypeError, match="root: .*complex"):
+    with pytest.raises(TypeError, match=r"^root: .*complex"):
         compiler.function("root", [x], {"value": sp.I * x})(1.0)
 
 
@@ -102,7 +104,9 @@ def test_a_large_stack_equals_single_calls_bit_by_bit():
     stack = compiler.batched(two_values, outputs=2)
     rng = np.random.default_rng(1)
     p, q = rng.random((2, 3 * compiler.COMPILE_FROM))
-    assert stack(p, q).tolist() == [list(two_values(*pair)) for pair in zip(p.tolist(), q.tolist(), strict=True)]
+    assert stack(p, q).tolist() == [
+        list(two_values(*pair)) for pair in zip(p.tolist(), q.tolist(), strict=True)
+    ]
 
 
 def test_columns_may_be_strided_and_read_only():
@@ -157,11 +161,11 @@ def test_two_things_of_one_name_do_not_meet_in_one_kernel():
         exec(text, scope)
         return scope["f"]
 
-    other = in_module("LIMIT = 2.0\ndef f(p):\n    return p * LIMIT")
-    other.__name__ = "g"
-    for text, names, clash in (
-        ("def f(p):\n    return (g(p),)\ndef again(p):\n    return f(p)", {"g": in_module("def f(p):\n    return p")}, "f"),
-        ("LIMIT = 3.0\ndef f(p):\n    return (g(p) + LIMIT,)", {"g": other}, "LIMIT"),
+    alias, double = in_module("def f(p):\n    return p"), in_module("N = 2.0\ndef f(p):\n    return p * N")
+    double.__name__ = "g"
+    for kernel, clash in (
+        (in_module("def f(p):\n    return (g(p),)", g=alias), "f"),
+        (in_module("N = 3.0\ndef f(p):\n    return (g(p) + N,)", g=double), "N"),
     ):
         with pytest.raises(TypeError, match=f"called {clash} meet in f"):
-            compiler.batched(in_module(text, **names), outputs=1)(np.ones(compiler.COMPILE_FROM))
+            compiler.batched(kernel, outputs=1)(np.ones(compiler.COMPILE_FROM))

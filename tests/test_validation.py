@@ -70,7 +70,9 @@ def test_times_are_checked_against_each_interval_of_a_stack():
     with pytest.raises(ValueError, match="t must lie between"):
         times("t", [0.5], start, end)
     assert times("t", [[0.5], [1.5]], start, end).tolist() == [[0.5], [1.5]]
-    with pytest.raises(ValueError, match=r"^t must be an array .* got shape \(3, 1\) for a stack of shape \(2,\)"):
+    with pytest.raises(
+        ValueError, match=r"^t must be an array .* got shape \(3, 1\) for a stack of shape \(2,\)"
+    ):
         times("t", [[0.0]] * 3, start, end)
 
 

@@ -36,6 +36,8 @@ class Decimals(Evidence):
         Returns the same left-hand sides with the computed numbers.
     certificate : callable
         Steps that prove the computed numbers.
+    display : optional
+        What the report shows in place of the numbers.
 
     Examples
     --------

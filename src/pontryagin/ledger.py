@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 Verdict = Literal["holds", "misprint", "false", "conditional", "unreadable", "not checked"]
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
-PAPERS = ("pontryagin.triple_integrator.claims",)
+PAPERS = (
+    "pontryagin.triple_integrator.claims",
+    "pontryagin.orbit_correction.claims",
+)
 """Modules whose ``ENTRIES`` make up the ledger, a paper a line."""
 
 COLOURS = {

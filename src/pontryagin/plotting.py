@@ -168,6 +168,8 @@ def save_table(columns: Columns, notebook: str, name: str) -> Path:
     ----------
     columns : mapping of str to sequences of one length
         Heading and entries of each column.
+    notebook, name : str
+        Folder and file.
 
     Raises
     ------

@@ -134,6 +134,18 @@ class Recording:
             entity, self._rr.LineStrips3D([strip], colors=[_rgb(colour)], radii=[width]), static=True
         )
 
+    def net(self, entity: str, t: ArrayLike, strips: ArrayLike, colour: str) -> None:
+        """A surface as lines that move: `strips` (k, lines, points, 3), 1 pixel wide."""
+        times = _times(t)
+        shape = np.asarray(strips).shape
+        moving = _array("strips", strips, (times.size, *shape[1:3], 3))
+        look = self._rr.LineStrips3D.from_fields(
+            colors=[_rgb(colour)], radii=[self._rr.Radius.ui_points(0.7)]
+        )
+        self._stream.log(entity, look, static=True)
+        columns = self._rr.LineStrips3D.columns(strips=moving.reshape(-1, *shape[2:]))
+        self._send(entity, times, columns.partition([shape[1]] * times.size))
+
     def event(self, entity: str, t: float, text: str) -> None:
         """Something that happens at the instant `t`, in words."""
         self._stream.set_time(TIMELINE, duration=float(t))

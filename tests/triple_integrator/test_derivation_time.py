@@ -46,7 +46,9 @@ def test_the_moments_are_what_the_free_motion_leaves_to_do():
 @pytest.mark.parametrize("level", [1, -1])
 def test_the_quartic_is_that_of_the_theory(level):
     derived = time.quartic().subs(v, level)
-    assert sp.expand(derived * sp.Poly(quartic(level), T).LC() - quartic(level) * sp.Poly(derived, T).LC()) == 0
+    assert (
+        sp.expand(derived * sp.Poly(quartic(level), T).LC() - quartic(level) * sp.Poly(derived, T).LC()) == 0
+    )
 
 
 @pytest.mark.parametrize("level", [1, -1])
@@ -60,7 +62,9 @@ def test_the_stable_form_is_the_quartic(level):
 def test_the_quartics_in_the_excess_time_are_the_same_with_T_shifted(name, level):
     symbols = time.coefficient_symbols()
     values = dict(zip(symbols[:5], time.small_part_coefficients(), strict=True)) | {symbols[-1]: C3}
-    shifted = sum(c * z**i for i, c in enumerate(time.in_excess_time()[name])).subs(values).subs(symbols[-1], C3)
+    shifted = (
+        sum(c * z**i for i, c in enumerate(time.in_excess_time()[name])).subs(values).subs(symbols[-1], C3)
+    )
     assert sp.expand(shifted - quartic(level).subs(T, C3 + z)) == 0
 
 

@@ -154,7 +154,7 @@ def test_what_is_no_force_is_refused_when_the_manoeuvre_is_made(force, error, me
 
 @pytest.mark.parametrize("force", [lambda s: 1 / (s - 0.3), 1 / t, lambda s: np.sign(np.sin(1e9 * s))])
 def test_what_cannot_be_integrated_says_so(force):
-    with pytest.raises(NotConverged, match="^disturbance is not integrable to 1e-13 near t = "):
+    with pytest.raises(NotConverged, match=r"^disturbance is not integrable to 1e-13 near t = "):
         Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=force)
 
 

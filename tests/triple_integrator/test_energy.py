@@ -1,13 +1,13 @@
-"""Least energy: the parabola reaches the target, no other control does so with less, and the bound proves it."""
+"""Least energy: the parabola reaches the target, nothing else does so with less, and the bound proves it."""
 
 import numpy as np
 import pytest
 from hypothesis import given
-from independent import propagate
 from numpy.testing import assert_allclose
-from strategies import maneuver_with, maneuvers, moments, multipliers
 
+from independent import propagate
 from pontryagin.triple_integrator import Maneuver, minimum_energy
+from strategies import maneuver_with, maneuvers, moments, multipliers
 
 
 @given(maneuvers())

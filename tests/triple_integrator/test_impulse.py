@@ -1,14 +1,14 @@
-"""Least total impulse: against linear programmes and SciPy's integrator, in every regime and on its borders."""
+"""Least total impulse: against linear programmes and SciPy's integrator, in every regime and its borders."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from independent import impulse_bracket, propagate, response
 from numpy.testing import assert_allclose
-from strategies import maneuver_with, maneuvers, moments, multipliers, signs
 
+from independent import impulse_bracket, propagate, response
 from pontryagin.triple_integrator import Maneuver, minimum_impulse
+from strategies import maneuver_with, maneuvers, moments, multipliers, signs
 
 sizes = st.floats(0.01, 5.0)
 
@@ -137,7 +137,7 @@ def test_equal_signs_at_both_ends_are_unique_too(sign, first, last):
 @pytest.mark.parametrize("excess", [1e-4, 1e-6, 1e-8, 1e-10, 1e-13])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_border_of_chebyshev_the_cost_is_exact(excess, side):
-    """Two opposite impulses, the inner one a hair from the middle: the two regimes' bounds agree to its square."""
+    """Two opposite impulses, the inner a hair from the middle: the regimes' bounds agree to its square."""
     for places in ([0.0, 0.5 + side * excess], [1.0, 0.5 + side * excess]):
         solution = minimum_impulse(maneuver_with(of_impulses(places, [1.0, -2.0])))
         assert_allclose(np.abs(solution.impulses).sum(), solution.certificate.dual_value, rtol=2e-14)

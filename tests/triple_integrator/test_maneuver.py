@@ -5,11 +5,11 @@ import pytest
 import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
-from independent import propagate
 from numpy.testing import assert_allclose
-from strategies import angles, maneuvers, states
 
+from independent import propagate
 from pontryagin.triple_integrator import Maneuver
+from strategies import angles, maneuvers, stacked, states
 
 t = sp.Symbol("t")
 ORIGIN, AHEAD = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]
@@ -58,7 +58,9 @@ def test_a_force_of_time_knows_when_the_manoeuvre_starts():
 
 
 def test_stacks_broadcast_ends_times_and_forces():
-    m = Maneuver(np.zeros((4, 1, 3)), np.ones((3,)), np.full((5,), 2.0), t0=[0.0] * 5, disturbance=np.zeros((4, 1)))
+    m = Maneuver(
+        np.zeros((4, 1, 3)), np.ones((3,)), np.full((5,), 2.0), t0=[0.0] * 5, disturbance=np.zeros((4, 1))
+    )
     assert m.shape == (4, 5)
     assert m.moments.shape == (4, 5, 3)
     assert m.x0.shape == m.xf.shape == (4, 5, 3)
@@ -68,11 +70,7 @@ def test_stacks_broadcast_ends_times_and_forces():
 
 @given(st.lists(maneuvers(), min_size=2, max_size=4))
 def test_a_stack_has_the_moments_of_its_members(members):
-    force = [0.0 if m.disturbance is None else m.disturbance for m in members]
-    stack = Maneuver(
-        [m.x0 for m in members], [m.xf for m in members], [m.tf for m in members], [m.t0 for m in members], force
-    )
-    assert_allclose(stack.moments, [m.moments for m in members], rtol=1e-14, atol=1e-14)
+    assert_allclose(stacked(members).moments, [m.moments for m in members], rtol=1e-14, atol=1e-14)
 
 
 @pytest.mark.parametrize("shape", [(0,), (0, 3), (2, 0)])
@@ -107,7 +105,11 @@ def test_it_cannot_be_changed_neither_by_name_nor_through_the_arrays_given():
         ({"tf": np.nan}, ValueError, "^tf .*finite, got nan"),
         ({"t0": -np.inf}, ValueError, "^t0 .*finite, got -inf"),
         ({"tf": "soon"}, TypeError, "^tf .*'soon'"),
-        ({"x0": np.zeros((2, 3)), "tf": [1.0, 2.0, 3.0]}, ValueError, r"do not broadcast: x0 \(2,\).* tf \(3,\)"),
+        (
+            {"x0": np.zeros((2, 3)), "tf": [1.0, 2.0, 3.0]},
+            ValueError,
+            r"do not broadcast: x0 \(2,\).* tf \(3,\)",
+        ),
     ],
 )
 def test_what_is_no_manoeuvre_is_refused(changed, error, message):
@@ -117,7 +119,7 @@ def test_what_is_no_manoeuvre_is_refused(changed, error, message):
 
 @pytest.mark.parametrize("outside", [-0.01, 1.01])
 def test_times_outside_are_refused(outside):
-    with pytest.raises(ValueError, match="^t must lie between"):
+    with pytest.raises(ValueError, match=r"^t must lie between"):
         Maneuver(ORIGIN, AHEAD, 1.0).drift([0.5, outside])
 
 

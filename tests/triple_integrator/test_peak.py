@@ -1,15 +1,17 @@
 """Least peak: against linear programmes, exact roots, and SciPy's integrator, in every structure."""
 
+from itertools import pairwise
+
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from independent import exact_peak, peak_bracket, propagate
 from numpy.testing import assert_allclose
-from strategies import maneuver_with, maneuvers, moments, multipliers, places, signs
 
+from independent import exact_peak, peak_bracket, propagate
 from pontryagin.triple_integrator import Maneuver, minimum_peak
+from strategies import maneuver_with, maneuvers, moments, multipliers, places, signs
 
 
 def bang_bang(level, a, b):
@@ -68,7 +70,7 @@ def test_residual_and_gap_in_fifty_digits(c):
         flown = [v * (1 - 2 * (a**n - b**n)) for n in (3, 2, 1)]
         assert max(abs(x - y) for x, y in zip(k, flown, strict=True)) <= 1e-13 * size
         pieces = [s**3 / 3 - (a + b) * s**2 / 2 + a * b * s for s in (mp.mpf(0), b, a, mp.mpf(1))]
-        length = sum(abs(y - x) for x, y in zip(pieces[:-1], pieces[1:], strict=True))
+        length = sum(abs(y - x) for x, y in pairwise(pieces))
         proved = abs(k[0] / 3 - (a + b) * k[1] / 2 + a * b * k[2]) / length
         assert abs(abs(v) - proved) <= 1e-13 * abs(v)
 
@@ -121,7 +123,9 @@ def test_one_switch_is_reported_once(level, share):
     assert_allclose(solution.norm, 1.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize("c", [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0], [0.3, 0.7, 0], [0, -0.2, 0.5], [-1, 0, 2.0]])
+@pytest.mark.parametrize(
+    "c", [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0], [0.3, 0.7, 0], [0, -0.2, 0.5], [-1, 0, 2.0]]
+)
 def test_vanishing_moments(c):
     solution = minimum_peak(maneuver_with(np.array(c)))
     assert_allclose(float(solution.norm), float(exact_peak(c)), rtol=1e-14)
@@ -130,7 +134,7 @@ def test_vanishing_moments(c):
 
 @pytest.mark.parametrize("width", [1e-4, 1e-6, 1e-8, 1e-10, 1e-12])
 def test_a_narrow_flip_keeps_the_digits_of_its_width(width):
-    """The width follows from c3 alone, to the rounding of c3; its place is as uncertain as its condition says."""
+    """The width follows from c3 alone, to its rounding; the place is as uncertain as its condition says."""
     a, b = 0.25 + width, 0.25
     solution = minimum_peak(maneuver_with(bang_bang(1.0, a, b)))
     found = float(solution.shares[0] - solution.shares[1])
@@ -172,10 +176,12 @@ def test_tiny_and_huge_moments_scale_exactly(exponent):
 
 
 def test_what_overflows_is_refused():
-    with pytest.raises(ValueError, match="x0, xf and tf - t0 must give a control within the range"):
+    with pytest.raises(ValueError, match="xf must give, with x0 and tf - t0, a control within the range"):
         minimum_peak(Maneuver([0, 0, 0], [1e300, 0, 0], 1e-3))
 
 
 def test_breakpoints_are_those_of_one_manoeuvre():
-    with pytest.raises(ValueError, match=r"breakpoints are those of one manoeuvre, got a stack of shape \(2,\)"):
+    with pytest.raises(
+        ValueError, match=r"breakpoints are those of one manoeuvre, got a stack of shape \(2,\)"
+    ):
         _ = minimum_peak(Maneuver(np.zeros((2, 3)), [1, 0, 0], 1.0)).breakpoints

@@ -29,6 +29,22 @@ _HOMES = {
     "gauge": "system",
     "Gauge": "system",
     "DiscreteSystem": "system",
+    "least_peak": "alternatives",
+    "least_energy": "alternatives",
+    "least_fuel": "alternatives",
+    "power_gauge": "pball",
+    "fewest_power_steps": "pball",
+    "fly": "flight",
+    "fly_plan": "flight",
+    "close_loop": "flight",
+    "count_impulses": "waste",
+    "random_states": "waste",
+    "impulse_distribution": "montecarlo",
+    "derivation": "",
+    "ergodic": "",
+    "figures": "",
+    "intervals": "",
+    "playback": "",
 }
 
 __all__ = list(_HOMES)
@@ -38,7 +54,8 @@ def __getattr__(name: str):
     """Public names load their module at first use."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    home = _HOMES[name]
+    return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
 
 
 def __dir__() -> list[str]:

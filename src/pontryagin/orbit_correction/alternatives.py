@@ -131,7 +131,8 @@ def least_fuel(plan: Plan) -> Alternative:
     ValueError
         If the plan is that of a stack.
     pontryagin.NotConverged
-        If the bounds do not meet.
+        If the bounds do not meet: for the ball, where the gauge is within 1e-8 of 1 and hardly more than
+        one plan exists.
 
     Examples
     --------

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
 
-ATTEMPTS = (("highs-ds", 1e-10), ("highs-ipm", 1e-10), ("highs-ds", 1e-9), ("highs-ds", 1e-8))
-"""Methods and tolerances of HiGHS, tried in turn: where hardly more than one plan exists the first may fail."""
+PRECISIONS = (1e-10, 1e-9, 1e-8)
+"""Tolerances of HiGHS, tried in turn: where hardly more than one plan exists the finest may find none."""
 
 
 @dataclass(frozen=True)
@@ -61,15 +61,16 @@ def mixture(
     last = float(shared)
     equal = np.hstack([reach, np.zeros((3, 1))])
     below = np.hstack([within, np.full((steps, 1), -last)])
-    for method, precision in ATTEMPTS:
-        found = linprog(
+    for precision in PRECISIONS:
+        tolerances = dict.fromkeys(("primal_feasibility_tolerance", "dual_feasibility_tolerance"), precision)
+        found = linprog(  # type: ignore[call-overload]
             np.append((1 - last) * columns.costs, last),
             A_ub=below,
             b_ub=np.full(steps, 1 - last),
             A_eq=equal,
             b_eq=target,
-            method=method,  # type: ignore[arg-type]
-            options=dict.fromkeys(("primal_feasibility_tolerance", "dual_feasibility_tolerance"), precision),  # type: ignore[arg-type]
+            method="highs-ds",
+            options=tolerances,
         )
         if found.status == 0:
             break

@@ -29,6 +29,15 @@ def equations_of_motion() -> sp.Matrix:
     return sp.Matrix([v_radial, radial_rate, transverse_rate]).subs(radius, r).applyfunc(sp.simplify)
 
 
+def angular_rate() -> sp.Expr:
+    """theta' in terms of the transverse speed, the component of the velocity across the radius."""
+    radius, angle = sp.Function("r")(t), sp.Function("theta")(t)
+    place = radius * sp.Matrix([sp.cos(angle), sp.sin(angle)])
+    across = sp.Matrix([-sp.sin(angle), sp.cos(angle)])
+    speed = sp.simplify(place.diff(t).dot(across))
+    return sp.solve(sp.Eq(speed, v_transverse), angle.diff(t))[0].subs(radius, r)
+
+
 def linearised() -> sp.Matrix:
     """A: the derivative of the equations of motion on the circle r = 1, v_R = 0, v_T = 1."""
     circle = {r: 1, v_radial: 0, v_transverse: 1}

@@ -1,7 +1,7 @@
-"""Sums of ellipsoids, and exact systems on which sections 2 to 6 can be followed without rounding, in SymPy.
+"""Sums of ellipsoids, and exact systems on which sections 2 to 6 are followed without rounding, in SymPy.
 
-An ellipsoid is L B, B the unit ball. Its support function sqrt(p'LL'p) is a root; but a system can be built so
-that it is rational in one chosen direction psi_0 and along its costates. Then every point of the theory
+An ellipsoid is L B, B the unit ball. Its support function sqrt(p'LL'p) is a root; but a system can be built
+so that it is rational in one chosen direction psi_0 and along its costates. Then every point of the theory
 (support points, trajectory, controls) is rational, in space of any dimension.
 """
 
@@ -111,7 +111,9 @@ def exact_system(n: int, steps: int, seed: int) -> ExactSystem:
     """
     draw = Random(seed)
     psi = _vector(draw, n)
-    start, transitions, controls = psi, [], []
+    start = psi
+    transitions: list[sp.ImmutableMatrix] = []
+    controls: list[Ellipsoid] = []
     while len(transitions) < steps:
         L = sp.Matrix([[_lower_triangular(draw, i, j) for j in range(n)] for i in range(n)])
         following = L.inv().T * _rational_direction(draw, n) * draw.randint(1, 3)

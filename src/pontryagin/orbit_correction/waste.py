@@ -30,7 +30,7 @@ class Waste:
         return self.counts["ball"] - self.counts[thrust]
 
 
-def waste(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
+def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
     """Count the impulses that ball, disc and box need for the same states.
 
     The ball lies in the square, so that the square never needs more; a ball's odd step also leaves half of
@@ -50,7 +50,7 @@ def waste(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
 
     Examples
     --------
-    >>> found = waste([-0.0037787, -0.0039109, 0.0141512])
+    >>> found = count_impulses([-0.0037787, -0.0039109, 0.0141512])
     >>> {name: int(count) for name, count in found.counts.items()}, int(found.wasted())
     ({'ball': 6, 'disc': 5, 'box': 5}, 1)
     """

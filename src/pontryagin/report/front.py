@@ -60,6 +60,8 @@ def front_page(entries: Sequence[Entry], papers: Sequence[Paper] = PAPERS) -> st
     ----------
     entries : sequence of mappings
         The ledger's entries with ``paper``, ``label``, ``statement``, ``verdict`` and ``remark``.
+    papers : sequence of Paper
+        The papers that the report replicates.
     """
     return "\n\n".join([_ABOUT, _sources(papers), _summary(entries), _ledger(entries)])
 

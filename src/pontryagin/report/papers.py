@@ -20,4 +20,10 @@ PAPERS = (
         "Synthesis of optimal control of spacecraft partial rotation by moments method",
         "Yu. N. Gorelov, M. V. Morozova, 2012 (in Russian)",
     ),
+    Paper(
+        "Ibragimov 2017",
+        "orbit_correction",
+        "Time-optimal correction of a satellite's orbit",
+        "D. N. Ibragimov, 2017 (in Russian)",
+    ),
 )

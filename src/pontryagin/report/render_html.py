@@ -18,6 +18,8 @@ def render_html(document: tree.Node, root: Path, title: dict[str, str]) -> str:
     ----------
     document : Node
         The assembled text; its pictures are named by paths below `root`.
+    root : Path
+        Where the pictures are looked for.
     title : dict
         ``pagetitle``, ``subtitle`` and ``imprint``.
 

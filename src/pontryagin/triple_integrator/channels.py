@@ -58,6 +58,8 @@ class Channels:
 
     Attributes
     ----------
+    body : RigidBody
+        The body that turns.
     programmes : three solutions
     programmed : tuple of int
         S; to the others' motion the control acceleration is found that it takes.

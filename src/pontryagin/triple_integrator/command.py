@@ -14,7 +14,7 @@ from pontryagin.triple_integrator import transcript
 ACCEPTED = 1e-8
 """Largest residual and gap of an answer that is handed out."""
 
-ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm"}
+ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
 """Options whose last check is left to the solvers."""
 
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}

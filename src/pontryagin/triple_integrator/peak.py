@@ -95,14 +95,17 @@ def narrow_root(side, reach, k1, k2, k3):
     return t, y
 
 
-def place_switches(d, m):
-    """a and b in [0, 1] from their difference and sum; the difference, which is exact, is kept."""
-    if d <= EDGE:
+def place_switches(d, m, edge):
+    """a and b in [0, 1] from their difference, which is exact and is kept, and their sum.
+
+    Pieces shorter than the share `edge` are left out.
+    """
+    if d <= edge:
         return 0.0, 0.0
     a, b = 0.5 * (m + d), 0.5 * (m - d)
-    if a >= 1.0 - EDGE:
+    if a >= 1.0 - edge:
         a, b = 1.0, 1.0 - d
-    if b <= EDGE:
+    if b <= edge:
         a, b = min(d, 1.0) if a < 1.0 else 1.0, 0.0
     return a, b
 
@@ -116,7 +119,7 @@ def solve_peak(c1, c2, c3, T):
     k1, k2, k3 = k1 / scale, k2 / scale, k3 / scale
     t, y = solve_level(k1, k2, k3)
     v = 1.0 / t
-    a, b = place_switches(0.5 * y, 1.0 - (k2 - k3) * t / y if y > 0.0 else 1.0)
+    a, b = place_switches(0.5 * y, 1.0 - (k2 - k3) * t / y if y > 0.0 else 1.0, EDGE)
     if a - b >= 1.0:
         a = b = 0.0
         v = -v

@@ -211,6 +211,8 @@ def moments_beyond(h: Quadratic, s: Array, function, block: int = 4096) -> Array
         Where the integrals start.
     function : callable
         From (index into the flat stack (m,), values of h (m, n)) to the integrand (m, n).
+    block : int
+        How many integrals are evaluated at a time.
 
     Returns
     -------

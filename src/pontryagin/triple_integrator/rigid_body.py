@@ -93,6 +93,8 @@ class Motion:
     ----------
     edges : (p+1,) array
         Ends of the smooth stretches.
+    stretches : p solutions of SciPy's integrator
+        The motion on each.
     start, end : (7+n,) arrays
         Attitude, rate and commands before the first instant's impulse, and after the last one's.
     """

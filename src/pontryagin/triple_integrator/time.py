@@ -23,7 +23,7 @@ from pontryagin.triple_integrator.kernels import (
     small_parts,
 )
 from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import place_switches
+from pontryagin.triple_integrator.peak import EDGE, place_switches
 from pontryagin.triple_integrator.quartic import (
     THIRD,
     quartic,
@@ -43,17 +43,23 @@ ILL_POSED = 1e-12
 RELUCTANT = 1e-9
 """The same again: two roots about to merge lose half their digits."""
 
+NEARLY = 1e-2
+"""A stationary value this small, relative to its terms, may be a root but for the rounding of the data."""
+
 NEVER = 1e300
 
 
-def sized(level, z, ends, f, c3):
-    """Switches a, b, time T and residual of the control that a root z of one branch stands for."""
+def sized(level, z, ends, f, c3, edge):
+    """Switches a, b, time T and residual of the control that a root z of one branch stands for.
+
+    Pieces shorter than the share `edge` are left out.
+    """
     d1, x20, x30, x2f, x3f, place = ends
     T = c3 + z
     p3 = level * T - c3
     r2 = 2.0 * (x2f - x20) - (x3f + x30 + 2.0 * f) * T
     m = 1.0 - r2 / (T * p3) if p3 != 0.0 else 1.0
-    a, b = place_switches(min(1.0, 0.5 * fabs(p3) / T), m)
+    a, b = place_switches(min(1.0, 0.5 * fabs(p3) / T), m, edge)
     k1, k2, k3 = bang_bang_moments(level, a, b)
     c1, c2, _ = moments(0.0, x20, x30, d1, x2f, x3f, T, 0.5 * f * T * T, f * T)
     rate, drift = fabs(x20) + fabs(x2f), fabs(x30) + fabs(f)
@@ -90,7 +96,7 @@ def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
     top = min(limit, upper_bound(q0, q1, q2, q3) * (1.0 + 1e-9))
     low, low_value = 0.0, q0
     if level > 0.0 and c3 > 0.0:
-        a, b, _, residual = sized(level, 0.0, ends, f, c3)
+        a, b, _, residual = sized(level, 0.0, ends, f, c3, EDGE)
         if residual <= 4e-15:
             return 0.0, a, b, residual
     changes = sign_changes(q0, q1, q2, q3)
@@ -104,12 +110,13 @@ def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
         value = quartic(high, q0, q1, q2, q3)
         size = fabs(q0) + high * (fabs(q1) + high * (fabs(q2) + high * (fabs(q3) + 3.0 * high)))
         crosses = (low_value > 0.0) != (value > 0.0)
-        touches = high < top and fabs(value) <= 1e-14 * size
+        touches = high < top and fabs(value) <= NEARLY * size
         if crosses or touches:
             z = root_between(low, high, q0, q1, q2, q3) if crosses else high
             z = polished(level, z, small[0], small[1], small[2], small[3], small[4], c3)
-            a, b, _, residual = sized(level, z, ends, f, c3)
+            _, _, _, residual = sized(level, z, ends, f, c3, 0.0)
             if residual <= accept:
+                a, b, _, residual = sized(level, z, ends, f, c3, EDGE)
                 return z, a, b, residual
         low, low_value = high, value
     return limit, 0.0, 0.0, 1.0
@@ -158,21 +165,30 @@ def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
 
 
 def lower_bound(level, a, b, T, ends, f, c3):
-    """The time down to which the separating functional (s - aT)(s - bT) proves the target out of reach.
+    """The time just before which a separating functional proves the target out of reach; |c3| if none does.
 
-    phi(T') = |l'c(T')| - integral of |l'h| vanishes at T' = T and is positive just before; one Newton step
-    from the rounded value.
+    To two switches belongs (s - aT)(s - bT); to one of them also the functional whose other zero is at the
+    other end of the manoeuvre; to none those without a zero inside.
     """
+    found = max(
+        separation(level, a, b, T, ends, f, c3),
+        separation(-level, 1.0, a, T, ends, f, c3),
+        separation(-level, b, 0.0, T, ends, f, c3),
+    )
+    return max(c3, found if a > b else max(found, separation(level, 1.0, 1.0, T, ends, f, c3)))
+
+
+def separation(level, a, b, T, ends, f, c3):
+    """Where phi(T') = l'c(T') - integral of |l'h| falls to zero for l'h = level (s - aT)(s - bT), by one
+    Newton step from T; 0 where it does not fall."""
     d1, x20, x30, x2f, x3f, _ = ends
     c1, c2, _ = moments(0.0, x20, x30, d1, x2f, x3f, T, 0.5 * f * T * T, f * T)
     m, product = T * (a + b), T * T * a * b
     pairing = level * (2.0 * c1 - m * c2 + product * c3)
     d = T * (a - b)
     reach = T * T * T / 3.0 - 0.5 * m * T * T + product * T + d * d * d / 3.0
-    slope = level * (-2.0 * (x20 + T * (x30 + f)) + m * (x30 + f)) - (T - T * a) * (T - T * b)
-    if slope == 0.0:
-        return c3
-    return max(c3, T - fabs(pairing - reach) / fabs(slope))
+    rise = level * (m * (x30 + f) - 2.0 * (x20 + T * (x30 + f))) - (T - T * a) * (T - T * b)
+    return T - fabs(pairing - reach) / -rise if rise < 0.0 else 0.0
 
 
 solve_stack = batched(solve_time, outputs=6)
@@ -195,8 +211,9 @@ class TimeSolution:
     shares : (..., 2) array
         Both switches a >= b as shares of the duration to go; 1 and 0 where they do not happen.
     certificate : Certificate
-        Residual of the moments, relative to the data; the duration; and the time down to which the
-        separating functional proves the target out of reach.
+        Residual of the moments, relative to the data; the duration; and the time just before which a
+        separating functional proves the target out of reach. That proof is local: that nothing arrives
+        earlier still rests on the quartics having no smaller admissible root.
     """
 
     x0: NDArray[np.float64]
@@ -292,6 +309,11 @@ def minimum_time(
         Bound on |u|, positive.
     disturbance : (...) array_like, optional
         Constant acceleration beside the control.
+
+    Returns
+    -------
+    TimeSolution
+        ``duration`` is the least time; the control, the switches and the rest as for `minimum_peak`.
 
     Raises
     ------

@@ -24,7 +24,11 @@ def over_stack(solver: Batched, maneuver: Maneuver) -> NDArray[np.float64]:
 
 def _within_range(numbers: NDArray) -> NDArray[np.float64]:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
-        raise ValueError("x0, xf and tf - t0 must give a control within the range of floating point")
+        lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
+        where = f"; not so at index {lost}" if lost else ""
+        raise ValueError(
+            f"xf must give, with x0 and tf - t0, a control within the range of floating point{where}"
+        )
     return numbers
 
 

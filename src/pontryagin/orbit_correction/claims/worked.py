@@ -41,6 +41,11 @@ def step_inputs(k: int) -> NDArray[np.float64]:
     return numbers(derivation.step_inputs(k % 2))
 
 
+def interval_matrix() -> NDArray[np.float64]:
+    """A~."""
+    return step_matrix(1)
+
+
 @functools.cache
 def columns(j: int) -> NDArray[np.float64]:
     """What the two impulses at the start of interval j do to the initial state."""
@@ -66,9 +71,11 @@ def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0)
     return np.array(result)
 
 
-def gauge_with(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0) -> Gauge:
+def gauge_with(
+    steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0, z0: NDArray = Z0
+) -> Gauge:
     """alpha(steps) of z0 and its costate for some B(k), between bounds from both sides."""
-    found = gauge_of_factors(factors(steps, inputs, shift), Z0)
+    found = gauge_of_factors(factors(steps, inputs, shift), z0)
     if not found.certificate.holds(1e-9):
         raise Unsupported(f"the bounds on the gauge differ by {found.certificate.gap}")
     return found
@@ -96,9 +103,9 @@ def ball_certificate() -> Steps:
 
 def impulses_to_rest(impulses: dict[int, NDArray[np.float64]]) -> float:
     """The largest deviation left of z0 when the impulses are fired at the starts of their intervals."""
-    once, state = numbers(sp.Matrix(derivation.transition(derivation.interval))), Z0
+    state = Z0
     for j in range(max(impulses) + 1):
-        state = once @ (state + np.array([0.0, *impulses.get(j, np.zeros(2))]))
+        state = interval_matrix() @ (state + np.array([0.0, *impulses.get(j, np.zeros(2))]))
     return float(np.abs(state).max())
 
 
@@ -124,6 +131,8 @@ def shortest_box_costate(columns: NDArray[np.float64]) -> NDArray[np.float64]:
     right = np.concatenate([-Z0, np.zeros(len(g))])[None]
     free = [(None, None)] * 3 + [(0, None)] * len(g)
     scaled = linprog(cost, A_ub=above, b_ub=np.zeros(len(above)), A_eq=100 * right, b_eq=[1.0], bounds=free)
+    if scaled.x is None:
+        raise Unsupported(f"HiGHS found no costate: {scaled.message}")
     return np.asarray(scaled.x[:3])
 
 
@@ -140,6 +149,8 @@ def sparse_impulses() -> dict[int, NDArray[np.float64]]:
         b_eq=-100 * Z0,
         bounds=[(None, None)] * count + [(0, None)],
     )
+    if answer.x is None:
+        raise Unsupported(f"HiGHS found no impulses: {answer.message}")
     w = np.asarray(answer.x[:count])
     w += np.linalg.pinv(g) @ (-Z0 - g @ w)
     return dict(zip(SPARSE, PEAK * w.reshape(-1, 2), strict=True))

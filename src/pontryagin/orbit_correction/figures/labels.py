@@ -1,6 +1,5 @@
 """Names, colours and labels that the figures of this paper share."""
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
@@ -20,9 +19,3 @@ DEVIATION = r"$|z_0|$, radii and speeds of the orbit"
 def whole_numbers(ax: Axes) -> None:
     """Ticks of the horizontal axis at whole numbers only."""
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))
-
-
-def histogram(ax: Axes, values: np.ndarray, **style) -> None:
-    """Shares of whole numbers as bars."""
-    numbers, counts = np.unique(values, return_counts=True)
-    ax.bar(numbers, counts / len(values), **style)

@@ -25,7 +25,7 @@ def wasted_impulses(found: Waste) -> Figure:
     share = float(saved.sum() / ball.sum())
     left.plot(size, share * size, color="#555555", linewidth=0.9)
     words = f"{100 * share:.0f} % of all impulses"
-    left.annotate(words, (size[1], share * size[1]), (0, 4), textcoords="offset points", ha="right")
+    left.annotate(words, (size[1], 0.6 * share * size[1]), ha="right")
     left.set(xlabel="impulses of the ball", ylabel="saved by the square")
     numbers = np.arange(0, saved.max() + 1)
     for name, shift in (("disc", -0.2), ("box", 0.2)):

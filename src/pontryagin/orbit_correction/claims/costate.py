@@ -1,0 +1,238 @@
+"""Section 6, Lemma 9: the initial costate, (8) to (11)."""
+
+import sympy as sp
+
+from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
+from pontryagin.ledger import Page
+from pontryagin.orbit_correction.claims.family import family, named
+from pontryagin.orbit_correction.claims.interior import interior_state, share_of
+from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
+from pontryagin.orbit_correction.exact import ExactSystem
+
+claim = Page("Ibragimov 2017")
+
+
+def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
+    """x^k = −H~^-1(k)ψ/√(ψ, H~^-1(k)ψ)."""
+    inverses = [shape_inverse(system, k) for k in range(1, system.steps + 1)]
+    return [-Q * psi / sp.sqrt((psi.T * Q * psi)[0]) for Q in inverses]
+
+
+@claim(
+    "Lemma 9",
+    "−x0 as a sum over ψ0: the equation for the initial costate",
+    verdict="holds",
+    remark="With H~(k) as corrected.",
+)
+def equation_for_the_costate():
+    systems = family()
+    keys = [f"-x_0\\ ({named(system)})" for system in systems]
+
+    def printed() -> dict[str, sp.Matrix]:
+        sums = [-sum(parts(s, s.costates[0]), sp.zeros(*s.psi0.shape)) for s in systems]
+        return dict(zip(keys, sums, strict=True))
+
+    return Equality(
+        printed(),
+        lambda: {key: -system.boundary_state() for key, system in zip(keys, systems, strict=True)},
+        display=r"-x_0 = \sum_{k=1}^{N_{\min}} \frac{\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde "
+        r"H^{-1}(k)\psi_0)}}",
+    )
+
+
+@claim("(8)", "x0 has one decomposition into boundary points of the E_k", verdict="holds")
+def decomposition_into_ellipsoids():
+    def argument() -> Steps:
+        for system in family():
+            psi, points = system.costates[0], parts(system, system.costates[0])
+            yield (
+                f"{named(system)}: the x^k add up to x0",
+                vanishes(sum(points, sp.zeros(*psi.shape)) - system.boundary_state()),
+            )
+            levels = [
+                (point.T * shape_inverse(system, k).inv() * point)[0]
+                for k, point in enumerate(points, start=1)
+            ]
+            yield "and lie on the boundaries", levels == [1] * system.steps
+            moved = points[0] + (points[0] - points[1]) / 100
+            other = points[1] - (points[0] - points[1]) / 100
+            outside = [
+                (point.T * shape_inverse(system, k).inv() * point)[0]
+                for k, point in enumerate((moved, other), start=1)
+            ]
+            yield "what is moved from one to the next takes one of them outside", max(outside) > 1
+
+    return Proof(argument, display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k")
+
+
+@claim("(9)", "−ψ0 is normal at x0 and at all x^k", verdict="holds")
+def common_normal():
+    def argument() -> Steps:
+        for system in family():
+            p = -system.costates[0]
+            for part, point in zip(
+                system.summands(system.steps), parts(system, system.costates[0]), strict=True
+            ):
+                yield (
+                    f"{named(system)}: (−ψ0, x^k) is the support function of E_k",
+                    p.dot(point) == part.support(p),
+                )
+            yield (
+                "and the sum that of X(N, 0)",
+                p.dot(system.boundary_state()) == system.support(p, system.steps),
+            )
+
+    return Proof(
+        argument,
+        display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
+    )
+
+
+@claim(
+    "after (9): rays",
+    "the normal cone at a boundary point of an ellipsoid is the ray of the gradient",
+    verdict="holds",
+)
+def rays():
+    def argument() -> Steps:
+        X, _, x = plane()
+        gradient = sp.Matrix([X.level(x)]).jacobian(x).T
+        yield "∇(x, Hx) = 2Hx", vanishes(sp.cancel(gradient - 2 * X.shape * x))
+        angle = sp.Symbol("phi", real=True)
+        p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
+        yield (
+            "unit circle at e1: p = (cos φ, sin φ) with (p, e1) = |p| is φ = 0",
+            sp.solveset(sp.Eq(p[0], 1), angle, sp.Interval.Lopen(-sp.pi, sp.pi)) == sp.FiniteSet(0),
+        )
+
+    return Proof(
+        argument,
+        display=r"N(x^k, E_k) = \operatorname{cone}\{\nabla_x(x, \tilde H(k)x)\Bigr|_{x=x^k}\} \setminus "
+        r"\{0\}",
+    )
+
+
+@claim("after (9): one ray", "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
+def one_ray():
+    def argument() -> Steps:
+        for system in family():
+            p = -system.costates[0]
+            for k, point in enumerate(parts(system, system.costates[0]), start=1):
+                gradient = shape_inverse(system, k).inv() * point
+                yield (
+                    f"{named(system)}: the gradient at x^{k} is along −ψ0",
+                    (vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)) and gradient.dot(p) > 0),
+                )
+
+    return Proof(argument, display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)")
+
+
+@claim("(10)", "x^k is the point of E_k with the largest (−ψ0, x)", verdict="holds")
+def parts_as_support_points():
+    def argument() -> Steps:
+        for system in family():
+            p = -system.costates[0]
+            for part, point in zip(
+                system.summands(system.steps), parts(system, system.costates[0]), strict=True
+            ):
+                yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
+
+    return Proof(
+        argument,
+        display=r"x^k = \rho_{E_k}(-\psi_0) = \arg\max_{(x, \tilde H(k)x) \le 1}(-\psi_0, x)",
+    )
+
+
+@claim("after (10): x^k", "x^k by Lagrange's multipliers", verdict="holds")
+def parts_by_multipliers():
+    X, _, _ = plane()
+    psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
+    inverse = X.factor * X.factor.T
+    key = "x^k"
+
+    def derived():
+        # -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
+        multiplier = sp.Symbol("m", positive=True)
+        stationary = -inverse * psi / (2 * multiplier)
+        found = sp.solve(sp.Eq(sp.expand(X.level(stationary) * multiplier**2), multiplier**2), multiplier)
+        return {key: stationary.subs(multiplier, found[0])}
+
+    return Equality(
+        {key: -inverse * psi / sp.sqrt((psi.T * inverse * psi)[0])},
+        derived,
+        display=r"x^k = \frac{-\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde H^{-1}(k)\psi_0)}}",
+    )
+
+
+@claim(
+    "after Lemma 9: not unique",
+    "the equation of Lemma 9 is not linear, and does not change when ψ0 is multiplied by a positive number",
+    verdict="holds",
+)
+def homogeneous_of_degree_zero():
+    def argument() -> Steps:
+        factor = sp.Symbol("c", positive=True)
+        for system in family():
+            psi = system.costates[0]
+            total = sum(parts(system, factor * psi), sp.zeros(*psi.shape))
+            yield f"{named(system)}: cψ0 gives the same x0", vanishes(total - system.boundary_state())
+            turned = sum(parts(system, -psi), sp.zeros(*psi.shape))
+            yield "a negative factor gives −x0: not linear", turned == -system.boundary_state()
+
+    return Proof(argument)
+
+
+@claim(
+    "(11)",
+    "with (ψ0, ψ0) = 1 the system has exactly one solution",
+    verdict="conditional",
+    remark="True for x0 on the boundary of X(N_min, 0), as Lemma 9 assumes: n + 1 equations for n unknowns "
+    "agree there and only there. For the inner points of section 5, the worked example among them, there is "
+    "no solution; with α as a factor and a further unknown there are two, (ψ, α) and the spurious (−ψ, −α).",
+)
+def system_for_the_costate():
+    def argument() -> Steps:
+        a, b = sp.Matrix(sp.symbols("a1:4", real=True)), sp.Matrix(sp.symbols("b1:4", real=True))
+        lagrange = a.dot(a) * b.dot(b) - a.dot(b) ** 2 - a.cross(b).dot(a.cross(b))
+        yield "|a|²|b|² − (a, b)² = |a × b|²: |G'ψ| is curved but along ψ", vanishes(sp.expand(lagrange))
+        for system in family():
+            psi = system.costates[0]
+            curvature = sp.zeros(len(psi))
+            for part in system.summands(system.steps):
+                Q, s = part.factor * part.factor.T, part.support(psi)
+                curvature += (Q - Q * psi * psi.T * Q / s**2) / s
+            yield (
+                f"{named(system)}: the sum's second derivative has the kernel ψ0 and no other",
+                ((curvature * psi).is_zero_matrix and curvature.rank() == len(psi) - 1),
+            )
+            unit = psi / psi.norm()
+            total = sum(parts(system, unit), sp.zeros(*psi.shape))
+            yield (
+                "ψ0/|ψ0| solves, −ψ0/|ψ0| does not",
+                (vanishes(total - system.boundary_state()) and vanishes(sp.simplify(unit.dot(unit) - 1)))
+                and sum(parts(system, -psi), sp.zeros(*psi.shape)) != system.boundary_state(),
+            )
+
+    def counterexample() -> Steps:
+        for system in family()[:2]:
+            psi, state = system.costates[0], interior_state(system)
+            yield f"{named(system)}: x0 with gauge α = {share_of(system)} is inside", share_of(system) < 1
+            for other in (psi, -psi):
+                total = sum(parts(system, other), sp.zeros(*psi.shape))
+                yield (
+                    "every sum lies on the boundary: ( −ψ, Σ) is the support function",
+                    -other.dot(total) == system.support(-other, system.steps),
+                )
+            yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
+            both = [
+                size * sum(parts(system, p), sp.zeros(*psi.shape))
+                for p, size in ((psi, share_of(system)), (-psi, -share_of(system)))
+            ]
+            yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
+
+    return Conditional(
+        argument,
+        counterexample=counterexample,
+        display=r"-x_0 = \sum_{k=1}^{N_{\min}} \frac{\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde "
+        r"H^{-1}(k)\psi_0)}},\quad (\psi_0, \psi_0) = 1",
+    )

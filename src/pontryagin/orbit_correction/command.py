@@ -1,0 +1,135 @@
+"""``pontryagin solve orbit-correction``: the fewest impulses from the command line."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from pontryagin import console
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.orbit_correction import transcript
+
+ACCEPTED = 1e-8
+"""Largest residual and gap of a plan that is handed out."""
+
+THRUSTS = ("ball", "disc", "box")
+ARGUMENTS = {"z0": "--z0", "interval": "--interval", "peak": "--peak"}
+"""Options whose last check is left to the solver."""
+
+Text = str | None
+File = Path | None
+
+
+def solve(
+    z0: Annotated[
+        Text, typer.Option("--z0", metavar="DR,DVR,DVT", help="Deviation: radius, both speeds.")
+    ] = None,
+    interval: Annotated[
+        str, typer.Option(metavar="DT", help="Time between impulses, rad of the orbit.")
+    ] = "0.25",
+    peak: Annotated[str, typer.Option(metavar="W", help="Bound on an impulse, orbital speeds.")] = "0.0035",
+    thrust: Annotated[
+        str,
+        typer.Option(metavar="ball|disc|box", help="Impulses: the paper's ball, a disc, a square."),
+    ] = "ball",
+    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    plot: Annotated[
+        File, typer.Option(metavar="FILE", help="Draw deviations and impulses: .svg, .pdf, .png.")
+    ] = None,
+    record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
+    batch: Annotated[
+        File, typer.Option(metavar="FILE", help="States from a CSV file, a row each, instead of --z0.")
+    ] = None,
+    out: Annotated[
+        str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
+    ] = "-",
+) -> None:
+    """Bring a satellite beside its circular orbit back to it with the fewest impulses, and a proof.
+
+    Deviations are in units of the orbit's radius and speed. Numbers may be written like pi/2 or 1e-3.
+
+    A CSV file for --batch has the columns dr, dv_R, dv_T and any others, which are kept; each row comes
+    back with its plan and certificate.
+
+    \b
+    Examples:
+      pontryagin solve orbit-correction --z0 -0.0037787,-0.0039109,0.0141512
+      pontryagin solve orbit-correction --z0 0.01,0,0 --interval pi/2 --peak 0.0035 --thrust disc --json
+      pontryagin solve orbit-correction --z0 0,0.004,0 --thrust box --plot impulses.svg
+      pontryagin solve orbit-correction --batch states.csv --out plans.csv
+    """
+    engine = _engine(interval, peak, thrust)
+    if batch is not None:
+        console.excluded("--batch", {"--z0": z0, "--json": json, "--plot": plot, "--record": record})
+        _solve_batch(batch, out, engine)
+        return
+    console.required({"--z0": z0})
+    console.together({"--out": out != "-"}, "--batch", False)
+    console.ending("--plot", plot, console.FIGURES)
+    console.ending("--record", record, console.RECORDINGS)
+    plan = _planned(console.vector("--z0", str(z0), 3), engine)
+    _require_proof(plan)
+    _files(plan, plot, record)
+    told = transcript.transcript(plan)
+    if json:
+        typer.echo(console.to_json(told))
+    else:
+        console.show(transcript.TITLES[thrust], told, transcript.conclusion(plan))
+
+
+def _engine(interval: str, peak: str, thrust: str) -> tuple[float, float, str]:
+    if thrust not in THRUSTS:
+        raise console.Refusal("--thrust", f"takes {', '.join(THRUSTS)}, got {thrust!r}")
+    return console.positive("--interval", interval), console.positive("--peak", peak), thrust
+
+
+def _planned(z0: Any, engine: tuple[float, float, str]) -> Any:
+    from pontryagin.orbit_correction.plan import correct
+
+    with console.blaming(ARGUMENTS), np.errstate(all="ignore"):
+        try:
+            return correct(z0, *engine)
+        except Infeasible as reason:
+            unreachable = reason
+        except (ArithmeticError, np.linalg.LinAlgError) as reason:
+            raise NotConverged(f"the numbers overflow: {reason}", np.inf) from reason
+    raise unreachable
+
+
+def _require_proof(plan: Any) -> None:
+    proof = plan.certificate
+    left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+    open_ones = ~(left <= ACCEPTED)
+    if open_ones.any():
+        count = (
+            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
+        )
+        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
+
+
+def _files(plan: Any, plot: File, record: File) -> None:
+    if (plot or record) and not int(plan.impulse_count):
+        raise console.Refusal(
+            "--plot" if plot else "--record", "shows impulses, and here nothing is to be corrected"
+        )
+    if plot:
+        from pontryagin.orbit_correction.figures.impulses import plan_figure
+
+        console.save_figure("--plot", plot, plan_figure(plan))
+    if record:
+        from pontryagin.orbit_correction.playback import record_plan
+
+        try:
+            with console.writing("--record", record):
+                record_plan(plan, record)
+        except RuntimeError as missing:
+            raise typer.TyperException(str(missing)) from missing
+
+
+def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None:
+    with console.reading("--batch", path):
+        states = transcript.read(path)
+    plan = _planned(states.z0, engine)
+    console.emit("--out", out, transcript.to_csv(states, plan))
+    _require_proof(plan)

@@ -1,0 +1,110 @@
+"""What the interval between impulses does: controllability, the gauge, and the number of impulses.
+
+At whole revolutions every impulse acts at one place and the radius is out of reach. At half revolutions
+all radial impulses are parallel, so that H(k) of the paper does not exist; the states are still reached.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import Infeasible
+from pontryagin.orbit_correction.plan import correct
+from pontryagin.orbit_correction.satellite import impulse_columns, step_factors
+from pontryagin.validation import positive, vectors
+
+
+def singular_values(intervals: ArrayLike, impulses: int) -> NDArray[np.float64]:
+    """Singular values of the controllability matrix of so many impulses, (..., 3), the largest first.
+
+    Its columns are what unit impulses do to the initial state.
+
+    Parameters
+    ----------
+    intervals : (...) array_like
+        Times between impulses, rad.
+    impulses : int
+        At least two.
+
+    Examples
+    --------
+    >>> singular_values([np.pi, 2 * np.pi], 2).round(9)[:, -1].tolist()
+    [0.794155604, 0.0]
+    """
+    if not isinstance(impulses, int | np.integer) or impulses < 2:
+        raise ValueError(f"impulses must be a whole number, at least 2, got {impulses!r}")
+    spacings = positive("intervals", intervals)
+    stacked = [np.hstack(list(impulse_columns(int(impulses), float(h)))) for h in spacings.ravel()]
+    return np.linalg.svd(np.array(stacked), compute_uv=False).reshape(*spacings.shape, 3)
+
+
+def step_condition(intervals: ArrayLike) -> NDArray[np.float64]:
+    """Condition numbers of the paper's B for an even and an odd step, (..., 2); infinite where H is not.
+
+    Examples
+    --------
+    >>> bool(step_condition(np.pi)[0] > 1e15)
+    True
+    """
+    spacings = positive("intervals", intervals)
+    stacked = np.array([step_factors(2, float(h)) for h in spacings.ravel()])
+    return np.linalg.cond(stacked).reshape(*spacings.shape, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """Plans of one state for many intervals.
+
+    Attributes
+    ----------
+    intervals : (k,) array
+        Times between impulses, rad.
+    impulses : (k,) array
+        Fewest impulses; nan where none suffice.
+    gauge : (k,) array
+        alpha of the plan; nan likewise.
+    """
+
+    intervals: NDArray[np.float64]
+    impulses: NDArray[np.float64]
+    gauge: NDArray[np.float64]
+
+    @property
+    def duration(self) -> NDArray[np.float64]:
+        """Time from the first impulse to the end of the last interval."""
+        return self.impulses * self.intervals
+
+
+def sweep(z0: ArrayLike, intervals: ArrayLike, peak: float = 0.0035, thrust: str = "ball") -> Sweep:
+    """Correct one state with impulses at each of the intervals.
+
+    Parameters
+    ----------
+    z0 : (3,) array_like
+        Deviation, dimensionless.
+    intervals : (k,) array_like
+        Times between impulses, rad.
+    peak, thrust
+        As in `correct`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
+
+    Examples
+    --------
+    >>> found = sweep([-0.0037787, -0.0039109, 0.0141512], [0.25, np.pi, 2 * np.pi])
+    >>> found.impulses.tolist()
+    [6.0, 8.0, nan]
+    """
+    state, spacings = vectors("z0", z0, 3), np.atleast_1d(positive("intervals", intervals))
+    counts, gauges = np.full(len(spacings), np.nan), np.full(len(spacings), np.nan)
+    for i, interval in enumerate(spacings):
+        try:
+            plan = correct(state, float(interval), peak, thrust)
+        except Infeasible:
+            continue
+        counts[i], gauges[i] = float(plan.impulse_count), float(plan.gauge)
+    return Sweep(spacings, counts, gauges)

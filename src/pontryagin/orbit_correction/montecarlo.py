@@ -1,0 +1,114 @@
+"""How many impulses an injection will need, before it is flown: Gaussian errors, counted."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.orbit_correction.plan import correct
+from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.validation import finite
+
+CHUNK = 250
+
+
+@dataclass(frozen=True, eq=False)
+class Distribution:
+    """Numbers of impulses over random injection errors.
+
+    Attributes
+    ----------
+    z0 : (samples, 3) array
+        The errors drawn.
+    counts : dict of (samples,) int arrays
+        Fewest impulses by the name of the set, "ball", "disc", "box".
+    """
+
+    z0: NDArray[np.float64]
+    counts: dict[str, NDArray[np.int64]]
+
+    def mean(self, thrust: str) -> float:
+        """Mean number of impulses."""
+        return float(self.counts[thrust].mean())
+
+    def quantile(self, thrust: str, share: float) -> int:
+        """The least number of impulses that suffices for this share of the errors."""
+        return int(np.quantile(self.counts[thrust], share, method="inverted_cdf"))
+
+
+def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> NDArray[np.float64]:
+    """Normal deviations with mean zero and a given covariance, (samples, 3), seeded.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
+
+    Examples
+    --------
+    >>> injection_errors(1e-4 * np.eye(3), 4).shape
+    (4, 3)
+    """
+    matrix = finite("covariance", covariance, "a symmetric (3, 3) matrix")
+    if matrix.shape != (3, 3) or not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0):
+        raise ValueError(f"covariance must be a symmetric (3, 3) matrix, got {matrix.tolist()}")
+    if not isinstance(samples, int | np.integer) or samples < 1:
+        raise ValueError(f"samples must be a positive whole number, got {samples!r}")
+    values, axes = np.linalg.eigh(matrix)
+    if values[0] < -1e-12 * max(values[-1], 0.0) or values[-1] < 0:
+        raise ValueError(f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}")
+    normal = np.random.default_rng(seed).standard_normal((int(samples), 3))
+    return normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T
+
+
+def impulse_distribution(
+    covariance: ArrayLike,
+    samples: int = 2000,
+    interval: float = 0.25,
+    peak: float = 0.0035,
+    seed: int = 0,
+    verbose: bool = False,
+) -> Distribution:
+    """Fewest impulses of random injection errors under the ball, the disc and the box.
+
+    Parameters
+    ----------
+    covariance : (3, 3) array_like
+        Of (dr, dv_R, dv_T), in units of the orbit; symmetric, not indefinite.
+    samples : int
+        How many errors are drawn.
+    interval, peak : float
+        As in `correct`.
+    seed : int
+        Of the random numbers.
+    verbose : bool
+        Whether to show a progress bar on standard error.
+
+    Raises
+    ------
+    TypeError, ValueError, pontryagin.Infeasible
+        As `injection_errors` and `correct`.
+
+    Examples
+    --------
+    >>> found = impulse_distribution(np.diag([1e-5, 1e-5, 4e-5]), samples=100)
+    >>> found.mean("box") < found.mean("ball")
+    True
+    """
+    errors = injection_errors(covariance, samples, seed)
+    counts = {name: np.zeros(len(errors), dtype=np.int64) for name in THRUSTS}
+    with _progress(verbose) as bar:
+        task = bar.add_task("injection errors", total=len(errors))
+        for first in range(0, len(errors), CHUNK):
+            rows = slice(first, first + CHUNK)
+            for name in THRUSTS:
+                counts[name][rows] = correct(errors[rows], interval, peak, name).impulse_count
+            bar.advance(task, len(errors[rows]))
+    return Distribution(errors, counts)
+
+
+def _progress(verbose: bool):
+    from rich.console import Console
+    from rich.progress import Progress
+
+    return Progress(console=Console(stderr=True), disable=not verbose)

@@ -1,0 +1,198 @@
+"""Recordings that replay: the satellite beside its circle, its impulses, and the sets that shrink around it.
+
+`recordings` names them, each with the function that writes it; `record_plan` records any one plan. The
+orbit's radius and speed are units; a radian of the orbit takes `PACE` seconds.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.orbit_correction import satellite, sets
+from pontryagin.orbit_correction.flight import fly_plan, single
+from pontryagin.orbit_correction.plan import Plan, correct
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, RED, SKY
+from pontryagin.recording import Events, Plot, Recording, Scene, View, record
+
+Z0 = (-0.0037787, -0.0039109, 0.0141512)
+SAMPLES = 13
+PACE = 10.0
+RADIUS = 10.0
+"""Radius of the orbit as drawn."""
+
+SIDES = (("radial", RED), ("transverse", GREEN))
+STATES = (("dr", BLUE), ("dvR", RED), ("dvT", GREEN))
+GREY = "#9a9a9a"
+
+
+def recordings() -> dict[str, Callable[[Path], None]]:
+    """The recordings of this paper: name and the function that writes the file."""
+    return {"orbit-correction": orbit_correction, "orbit-correction-square": orbit_correction_square}
+
+
+def orbit_correction(path: Path) -> None:
+    """The worked example: six impulses of the paper's ball.
+
+    Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
+    Below, the states from which the impulses still to come lead back to the circle, a set that shrinks around
+    the state; the state keeps its gauge.
+    """
+    record_plan(correct(Z0, thrust="ball"), path)
+
+
+def orbit_correction_square(path: Path) -> None:
+    """The same state corrected by five impulses of the square.
+
+    Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
+    Below, the zonotope of states from which the impulses still to come lead back, which loses one impulse's
+    parallelogram after the other.
+    """
+    record_plan(correct(Z0, thrust="box"), path)
+
+
+def record_plan(plan: Plan, path: Path) -> None:
+    """Record one plan: its true flight, and in the linear model the sets of states that can still come home.
+
+    Parameters
+    ----------
+    plan : Plan
+        Of one state, with at least one impulse.
+    path : Path
+        File to write, ending in ``.rrd``.
+
+    Raises
+    ------
+    ValueError
+        If the plan is that of a stack, or of no impulse.
+    """
+    if int(single(plan).impulse_count) == 0:
+        raise ValueError("plan must have an impulse, got that of no deviation")
+    factor = magnification(plan)
+    plots: list[View] = [
+        Plot("deviation of the true flight, thousandths", "state"),
+        Plot("impulse over its bound", "impulse"),
+        Plot("gauge of the state in the remaining set", "gauge"),
+    ]
+    scenes: list[View] = [
+        Scene(f"the orbit, deviation of the radius times {factor:g}, {PACE:g} s a radian", "orbit"),
+        Scene("states that the remaining impulses bring back, stretched to unit size", "sets"),
+        Events("impulses", "events"),
+    ]
+    with record(path, f"orbit correction, {plan.thrust.name}", [scenes, plots]) as recording:
+        _orbit(recording, plan, factor)
+        _sets(recording, plan)
+        for j, impulse in enumerate(plan.impulses / plan.thrust.peak):
+            time = PACE * j * plan.thrust.interval
+            words = f"impulse {j}: radial {impulse[0]:+.3f}, transverse {impulse[1]:+.3f} of the bound"
+            recording.event("events", time, words)
+        last = fly_plan(plan)
+        words = f"left by the true flight: {last.residual:.2e}"
+        recording.event("events", PACE * len(plan.impulses) * plan.thrust.interval, words)
+
+
+def magnification(plan: Plan) -> float:
+    """By what deviations of the radius are drawn larger: 1, 2 or 5 times a power of ten."""
+    largest = float(np.abs(fly_plan(plan).path(SAMPLES)[1][:, 0]).max())
+    wanted = 0.25 / max(largest, 1e-12)
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(max(step for step in (1, 2, 5) if step * power <= wanted) * power)
+
+
+def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
+    flight = fly_plan(plan)
+    instants, states, angles = flight.path(SAMPLES)
+    t = PACE * instants
+    along = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(t))])
+    across = np.column_stack([-np.sin(angles), np.cos(angles), np.zeros(len(t))])
+    places = RADIUS * (1 + factor * states[:, :1]) * along
+    turn = np.linspace(0, 2 * np.pi, 181)
+    circle = RADIUS * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(turn.size)])
+    recording.path("orbit/circle", circle, GREY)
+    recording.path("orbit/flown", places, BLUE)
+    recording.ellipsoid("orbit/planet", t[:1], [[2.0] * 3], [[0.0] * 3], [[1.0, 0, 0, 0]], SKY)
+    attitude = np.column_stack([np.cos(angles / 2), np.zeros((len(t), 2)), np.sin(angles / 2)])
+    recording.body("orbit/satellite", t, attitude, (0.7, 1.2, 0.4), places)
+    fired = _flash(plan, len(t))
+    arrows = 3 * (fired[:, :1] * along + fired[:, 1:] * across)
+    recording.arrow("orbit/impulse", t, arrows, ORANGE, places)
+    for (name, colour), values in zip(STATES, states.T, strict=True):
+        recording.curve(f"state/{name}", t, 1e3 * values, name, colour)
+    for (name, colour), values in zip(SIDES, fired.T, strict=True):
+        recording.curve(f"impulse/{name}", t, values, name, colour)
+
+
+def _flash(plan: Plan, count: int) -> NDArray[np.float64]:
+    """Each impulse over its bound, shown for the first third of its interval, (k, 2)."""
+    shown = np.zeros((count, 2))
+    for j, impulse in enumerate(plan.impulses / plan.thrust.peak):
+        first = 1 + j * SAMPLES
+        shown[first : first + SAMPLES // 3] = impulse
+    return shown
+
+
+@dataclass(frozen=True)
+class Remaining:
+    """What is still to come at an instant: whole steps, and what is left of one that has begun.
+
+    Attributes
+    ----------
+    factors : (steps, 3, m) array
+        Of the steps not begun, for the initial state.
+    rest : (3, c) array
+        Of the components still to come in the step that has begun, within what they have left of its ball.
+    """
+
+    factors: NDArray[np.float64]
+    rest: NDArray[np.float64]
+
+    def boundary(self, normals: NDArray[np.float64], square: bool) -> NDArray[np.float64]:
+        """Support points for outward normals (..., 3)."""
+        whole = sets.support_points(self.factors, normals, square)
+        return whole + sets.support_points(self.rest[None], normals, False)
+
+
+def remaining(plan: Plan, fired: int) -> Remaining:
+    """What is still to come once so many impulses have been fired, for states carried back to the start."""
+    factors = plan.thrust.factors(int(plan.steps))
+    begun, spent = divmod(2 * fired, factors.shape[2])
+    if not spent or begun >= len(factors):
+        return Remaining(factors[begun:], np.zeros((3, 1)))
+    done = plan.step_controls[begun, :spent] / (plan.gauge * plan.thrust.peak)
+    left = np.sqrt(max(0.0, 1.0 - float(done @ done)))
+    return Remaining(factors[begun + 1 :], left * factors[begun, :, spent:])
+
+
+def _sets(recording: Recording, plan: Plan) -> None:
+    square = plan.thrust.name == "box"
+    frame = sets.frame_of(plan.thrust.factors(int(plan.steps)), square)
+    normals = frame.back(sets.sphere_grid(10, 20))
+    times, states, nets, gauges = [], [], [], []
+    held = plan.z0
+    for j in range(len(plan.impulses) + 1):
+        left = remaining(plan, j)
+        instants = plan.thrust.interval * (np.linspace(j - 1, j, SAMPLES) if j else np.zeros(1))
+        surface = left.boundary(normals, square)
+        for t in instants:
+            moved = satellite.transition(t)
+            times.append(PACE * t)
+            states.append(frame.points(moved @ held))
+            nets.append(frame.points(surface @ moved.T))
+            if j < len(plan.impulses):
+                gauges.append(_proved(plan, held, left, square))
+        if j < len(plan.impulses):
+            held = held + satellite.transition(-j * plan.thrust.interval) @ [0.0, *plan.impulses[j]]
+    grid, path = np.array(nets), np.array(states)
+    recording.net("sets/meridians", times, np.moveaxis(grid, 2, 1), BLUE)
+    recording.net("sets/parallels", times, grid[:, 1:-1], SKY)
+    recording.arrow("sets/state", times, path, RED)
+    recording.path("sets/flown", path, INK)
+    recording.curve("gauge/alpha", times[: len(gauges)], np.array(gauges), "alpha", BLUE)
+
+
+def _proved(plan: Plan, held: NDArray, left: Remaining, square: bool) -> float:
+    """The gauge that the plan's costate proves of a state carried back to the start."""
+    psi = -plan.initial_costate
+    return float(held @ psi) / float(left.boundary(psi, square) @ psi)

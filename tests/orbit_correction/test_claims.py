@@ -1,0 +1,157 @@
+"""The ledger of Ibragimov 2017, entry by entry, and proof that each of its checks can fail."""
+
+import re
+from dataclasses import replace
+from decimal import Decimal
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from pontryagin.decimals import Decimals
+from pontryagin.evidence import Misprint, Refutation
+from pontryagin.ledger import VERDICTS, Unsupported, counts
+from pontryagin.orbit_correction import derivation, exact
+from pontryagin.orbit_correction.claims import ENTRIES, convexity, images, reduction, sums, tables, worked
+from pontryagin.orbit_correction.claims.regrouping import printed_inputs
+
+R = sp.Rational
+
+LABELS = [entry.label for entry in ENTRIES]
+WITH_PRINT = [entry for entry in ENTRIES if entry.printed is not None]
+REFUTED = [entry for entry in ENTRIES if hasattr(entry.evidence, "counterexample")]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=LABELS)
+def test_the_verdict_is_earned_and_no_other(entry):
+    entry.check()
+    found = entry.evidence.finding()
+    assert found == entry.verdict
+    for verdict in set(VERDICTS) - {entry.verdict}:
+        with pytest.raises(Unsupported):
+            replace(entry, verdict=verdict, remark="altered", build=lambda: Found(found)).check()
+
+
+class Found:
+    """Evidence that has been checked: it finds again what it found."""
+
+    def __init__(self, verdict):
+        self.verdict = verdict
+
+    def finding(self):
+        return self.verdict
+
+
+def altered_prints(evidence):
+    """The evidence with one printed right-hand side altered at a time."""
+    if getattr(evidence, "formula", None):
+        for left, formula in altered_prints(evidence.formula):
+            yield left, replace(evidence, formula=formula)
+        return
+    for left, side in evidence.printed.items():
+        if isinstance(evidence, Decimals):
+            other = str(Decimal(side) + 3 * Decimal(1).scaleb(Decimal(side).as_tuple().exponent))
+        else:
+            other = side + (sp.ones(*side.shape) if isinstance(side, sp.MatrixBase) else 1)
+        yield left, replace(evidence, printed={**evidence.printed, left: other})
+
+
+@pytest.mark.parametrize("entry", WITH_PRINT, ids=[entry.label for entry in WITH_PRINT])
+def test_any_other_print_changes_the_verdict(entry):
+    altered = list(altered_prints(entry.evidence))
+    assert altered
+    readable = getattr(entry.evidence, "legible", None)
+    for left, evidence in altered:
+        if readable is None or left in readable:
+            with pytest.raises(Unsupported):
+                evidence.finding()
+
+
+@pytest.mark.parametrize(
+    "entry", [e for e in ENTRIES if isinstance(e.evidence, Misprint)], ids=lambda entry: entry.label
+)
+def test_a_corrected_print_is_no_misprint(entry):
+    corrected = replace(entry.evidence, printed=entry.evidence.derivation())
+    with pytest.raises(Unsupported, match="no misprint"):
+        corrected.finding()
+
+
+@pytest.mark.parametrize("entry", REFUTED, ids=lambda entry: entry.label)
+def test_a_counterexample_is_needed_and_names_numbers(entry):
+    def nothing():
+        yield from ()
+
+    with pytest.raises(Unsupported):
+        replace(entry.evidence, counterexample=nothing).finding()
+    steps = list(entry.evidence.counterexample())
+    assert len(steps) >= 2
+    assert any(re.search(r"\d", words) for words, _ in steps)
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "wrong", "label"),
+    [
+        (worked, "SPARSE", (0, 2, 5), "section 1: firings"),
+        (worked, "PEAK", 0.0045, "abstract"),
+        (worked, "PEAK", 0.0027, "section 1: firings"),
+        (worked, "Z0", worked.Z0 * 0.5, "after (12): N_min"),
+        (worked, "Z0", worked.Z0 + np.array([0, 0, 1e-5]), "after (12): α"),
+        (tables, "ROUNDED", np.zeros(3), "tables: rounding"),
+        (tables, "STATES", tables.STATES[::-1], "tables: consistency"),
+        (convexity, "E1", sp.Matrix([R(1, 2), 0]), "section 3: the class U_2"),
+        (convexity, "E2", sp.Matrix([1, 0]), "section 3: normal cone"),
+        (images, "E1", sp.Matrix([R(1, 2), 0]), "proof of Lemma 4: parts"),
+        (sums, "E1", sp.zeros(2, 1), "proof of Lemma 5: maximum"),
+        (reduction, "CORNER", sp.Matrix([R(1, 2), R(1, 2), R(1, 2)]), "regrouping: ball"),
+        (exact, "LENS_CORNER", sp.Matrix([0, R(3, 5)]), "Lemma 5, iii)"),
+    ],
+)
+def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, label):
+    entry = next(entry for entry in ENTRIES if entry.label == label)
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises(Unsupported):
+        replace(entry).check()
+
+
+def test_every_numbered_formula_lemma_and_theorem_is_there_in_the_papers_order():
+    numbered = [label for label in LABELS if re.fullmatch(r"\(\d+\)", label)]
+    assert numbered == [f"({k})" for k in range(1, 13)]
+    for kind, last in (("Lemma", 10), ("Corollary", 2), ("Theorem", 4)):
+        heads = [re.match(rf"{kind} (\d+)\b", label) for label in LABELS]
+        order = [int(head.group(1)) for head in heads if head]
+        assert order == sorted(order) and set(order) == set(range(1, last + 1))
+
+
+def test_labels_are_unique_and_what_fails_has_a_remark():
+    assert len(set(LABELS)) == len(LABELS)
+    assert all(len(entry.statement) > 10 or entry.printed_latex for entry in ENTRIES)
+    assert all(entry.remark for entry in ENTRIES if entry.verdict != "holds")
+
+
+def test_the_tally():
+    tally = counts(ENTRIES)
+    assert tally["not checked"] == 0
+    assert tally["misprint"] >= 10 and tally["false"] + tally["conditional"] >= 10
+    assert not any(
+        isinstance(entry.evidence, Refutation | Misprint) for entry in ENTRIES if entry.verdict == "holds"
+    )
+
+
+def test_the_tables_hold_39_numbers_and_the_remarks_name_those_off_by_more_than_half_a_unit():
+    rows = [entry for entry in ENTRIES if re.match(r"table \d", entry.label)]
+    off = {label: share for entry in rows for label, share in entry.evidence.off().items()}
+    assert len(off) == 39
+    far = {label for label, share in off.items() if share > 0.5}
+    assert far == {r"\psi_1(2)", "u^*_2(0)", "u^*_3(0)", "u^*_2(2)", "u^*_2(3)"}
+    for entry in rows:
+        named = {left for left, share in entry.evidence.off().items() if share > 0.5}
+        assert bool(entry.remark) == bool(named)
+        for left in named:
+            assert f"{off[left]:.2f}" in entry.remark
+    assert max(off.values()) < 0.82
+
+
+def test_the_printed_inputs_do_not_give_the_tables_and_the_derived_ones_do():
+    assert worked.gauge_with(4, derivation.step_inputs).alpha == pytest.approx(0.92857, abs=1e-5)
+    assert worked.gauge_with(4, printed_inputs).alpha == pytest.approx(0.94236, abs=1e-5)
+    assert tables.units_off().max() < 1 < 1000 < tables.units_off(printed_inputs).max()

@@ -1,0 +1,138 @@
+"""The command line: what it prints is what the solver found, and every mistake is one line."""
+
+import csv
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from typer.testing import CliRunner
+
+from pontryagin.cli import app
+from pontryagin.orbit_correction import correct
+from pontryagin.recording import read_back
+
+Z0 = "-0.0037787,-0.0039109,0.0141512"
+STATE = [-0.0037787, -0.0039109, 0.0141512]
+
+
+def solve(*arguments):
+    arguments = ["solve", "orbit-correction", *(str(argument) for argument in arguments)]
+    return CliRunner().invoke(app, arguments, catch_exceptions=False)
+
+
+def assert_refused(result, begins, status=2):
+    assert (result.exit_code, result.stdout) == (status, "")
+    assert result.stderr.startswith(f"Error: {begins}"), result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(thrust):
+    result = solve("--z0", Z0, "--interval", "pi/8", "--peak", "4e-3", "--thrust", thrust, "--json")
+    told = json.loads(result.stdout)
+    plan = correct(STATE, np.pi / 8, 4e-3, thrust)
+    assert told["problem"] == {"z0": STATE, "interval": np.pi / 8, "peak": 4e-3, "thrust": thrust}
+    for name, value in told["solution"].items():
+        assert value == np.asarray(getattr(plan, name)).tolist(), name
+    for name, value in told["certificate"].items():
+        assert value == float(getattr(plan.certificate, name)), name
+    assert_allclose(told["states"]["end"], 0, atol=1e-15)
+
+
+def test_without_options_it_is_the_paper_s_example():
+    shown = solve("--z0", Z0).stdout
+    assert re.search(r"^ +gauge +0\.92857380200", shown, re.MULTILINE)
+    assert re.search(r"^ +impulse count +6 *$", shown, re.MULTILINE)
+    assert "4 steps take 0.92857" in shown and "one fewer" in shown
+
+
+def test_what_two_impulses_do_needs_no_fewer():
+    assert "fewer do not span the space" in solve("--z0", "1e-4,0,0", "--thrust", "disc").stdout
+
+
+def test_nothing_to_correct():
+    assert "Nothing is to be corrected." in solve("--z0", "0,0,0").stdout
+    assert_refused(solve("--z0", "0,0,0", "--plot", "a.svg"), "--plot shows impulses")
+
+
+def test_files_are_drawn_and_recorded(tmp_path):
+    for name, start in {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}.items():
+        result = solve("--z0", Z0, "--plot", tmp_path / name)
+        assert (result.exit_code, result.stderr) == (0, f"wrote {tmp_path / name}\n")
+        assert (tmp_path / name).read_bytes().startswith(start)
+    assert solve("--z0", Z0, "--thrust", "disc", "--record", tmp_path / "a.rrd").exit_code == 0
+    held = read_back(tmp_path / "a.rrd")
+    gauge = float(correct(STATE, thrust="disc").gauge)
+    assert_allclose(held["/gauge/alpha"]["scalars"][:20], gauge, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "begins"),
+    [
+        ([], "--z0 is missing"),
+        (["--z0", "1,2"], "--z0 takes 3 numbers"),
+        (["--z0", "1,nan,2"], "--z0 takes"),
+        (["--z0", Z0, "--interval", "0"], "--interval takes a positive number, got '0'"),
+        (["--z0", Z0, "--peak", "-1"], "--peak takes a positive number"),
+        (["--z0", Z0, "--thrust", "cone"], "--thrust takes ball, disc, box, got 'cone'"),
+        (["--z0", Z0, "--plot", "a.gif"], "--plot takes a file name ending"),
+        (["--z0", Z0, "--record", "a.mp4"], "--record takes a file name ending"),
+        (["--z0", Z0, "--out", "a.csv"], "--out goes with --batch only"),
+        (["--z0", Z0, "--batch", "a.csv"], "--z0 does not go with --batch"),
+        (["--batch", "none.csv"], "--batch cannot read none.csv"),
+    ],
+)
+def test_what_was_typed_wrong_is_named_in_one_line(arguments, begins):
+    assert_refused(solve(*arguments), begins)
+
+
+def test_what_cannot_be_reached_exits_with_1_and_the_reason():
+    result = solve("--z0", Z0, "--interval", "2*pi")
+    assert_refused(result, "", status=1)
+    assert "revolutions" in result.stderr
+
+
+class TestBatch:
+    ROWS = (["a", *Z0.split(",")], ["b", "0.01", "0", "1/300"], ["none", "0", "0", "0"])
+
+    def write(self, path, rows=ROWS, header=("name", "dr", "dv_R", "dv_T")):
+        path.write_text("\n".join(",".join(row) for row in [header, *rows]) + "\n")
+        return path
+
+    def test_each_row_comes_back_with_its_own_plan(self, tmp_path):
+        states, results = self.write(tmp_path / "in.csv"), tmp_path / "out.csv"
+        result = solve("--batch", states, "--out", results, "--thrust", "box")
+        assert (result.exit_code, result.stdout) == (0, "")
+        rows = list(csv.DictReader(io.StringIO(results.read_text())))
+        assert [row["name"] for row in rows] == ["a", "b", "none"] and rows[1]["dv_T"] == "1/300"
+        for row, state in zip(rows, [STATE, [0.01, 0, 1 / 300], [0, 0, 0]], strict=True):
+            plan = correct(state, thrust="box")
+            assert int(row["impulse_count"]) == plan.impulse_count
+            assert float(row["gauge"]) == pytest.approx(float(plan.gauge), rel=1e-12)
+            fired = [row[name] for name in row if name.startswith("w") and row[name]]
+            assert_allclose([float(text) for text in fired], plan.impulses.ravel(), atol=1e-15)
+
+    @pytest.mark.parametrize(
+        ("rows", "header", "line"),
+        [
+            ([["a", "0", "much", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: dv_R takes a number"),
+            ([["a", "0", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: 3 entries under 4 columns"),
+            ([["0", "0"]], ("dr", "dv_R"), "line 1: column dv_T is missing"),
+            ([], ("dr", "dv_R", "dv_T"), "line 2: there is no state"),
+        ],
+    )
+    def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):
+        path = self.write(tmp_path / "in.csv", rows, header)
+        assert_refused(solve("--batch", path), f"--batch: {path}, {line}")
+
+
+def test_every_example_in_the_help_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    TestBatch().write(tmp_path / "states.csv")
+    examples = re.findall(r"^ +pontryagin (.*)$", solve("--help").stdout, re.MULTILINE)
+    assert len(examples) == 4
+    for example in examples:
+        assert CliRunner().invoke(app, example).exit_code == 0, example

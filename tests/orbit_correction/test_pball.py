@@ -1,0 +1,95 @@
+"""p-balls: the paper's ball at p = 2, the cube in the limit, and proofs from both sides in between."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.optimize import linprog
+
+from pontryagin import Infeasible
+from pontryagin.orbit_correction import correct
+from pontryagin.orbit_correction.pball import fewest_power_steps, power_gauge
+from pontryagin.orbit_correction.satellite import step_factors
+from pontryagin.orbit_correction.thrust import Thrust
+
+Z0 = np.array([-0.0037787, -0.0039109, 0.0141512])
+
+
+def states():
+    return st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3).map(np.array)
+
+
+def cube_gauge(z0, steps):
+    """The least peak when every component is free up to it, by HiGHS."""
+    columns = np.hstack(list(0.0035 * step_factors(steps, 0.25)))
+    width = columns.shape[1]
+    cost = np.append(np.zeros(width), 1.0)
+    within = np.vstack([np.hstack([s * np.eye(width), -np.ones((width, 1))]) for s in (1, -1)])
+    reach = np.hstack([columns, np.zeros((3, 1))])
+    bounds = [(None, None)] * width + [(0, None)]
+    return linprog(cost, A_ub=within, b_ub=np.zeros(2 * width), A_eq=reach, b_eq=-z0, bounds=bounds).fun
+
+
+@given(states(), st.sampled_from([1.5, 2.0, 8.0, 16.0]), st.integers(1, 7))
+def test_controls_and_costate_prove_each_other(z0, p, steps):
+    assume(np.abs(z0).max() > 1e-4)
+    found = power_gauge(z0, steps, p)
+    assert found.certificate.holds(1e-9)
+    factors = step_factors(steps, 0.25)
+    assert_allclose(np.einsum("kij,kj->i", factors, found.step_controls), -z0, atol=1e-13)
+    sizes = (np.abs(found.step_controls / 0.0035) ** p).sum(axis=1) ** (1 / p)
+    assert_allclose(sizes.max(), found.alpha, rtol=1e-12)
+    q = p / (p - 1)
+    along = np.abs(0.0035 * np.einsum("kij,i->kj", factors, found.costate))
+    support = ((along**q).sum(axis=1) ** (1 / q)).sum()
+    assert_allclose(-z0 @ found.costate / support, found.alpha, rtol=1e-9)
+
+
+@given(states(), st.integers(1, 8))
+def test_two_is_the_ball_and_the_cube_is_the_limit(z0, steps):
+    assume(np.abs(z0).max() > 1e-4)
+    ball = Thrust("ball", 0.25, 0.0035).gauges(z0[None], np.array([steps])).lower[0]
+    chain = [power_gauge(z0, steps, p).alpha for p in (2, 8, 16)]
+    assert_allclose(chain[0], ball, rtol=1e-9)
+    cube = cube_gauge(z0, steps)
+    assert np.all(np.diff([*chain, cube]) <= 1e-7 * cube)
+    assert chain[2] <= 3 ** (1 / 16) * cube * (1 + 1e-7)
+
+
+@pytest.mark.parametrize("p", [2.0, 8.0, 16.0])
+def test_the_fewest_steps_are_proved_and_never_more_than_the_ball_s(p):
+    for z0 in (Z0, 3 * Z0, np.array([0.01, 0.0, 0.0])):
+        found, shorter = fewest_power_steps(z0, p)
+        assert found.alpha <= 1 < shorter
+        assert found.steps <= correct(z0).steps and found.impulse_count >= 2
+        if p == 2:
+            assert found.steps == correct(z0).steps
+
+
+def test_no_deviation_has_gauge_zero():
+    found = power_gauge(np.zeros(3), 2, 8)
+    assert found.alpha == 0 and not found.costate.any() and not found.step_controls.any()
+
+
+def test_impulses_at_one_place_span_no_space():
+    with pytest.raises(Infeasible, match="do not span"):
+        power_gauge(Z0, 3, 8, interval=2 * np.pi)
+    with pytest.raises(Infeasible, match="2000 steps"):
+        fewest_power_steps(Z0, 8, interval=2 * np.pi)
+    assert fewest_power_steps(Z0, 8, interval=np.pi)[0].certificate.holds(1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (([Z0, Z0], 4, 8), "z0 must be"),
+        ((Z0, 0, 8), "steps must be"),
+        ((Z0, 4, 1.0), "p must be greater than 1"),
+        ((Z0, 4, np.inf), "p must be"),
+        ((Z0, 4, 8, -1.0), "interval must be positive"),
+    ],
+)
+def test_what_cannot_be_solved_is_named(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        power_gauge(*arguments)

@@ -1,0 +1,285 @@
+"""Lemmas 1 to 10 and Theorems 1 to 4 on random systems in dimension 2 to 6 with random ellipsoids.
+
+Sets are known by their points, flights and support functions; the gauge is the solver's, between its bounds.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from pontryagin.orbit_correction import DiscreteSystem, gauge
+from pontryagin.orbit_correction.exact import (
+    LENS_CENTRES,
+    LENS_CORNER,
+    exact_system,
+    lens_level,
+    normal_at_lens_corner,
+)
+from pontryagin.orbit_correction.system import gauge_of_factors
+
+
+@dataclass(frozen=True)
+class Random:
+    """A nonstationary system: A (N, n, n), factors L (N, n, n) of the ellipsoids L B, and a generator."""
+
+    A: np.ndarray
+    L: np.ndarray
+    generator: np.random.Generator
+
+    @property
+    def steps(self):
+        return len(self.A)
+
+    @property
+    def n(self):
+        return self.A.shape[1]
+
+    def direction(self):
+        vector = self.generator.normal(size=self.n)
+        return vector / np.linalg.norm(vector)
+
+    def controls(self, boundary=False):
+        """Random points of the ellipsoids, (N, n)."""
+        w = self.generator.normal(size=(self.steps, self.n))
+        size = 1 if boundary else self.generator.uniform(size=(self.steps, 1))
+        return np.einsum("kij,kj->ki", self.L, w / np.linalg.norm(w, axis=1, keepdims=True) * size)
+
+    def reach(self, k=0):
+        """Factors of the summands of X(N - k, k)."""
+        back, result = np.eye(self.n), []
+        for A, L in zip(self.A[k:], self.L[k:], strict=True):
+            back = back @ np.linalg.inv(A)
+            result.append(back @ L)
+        return np.array(result)
+
+    def fly(self, x, controls, k=0):
+        states = [x]
+        for A, u in zip(self.A[k:], controls, strict=True):
+            states.append(A @ states[-1] + u)
+        return np.array(states)
+
+    def system(self, k=0, size=1.0):
+        shapes = np.linalg.inv(self.L @ np.swapaxes(self.L, 1, 2)) / size**2
+        shapes = (shapes + np.swapaxes(shapes, 1, 2)) / 2
+        return DiscreteSystem(self.A[k:], shapes[k:])
+
+
+@st.composite
+def systems(draw):
+    n, steps = draw(st.integers(2, 6)), draw(st.integers(2, 4))
+    generator = np.random.default_rng(draw(st.integers(0, 10**6)))
+
+    def matrices():
+        first, second = (np.linalg.qr(generator.normal(size=(steps, n, n)))[0] for _ in range(2))
+        return first * generator.uniform(0.5, 2.0, size=(steps, 1, n)) @ second
+
+    return Random(matrices(), matrices(), generator)
+
+
+def support(factors, p):
+    """Support function of the sum of the G B."""
+    return np.linalg.norm(np.einsum("kij,i->kj", factors, p), axis=1).sum()
+
+
+def support_parts(factors, p):
+    """Support points of the summands, (N, n)."""
+    along = np.einsum("kij,i->kj", factors, p)
+    return np.einsum("kij,kj->ki", factors, along / np.linalg.norm(along, axis=1, keepdims=True))
+
+
+def level(L, x):
+    """The Minkowski functional of L B."""
+    return np.linalg.norm(np.linalg.solve(L, x))
+
+
+@given(systems())
+def test_lemma_1_controls_that_end_at_zero_start_in_the_sum(case):
+    controls, x = case.controls(), np.zeros(case.n)
+    for k in reversed(range(case.steps)):
+        x = np.linalg.solve(case.A[k], x - controls[k])
+    assert_allclose(case.fly(x, controls)[-1], 0, atol=1e-12)
+    found = gauge(case.system(), x, case.steps)
+    assert found.certificate.dual_value <= 1 + 1e-12
+    p = case.direction()
+    assert p @ x <= support(case.reach(), p) * (1 + 1e-12)
+
+
+@given(systems())
+def test_lemma_1_outside_the_sum_no_controls_end_at_zero(case):
+    p = case.direction()
+    x = 1.01 * support_parts(case.reach(), p).sum(axis=0)
+    assert gauge(case.system(), x, case.steps).alpha > 1.009
+    for _ in range(5):
+        end = case.fly(x, case.controls(boundary=True))[-1]
+        missed = np.linalg.solve(np.linalg.multi_dot([*case.A[::-1], np.eye(case.n)]), end)
+        assert p @ missed > 0.009 * support(case.reach(), p)
+
+
+@given(systems())
+def test_corollary_1_in_support_functions(case):
+    p = case.direction()
+    left = support(case.A[0] @ case.reach(), p)
+    assert_allclose(left, support(case.reach(1), p) + np.linalg.norm(case.L[0].T @ p), rtol=1e-11)
+
+
+@given(systems())
+def test_lemma_2_and_corollary_2_one_support_point_and_disjoint_cones(case):
+    L, p = case.L[0], case.direction()
+    best = L @ L.T @ p / np.linalg.norm(L.T @ p)
+    assert_allclose([level(L, best), p @ best], [1, np.linalg.norm(L.T @ p)], rtol=1e-11)
+    for other in (case.controls()[0], case.controls(boundary=True)[0]):
+        assert p @ best - p @ other >= p @ best / 2 * level(L, other - best) ** 2 * (1 - 1e-9)
+    normal = np.linalg.solve(L @ L.T, other)
+    assert normal @ best < normal @ other
+
+
+@given(systems())
+def test_lemma_2_for_a_strictly_convex_set_that_is_no_ellipsoid(case):
+    def ball_4(w):
+        return (w**4).sum() ** 0.25
+
+    L, p = case.L[0], case.direction()
+    reach = L.T @ p
+    size = (np.abs(reach) ** (4 / 3)).sum() ** 0.75
+    best = L @ (np.sign(reach) * np.abs(reach / size) ** (1 / 3))
+    assert_allclose([ball_4(np.linalg.solve(L, best)), p @ best], [1, size], rtol=1e-10)
+    for _ in range(5):
+        w = case.generator.normal(size=case.n)
+        other = L @ w / ball_4(w)
+        assert p @ other < size
+        assert ball_4(np.linalg.solve(L, (best + other) / 2)) < 1
+
+
+@given(systems())
+def test_lemmas_3_and_8_images_of_ellipsoids(case):
+    A, L, p = case.A[0], case.L[1], case.direction()
+    H, inverse = np.linalg.inv(L @ L.T), np.linalg.inv(A)
+    shape = inverse.T @ H @ inverse
+    assert np.linalg.eigvalsh((shape + shape.T) / 2).min() > 0
+    x = case.controls()[1]
+    assert_allclose((A @ x) @ shape @ (A @ x), level(L, x) ** 2, rtol=1e-9)
+    at = L @ L.T @ p / np.linalg.norm(L.T @ p)
+    q = inverse.T @ p
+    assert_allclose(A @ at, (A @ L) @ (A @ L).T @ q / np.linalg.norm((A @ L).T @ q), rtol=1e-9, atol=1e-12)
+
+
+@given(systems())
+def test_lemma_4_the_middle_of_two_points_of_a_sum_is_inside(case):
+    factors = case.reach()
+    ends = [support_parts(factors, case.direction()).sum(axis=0) for _ in range(2)]
+    sizes = gauge_of_factors(factors, np.array([*ends, (ends[0] + ends[1]) / 2])).certificate
+    assert_allclose(sizes.primal_value[:2], 1, rtol=1e-9)
+    assert np.abs(ends[0] - ends[1]).max() > 0
+    assert sizes.primal_value[2] < 1
+
+
+@given(systems())
+def test_lemma_5_one_decomposition_with_one_common_normal(case):
+    factors, p = case.reach(), case.direction()
+    parts = support_parts(factors, p)
+    found = gauge_of_factors(factors, parts.sum(axis=0))
+    assert_allclose(found.alpha, 1, rtol=1e-11)
+    assert_allclose(-found.costate, p, atol=1e-6)
+    assert_allclose(support_parts(factors, -found.costate), parts, atol=1e-5)
+    for L, part in zip(factors, parts, strict=True):
+        assert_allclose(level(L, part), 1, rtol=1e-10)
+        normal = np.linalg.solve(L @ L.T, part)
+        assert_allclose(normal / np.linalg.norm(normal), p, atol=1e-9)
+
+
+@given(systems())
+def test_theorems_1_to_3_from_the_boundary(case):
+    psi = case.direction()
+    x = support_parts(case.reach(), -psi).sum(axis=0)
+    costate, states, controls = psi, [x], []
+    for k in range(case.steps):
+        following = np.linalg.solve(case.A[k].T, costate)
+        L = case.L[k]
+        controls.append(L @ L.T @ following / np.linalg.norm(L.T @ following))
+        assert_allclose(-costate @ states[-1], support(case.reach(k), costate), rtol=1e-9)
+        states.append(case.A[k] @ states[-1] + controls[-1])
+        costate = following
+    assert_allclose(states[-1], 0, atol=1e-9)
+    rest = gauge(case.system(1), states[1], case.steps - 1)
+    assert_allclose(rest.alpha, 1, rtol=1e-9)
+    second = np.linalg.solve(case.A[0].T, psi)
+    assert_allclose(rest.costate, second / np.linalg.norm(second), atol=1e-5)
+    strayed = case.A[0] @ x + case.controls()[0]
+    assert gauge(case.system(1), strayed, case.steps - 1).alpha > 1
+
+
+@given(systems())
+def test_lemmas_6_7_and_theorem_4_from_inside(case):
+    x = 0.7 * support_parts(case.reach(), case.direction()).sum(axis=0)
+    found = gauge(case.system(), x, case.steps)
+    alpha, psi = float(found.alpha), found.costate
+    assert_allclose(alpha, 0.7, rtol=1e-9)
+    assert_allclose(gauge(case.system(size=alpha), x, case.steps).alpha, 1, rtol=1e-9)
+    controls, costate = [], psi
+    for A, L in zip(case.A, case.L, strict=True):
+        costate = np.linalg.solve(A.T, costate)
+        controls.append(L @ L.T @ costate / np.linalg.norm(L.T @ costate))
+    flown = case.fly(x, alpha * np.array(controls))
+    assert_allclose(flown[-1], 0, atol=1e-6)
+    for k in range(case.steps):
+        assert_allclose(gauge(case.system(k), flown[k], case.steps - k).alpha, alpha, rtol=1e-5)
+    missed = case.fly(x, np.array(controls))[-1]
+    back = np.linalg.solve(np.linalg.multi_dot([*case.A[::-1], np.eye(case.n)]), missed)
+    assert_allclose(-psi @ back, -0.3 * support(case.reach(), psi), rtol=1e-5)
+
+
+@given(systems())
+def test_lemmas_9_and_10_by_products_of_the_matrices(case):
+    psi, product = case.direction(), np.eye(case.n)
+    start, controls = np.zeros(case.n), []
+    for A, L in zip(case.A, case.L, strict=True):
+        product = A @ product
+        inverse = np.linalg.inv(product.T @ np.linalg.inv(L @ L.T) @ product)
+        part = inverse @ psi / np.sqrt(psi @ inverse @ psi)
+        start -= part
+        controls.append(product @ part)
+    assert_allclose(start, support_parts(case.reach(), -psi).sum(axis=0), rtol=1e-8, atol=1e-10)
+    assert_allclose(case.fly(start, controls)[-1], 0, atol=1e-9)
+    for L, u in zip(case.L, controls, strict=True):
+        assert_allclose(level(L, u), 1, rtol=1e-9)
+
+
+@given(systems())
+def test_system_11_has_one_solution_because_its_right_side_is_monotone(case):
+    first, second = case.direction(), case.direction()
+    sums = [support_parts(case.reach(), psi).sum(axis=0) for psi in (first, second)]
+    assert (sums[0] - sums[1]) @ (first - second) > 0
+    assert_allclose(support_parts(case.reach(), 3 * first).sum(axis=0), sums[0], rtol=1e-12)
+    assert_allclose(support_parts(case.reach(), -first).sum(axis=0), -sums[0], rtol=1e-12)
+
+
+@given(st.integers(2, 6), st.integers(1, 3), st.integers(0, 1000))
+def test_exact_systems_are_rational_along_their_costate(n, steps, seed):
+    system = exact_system(n, steps, seed)
+    state, controls = system.boundary_state(), system.controls()
+    assert all(part.is_Rational for vector in (state, *controls) for part in vector)
+    assert system.fly(state, controls)[-1].is_zero_matrix
+    A = np.array([matrix.tolist() for matrix in system.A], dtype=float)
+    shapes = np.array([U.shape.tolist() for U in system.U], dtype=float)
+    found = gauge(DiscreteSystem(A, shapes), np.array(state.tolist(), dtype=float).ravel(), steps)
+    assert_allclose(found.alpha, 1, rtol=1e-9)
+
+
+@given(st.floats(0, 2 * np.pi), st.floats(0, 1))
+def test_the_lens_and_the_cone_at_its_corner(angle, share):
+    p = sp.Matrix([np.cos(angle), np.sin(angle)])
+    if normal_at_lens_corner(p):
+        best = LENS_CORNER
+    elif normal_at_lens_corner(-p):
+        best = -LENS_CORNER
+    else:
+        best = next(centre + p for centre in LENS_CENTRES if lens_level(centre + p) <= 1 + 1e-12)
+        assert p.dot(best) > p.dot(LENS_CORNER) - 1e-12
+    assert lens_level(best) <= 1 + 1e-12
+    turned = share * sp.Matrix([np.cos(7 * angle), np.sin(7 * angle)])
+    within = [centre + turned for centre in LENS_CENTRES] + [LENS_CORNER, -LENS_CORNER]
+    assert all(p.dot(x) <= p.dot(best) + 1e-12 for x in within if lens_level(x) <= 1)

@@ -1,0 +1,130 @@
+"""A stack gives what its members give: to the bit, whichever way it is run, and without exceptions."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+
+from pontryagin import compile as compiler
+from pontryagin.triple_integrator import (
+    Maneuver,
+    energy,
+    impulse,
+    minimum_energy,
+    minimum_impulse,
+    minimum_peak,
+    minimum_time,
+    peak,
+    time,
+)
+
+COUNT = 100_000
+KERNELS = {
+    "energy": (energy.solve_energy, energy.solve_stack),
+    "peak": (peak.solve_peak, peak.solve_stack),
+    "impulse": (impulse.solve_impulse, impulse.solve_stack),
+    "time": (time.solve_time, time.solve_stack),
+}
+
+
+def narrow_flips(rng, count):
+    """Moments of controls that are constant but for a flip of width 1e-1 to 1e-14."""
+    width = 10.0 ** rng.uniform(-14, -1, count)
+    b = rng.random(count) * (1 - width)
+    a, level = b + width, rng.choice([-1.0, 1.0], count)
+    return np.stack(
+        [level * (1 - 2 * (a**3 - b**3)) / 6, level * (1 - 2 * (a**2 - b**2)) / 2, level * (1 - 2 * width)]
+    )
+
+
+def problems(count):
+    """Moments and durations (4, count): of size one, over forty decades, on a lattice, u nearly constant."""
+    rng = np.random.default_rng(7)
+    part = count // 4
+    usual = rng.standard_normal((3, part))
+    wide = 10.0 ** rng.uniform(-20, 20, (3, part)) * rng.choice([-1, 1], (3, part))
+    lattice = rng.integers(-4, 5, (3, part)) / 4
+    c = np.concatenate([usual, wide, lattice, narrow_flips(rng, part)], axis=1)
+    duration = np.concatenate([10.0 ** rng.uniform(-6, 6, 2 * part), rng.integers(1, 4, part), np.ones(part)])
+    return np.vstack([c, duration])
+
+
+def transfers(count):
+    """Ends, force and bound (8, count): of size one, over six decades, and on a lattice."""
+    rng = np.random.default_rng(8)
+    part = count // 4
+    usual = rng.standard_normal((7, 2 * part))
+    wide = 10.0 ** rng.uniform(-3, 3, (7, part)) * rng.choice([-1, 1], (7, part))
+    lattice = rng.integers(-2, 3, (7, part))
+    ends = np.concatenate([usual, wide, lattice], axis=1)
+    return np.vstack([ends, 10.0 ** rng.uniform(-3, 3, ends.shape[1])])
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_compiled_and_plain_agree_to_the_bit(name):
+    kernel, stack = KERNELS[name]
+    columns = (transfers if name == "time" else problems)(COUNT)
+    compiled = stack(*columns)
+    step = 7
+    plain = np.array([kernel(*row) for row in columns[:, ::step].T.tolist()])
+    assert_array_equal(compiled[::step], plain)
+
+
+@pytest.mark.parametrize("name", ["energy", "peak", "impulse"])
+def test_residual_and_gap_of_a_hundred_thousand(name):
+    solution = {"energy": minimum_energy, "peak": minimum_peak, "impulse": minimum_impulse}[name](
+        Maneuver(np.zeros(3), *maneuver_columns(problems(COUNT)))
+    )
+    c = solution.certificate
+    assert np.abs(c.primal_residual).max() <= 1e-13
+    size = np.where(c.primal_value == 0, 1.0, c.primal_value)
+    assert np.abs((c.primal_value - c.dual_value) / size).max() <= 1e-13, (
+        "relative to the value, however small"
+    )
+
+
+def maneuver_columns(columns):
+    return columns[:3].T, columns[3]
+
+
+def test_residual_and_gap_of_a_hundred_thousand_transfers():
+    columns = transfers(COUNT)
+    usual = columns[:, : COUNT // 2]
+    solution = minimum_time(usual[:3].T, usual[3:6].T, usual[7], disturbance=usual[6])
+    assert np.abs(solution.certificate.primal_residual).max() <= 2e-15
+    assert np.abs(1 - solution.certificate.dual_value / solution.duration).max() <= 1e-12
+    rest = columns[:, COUNT // 2 :]
+    others = minimum_time(rest[:3].T, rest[3:6].T, rest[7], disturbance=rest[6])
+    assert np.abs(others.certificate.primal_residual).max() <= 1e-13
+
+
+@pytest.mark.parametrize("name", ["energy", "peak", "impulse"])
+def test_special_numbers_raise_nothing_in_plain_python(name):
+    """Zeros, halves, neighbours of one, numbers whose squares vanish or overflow: finite, and as compiled."""
+    kernel, stack = KERNELS[name]
+    special = [0.0, 1.0, 0.5, 1 / 6, 1e-8, 1e-20, 1e-160, 1e-300, 1e100, 1 + 2e-16, 1 - 1e-16, 1 / 3]
+    special += [-x for x in special]
+    grid = np.array(np.meshgrid(special, special, special, [1.0, 3.0])).reshape(4, -1)
+    compiled = stack(*grid)
+    assert np.isfinite(compiled).all()
+    assert_array_equal(compiled[::5], np.array([kernel(*row) for row in grid[:, ::5].T.tolist()]))
+
+
+def test_a_stack_is_cut_at_no_particular_size():
+    """Just below and just above the size from which stacks are compiled."""
+    for count in (1, compiler.COMPILE_FROM - 1, compiler.COMPILE_FROM, compiler.COMPILE_FROM + 1):
+        columns = problems(4 * count)[:, :count]
+        solution = minimum_peak(Maneuver(np.zeros(3), *maneuver_columns(columns)))
+        last = minimum_peak(Maneuver(np.zeros(3), columns[:3, -1], columns[3, -1]))
+        assert solution.norm[-1] == last.norm
+        assert_array_equal(solution.switch_times[-1], last.switch_times)
+
+
+@pytest.mark.parametrize("solve", [minimum_energy, minimum_peak, minimum_impulse])
+def test_leading_axes_of_any_shape(solve):
+    rng = np.random.default_rng(3)
+    xf = rng.standard_normal((2, 1, 3, 3))
+    durations = np.array([[1.0], [2.0]])
+    stack = solve(Maneuver(np.zeros(3), xf, durations[:, :, None]))
+    assert stack.norm.shape == (2, 1, 3)
+    for index in np.ndindex(2, 1, 3):
+        assert stack.norm[index] == solve(Maneuver(np.zeros(3), xf[index], durations[index[0], 0])).norm
