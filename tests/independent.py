@@ -152,7 +152,8 @@ def exact_bang_bang_times(x0, xf, peak, force=0.0, digits=60):
                 difference = v * T - c3
                 d = difference / (2 * v * T)
                 if abs(d) < mp.mpf(10) ** (-digits // 3):
-                    found.append((mp.mpf(0), T))
+                    c1, c2 = dx - start[1] * T - k * T**2 / 2, dv - k * T
+                    found.append((max(abs(v * T**2 - 2 * c2), abs(v * T**3 - 6 * c1)), T))
                     continue
                 m = (v * T - 2 * (dv - k * T) / T) / difference
                 found.append((max((d - m) / 2, (m + d) / 2 - 1, -d), T))

@@ -20,7 +20,8 @@ QUARTIC = (
 
 
 def vanishes(expression):
-    return sp.simplify(sp.expand(expression)) == 0
+    """Whether a rational expression is identically zero."""
+    return sp.expand(sp.numer(sp.together(expression))) == 0
 
 
 def test_moments_are_scaled_so_that_a_constant_has_all_three_equal():
@@ -32,7 +33,7 @@ def test_bang_bang_moments_by_integrating_each_power():
     powers = sp.Matrix([3 * model.s**2, 2 * model.s, 1])
     integrals = powers.applyfunc(lambda p: sp.integrate(p * level, (model.s, 0, 1)))
     at = {b: sp.Rational(1, 5), a: sp.Rational(3, 4)}
-    assert vanishes((peak.bang_bang_moments().subs(at) - integrals).norm())
+    assert peak.bang_bang_moments().subs(at).expand() == integrals.expand()
 
 
 def test_centred_moments_are_those_of_the_theory():
@@ -50,7 +51,7 @@ def test_width_and_place_from_the_level():
 
 def test_every_bang_bang_control_solves_the_level_equation():
     moments = dict(zip((k1, k2, k3), peak.bang_bang_moments(), strict=True))
-    assert sp.simplify(peak.level_equation().subs(moments).subs(t, 1 / v)) == 0
+    assert vanishes(peak.level_equation().subs(moments).subs(t, 1 / v))
 
 
 def test_the_level_equation_is_negative_at_zero():
@@ -61,8 +62,8 @@ def test_the_level_equation_is_convex_where_its_denominator_is_positive():
     """G'' = 3 (k2 - k3)^2 / (2 q^3) + 3 k3^2 q / 8 with q = 1 - k3 t: a sum of squares over q > 0."""
     q = 1 - k3 * t
     squares = sp.Rational(3, 2) * (k2 - k3) ** 2 / q**3 + sp.Rational(3, 8) * k3**2 * q
-    assert sp.simplify(sp.diff(peak.level_equation(), t, 2) - squares) == 0
-    assert sp.simplify(peak.second_derivative() - squares) == 0
+    assert vanishes(sp.diff(peak.level_equation(), t, 2) - squares)
+    assert vanishes(peak.second_derivative() - squares)
 
 
 def test_the_level_equation_times_its_denominator_is_the_quartic():
@@ -74,7 +75,7 @@ def test_the_level_equation_times_its_denominator_is_the_quartic():
 def test_the_near_constant_form_is_the_same_equation():
     same = peak.near_constant_equation().subs({y: 1 - k3 * t, e2: k2 - k3})
     same = same.subs(w, k1 - k3 - sp.Rational(3, 2) * (k2 - k3))
-    assert sp.simplify(same - peak.level_equation()) == 0
+    assert vanishes(same - peak.level_equation())
 
 
 def test_the_stable_form_of_the_theory_is_the_quartic():
@@ -89,12 +90,12 @@ def test_the_start_solves_the_equation_without_its_cube():
     at = {w: sp.Rational(1, 7), e2: sp.Rational(2, 5), k3: sp.Rational(3, 4)}
     start = peak.near_constant_start().subs(at)
     assert start > 0
-    assert sp.simplify((truncated * y).subs(at).subs(y, start)) == 0
+    assert sp.expand(sp.radsimp((truncated * y).subs(at).subs(y, start))) == 0
 
 
 def test_the_dual_function_proves_the_level_of_its_own_control():
     moments = dict(zip((k1, k2, k3), peak.bang_bang_moments(), strict=True))
-    assert sp.simplify(peak.dual_bound().subs(moments) - v) == 0
+    assert vanishes(peak.dual_bound().subs(moments) - v)
 
 
 @given(st.fractions(0, 1, max_denominator=50), st.fractions(0, 1, max_denominator=50))
@@ -113,7 +114,7 @@ def test_the_integral_of_the_modulus(p, q):
 def test_no_real_root_is_larger_than_the_level(level, p, q):
     """The theorem, by Sturm's exact count: P has no real root beyond +-|v| and one distinct root at v."""
     at = {a: max(p, q), b: min(p, q), v: level}
-    k = [sp.nsimplify(x) for x in peak.bang_bang_moments().subs(at)]
+    k = peak.bang_bang_moments().subs(at)
     values = dict(zip((c1, c2, c3), (k[0] / 6, k[1] / 2, k[2]), strict=True))
     polynomial = sp.Poly(QUARTIC.subs(values), v)
     assert polynomial.eval(level) == 0

@@ -78,7 +78,7 @@ def test_every_bang_bang_transfer_solves_the_quartic(level):
 
 def test_the_scaled_moments_feed_the_level_equation():
     k = time.scaled_moments()
-    assert sp.simplify(k[0] - 6 * time.moments()[0] / T**3) == 0
+    assert sp.cancel(k[0] - 6 * time.moments()[0] / T**3) == 0
     equation = peak.level_equation().subs(dict(zip((peak.k1, peak.k2, peak.k3), k, strict=True)))
     difference = sp.together(16 * T**4 * (k[2] - 1) * equation.subs(peak.t, 1) - quartic(1))
     assert sp.expand(sp.numer(difference)) == 0

@@ -20,6 +20,7 @@ SMOOTH = {
     "oscillating": sp.sin(5 * t) * sp.exp(-t / 3),
     "rational": 1 / (1 + t**2),
     "Gaussian": sp.exp(-(t**2) * 4),
+    "sharp": 1 / (1 + 400 * (t - 1) ** 2),
     "no antiderivative": sp.exp(sp.sin(3 * t)),
     "no NumPy antiderivative": sp.cos(t**2 + 1) / (t + 3),
 }

@@ -132,6 +132,16 @@ def test_vanishing_moments(c):
     assert solution.certificate.holds(1e-13)
 
 
+@pytest.mark.parametrize(
+    "c", [[0.11, -0.19, -2.03], [-0.21, -0.35, 0.3], [-0.41, -0.36, 2.22], [0.31, 0.74, 0.49]]
+)
+def test_of_two_levels_of_either_sign_the_larger_is_taken(c):
+    """Here the quartic has real roots of both signs beyond |c3|, and the larger is the less usual one."""
+    solution = minimum_peak(maneuver_with(np.array(c)))
+    assert_allclose(float(solution.norm), float(exact_peak(c)), rtol=1e-14)
+    assert solution.certificate.holds(1e-13)
+
+
 @pytest.mark.parametrize("width", [1e-4, 1e-6, 1e-8, 1e-10, 1e-12])
 def test_a_narrow_flip_keeps_the_digits_of_its_width(width):
     """The width follows from c3 alone, to its rounding; the place is as uncertain as its condition says."""

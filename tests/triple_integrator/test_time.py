@@ -166,6 +166,30 @@ def test_switches_within_rounding_of_the_ends_and_roots_within_rounding_of_each_
     assert_allclose(minimum_time(x0, xf, 1.0).duration, least_exact(x0, xf, 1.0), rtol=1e-10)
 
 
+@pytest.mark.parametrize(
+    ("x0", "xf", "miss"),
+    [
+        (
+            [-0.3160179788233455, -0.882887386029873, -0.8729423457753583],
+            [-2.7405870136794674, -0.021111643049373463, 0.01625263869327257],
+            1.3e-7,
+        ),
+        (
+            [0.23357880414085733, -0.6143855791645411, 0.4205319482574358],
+            [-0.23357880414085733, -0.6143855791645411, -0.4205319482574358],
+            8e-9,
+        ),
+    ],
+)
+def test_a_root_that_misses_by_little_is_no_arrival(x0, xf, miss):
+    """An earlier root whose switch lies this share of T outside the transfer."""
+    candidates = exact_bang_bang_times(x0, xf, 1.0)
+    least = least_exact(x0, xf, 1.0)
+    earlier = [violation for violation, T in candidates if least > T]
+    assert 0 < min(earlier) < 1.1 * miss
+    assert_allclose(minimum_time(x0, xf, 1.0).duration, least, rtol=1e-12)
+
+
 @given(states(), states(), st.sampled_from([1.0, 1024.0, 2.0**30]))
 def test_a_force_is_an_offset_of_the_third_state(x0, xf, force):
     """x3 + f drives x2: only that sum matters, however large its parts."""

@@ -171,7 +171,7 @@ def fewest_steps(thrust: Thrust, rows: NDArray[np.float64]) -> tuple[NDArray[np.
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         too_few[open_rows] = np.where(reached, too_few[open_rows], count)
         proof[open_rows] = np.where(reached, proof[open_rows], found.lower)
-        following = np.ceil(count * np.minimum(found.lower, 1e9)).astype(np.int64)
+        following = np.ceil(count * np.minimum(found.lower, 100.0)).astype(np.int64)
         guess[open_rows] = np.clip(following, too_few[open_rows] + 1, np.maximum(enough[open_rows] - 1, 1))
         if (too_few >= MOST_STEPS).any():
             worst = rows[int(np.argmax(too_few))]

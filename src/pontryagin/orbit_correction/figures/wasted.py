@@ -24,8 +24,8 @@ def wasted_impulses(found: Waste) -> Figure:
     size = np.array([0, 1.02 * ball.max()])
     share = float(saved.sum() / ball.sum())
     left.plot(size, share * size, color="#555555", linewidth=0.9)
-    words = f"{100 * share:.0f} % of all impulses"
-    left.annotate(words, (size[1], 0.6 * share * size[1]), ha="right")
+    words = f"line: {100 * share:.0f} % of all impulses"
+    left.annotate(words, (size[1], 0.1), ha="right")
     left.set(xlabel="impulses of the ball", ylabel="saved by the square")
     numbers = np.arange(0, saved.max() + 1)
     for name, shift in (("disc", -0.2), ("box", 0.2)):
