@@ -173,13 +173,20 @@ class Batched:
             compiled_loop(self.kernel, len(columns), self.outputs).loop(result, *columns)
         else:
             for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
-                result[i] = self.kernel(*values)
+                result[i] = self._plain(*values)
         return result
+
+    def _plain(self, *values: float) -> tuple[float, ...]:
+        """The plain source, with nan where it overflows or divides by zero, as the compiled one has."""
+        try:
+            return self.kernel(*values)
+        except ArithmeticError:
+            return (math.nan,) * self.outputs
 
     def one(self, *values: float) -> NDArray[np.float64]:
         """Solve one problem, as (outputs,); compiled only if a large stack was solved before."""
         if self.kernel not in _LOADED:
-            return np.array(self.kernel(*values))
+            return np.array(self._plain(*values))
         result = np.empty(self.outputs)
         _LOADED[self.kernel].one(result, *values)
         return result

@@ -28,7 +28,7 @@ def scaled_moments() -> sp.Matrix:
 
 
 def quartic() -> sp.Expr:
-    """16 (1 - k3 v) T^4 G(1/v) for v = +-1, a quartic in T whose roots are the candidates."""
+    """G(1/v) for v = +-1, cleared of fractions: a quartic in T whose roots are the candidates."""
     k = scaled_moments()
     equation = peak.level_equation().subs(peak.t, sign)
     equation = equation.subs(dict(zip((peak.k1, peak.k2, peak.k3), k, strict=True)))
