@@ -46,7 +46,7 @@ figures: $(READY) ## bring figures/ (SVG and CSV) up to date
 
 .PHONY: lab
 lab: $(EXTRA) ## open the notebooks in JupyterLab
-	@$(BIN)/jupyter lab --notebook-dir=notebooks
+	@$(BIN)/jupyter lab --notebook-dir=notebooks $(if $(filter 0,$(shell id -u)),--allow-root)
 
 .PHONY: kernels
 kernels: $(READY) ## generate the solvers' kernels from the derivations

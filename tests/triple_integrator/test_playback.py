@@ -75,6 +75,8 @@ def test_both_sides_of_an_acceleration_jump_are_held(three_norms):
 def test_impulses_are_spikes_arrows_and_events(three_norms):
     solution = minimum_impulse(Maneuver([0, 0, 0], [np.pi / 2, 0, 0], tf=6.0))
     curve = three_norms["/control/impulse"]
+    assert (np.diff(curve["time"]) > 0).all(), "the player averages values of one time"
+    assert np.interp([1.5, 4.5], curve["time"], curve["scalars"]).tolist() == [0.0, 0.0]
     for time, jump in zip(solution.impulse_times, solution.impulses, strict=True):
         near = np.abs(curve["time"] - time) <= 0.03001
         heights = curve["scalars"][near]

@@ -169,13 +169,17 @@ def _channel(
 
 
 def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver) -> tuple[NDArray, NDArray]:
-    """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it."""
+    """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it.
+
+    Every time stands once: the player averages values of one time.
+    """
     first, last = float(maneuver.t0), float(maneuver.tf)
-    offsets = 0.005 * (last - first) * np.array([-1.0, -1.0, 1.0, 1.0])
+    offsets = 0.005 * (last - first) * np.array([-1.2, -1.0, 1.0, 1.2])
     times = np.concatenate([[first], *(np.clip(time + offsets, first, last) for time, _ in told), [last]])
     heights = np.concatenate([[0.0], *([0.0, jump, jump, 0.0] for _, jump in told), [0.0]])
-    order = np.argsort(times, kind="stable")
-    return times[order], heights[order]
+    order = np.lexsort((-np.abs(heights), times))
+    once, place = np.unique(times[order], return_index=True)
+    return once, heights[order][place]
 
 
 def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> NDArray[np.float64]:
