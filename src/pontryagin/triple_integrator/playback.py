@@ -155,7 +155,7 @@ def _channel(
     for branch, values in zip(("angle", "rate", "acceleration"), x.T, strict=True):
         recording.curve(f"{branch}/{label}", t, values, label, colour)
     told = impulses(programme)
-    times, heights = _spikes(told, maneuver) if told else (t, programme.control(t))
+    times, heights = _spikes(told, maneuver, t) if told else (t, programme.control(t))
     recording.curve(f"control/{label}", times, heights, label, colour)
     for time, jump in told:
         recording.event("events", time, f"{label}: impulse {jump:+.4g} rad/s²")
@@ -168,10 +168,10 @@ def _channel(
             recording.event("events", time, f"{label}: the control switches")
 
 
-def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver) -> tuple[NDArray, NDArray]:
+def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: NDArray) -> tuple[NDArray, NDArray]:
     """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it.
 
-    Every time stands once: the player averages values of one time.
+    The player averages values that fall on one pixel: every time stands once, and those between, t, too.
     """
     first, last = float(maneuver.t0), float(maneuver.tf)
     offsets = 0.005 * (last - first) * np.array([-1.2, -1.0, 1.0, 1.2])
@@ -179,7 +179,8 @@ def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver) -> tuple[ND
     heights = np.concatenate([[0.0], *([0.0, jump, jump, 0.0] for _, jump in told), [0.0]])
     order = np.lexsort((-np.abs(heights), times))
     once, place = np.unique(times[order], return_index=True)
-    return once, heights[order][place]
+    dense = np.union1d(once, t)
+    return dense, np.interp(dense, once, heights[order][place])
 
 
 def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> NDArray[np.float64]:
