@@ -179,7 +179,7 @@ def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: NDArray)
     heights = np.concatenate([[0.0], *([0.0, jump, jump, 0.0] for _, jump in told), [0.0]])
     order = np.lexsort((-np.abs(heights), times))
     once, place = np.unique(times[order], return_index=True)
-    dense = np.union1d(once, t)
+    dense = np.unique(np.round(np.concatenate([once, t]), 7))
     return dense, np.interp(dense, once, heights[order][place])
 
 
