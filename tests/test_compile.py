@@ -1,7 +1,6 @@
-"""Compiled functions take the values of the expressions they were made from; stacks those of single calls."""
+"""Compiled functions take the values of the expressions they were made from."""
 
 import math
-from math import sqrt
 
 import numpy as np
 import pytest
@@ -13,7 +12,6 @@ from numpy.testing import assert_allclose
 from pontryagin import compile as compiler
 
 x, y = sp.symbols("x y")
-OFFSET = 0.25
 
 
 @st.composite
@@ -87,85 +85,3 @@ def test_an_argument_keeps_its_name_beside_shared_parts():
     scope: dict = {}
     exec(compiler.source("f", [x0, y], {"p": (x0 + y) ** 2 + x0, "q": (x0 + y) ** 2}, ""), scope)
     assert scope["f"](2.0, 3.0) == (27.0, 25.0)
-
-
-def shifted_root(p):
-    return sqrt(p) + OFFSET
-
-
-def two_values(p, q):
-    total = shifted_root(p)
-    for _ in range(3):
-        total = total * q
-    return total, p - q
-
-
-def test_a_large_stack_equals_single_calls_bit_by_bit():
-    stack = compiler.batched(two_values, outputs=2)
-    rng = np.random.default_rng(1)
-    p, q = rng.random((2, 3 * compiler.COMPILE_FROM))
-    assert stack(p, q).tolist() == [
-        list(two_values(*pair)) for pair in zip(p.tolist(), q.tolist(), strict=True)
-    ]
-
-
-def test_columns_may_be_strided_and_read_only():
-    stack = compiler.batched(two_values, outputs=2)
-    table = np.random.default_rng(2).random((compiler.COMPILE_FROM, 2))
-    fixed = table.copy()
-    fixed.flags.writeable = False
-    expected = stack(*np.ascontiguousarray(table.T))
-    assert stack(table[:, 0], table[:, 1]).tolist() == expected.tolist()
-    assert stack(fixed[::-1, 0], fixed[::-1, 1]).tolist() == expected[::-1].tolist()
-    assert stack(np.broadcast_to(0.5, 600), np.broadcast_to(0.5, 600)).shape == (600, 2)
-
-
-def test_a_stack_of_none_has_no_rows():
-    assert compiler.batched(two_values, outputs=2)(np.empty(0), np.empty(0)).shape == (0, 2)
-
-
-def test_without_numba_the_same_numbers_come_more_slowly(monkeypatch):
-    p = np.linspace(0, 1, compiler.COMPILE_FROM + 1)
-    compiled = compiler.batched(two_values, outputs=2)(p, p)
-    monkeypatch.setattr(compiler, "has_numba", lambda: False)
-    assert compiler.batched(two_values, outputs=2)(p, p).tolist() == compiled.tolist()
-
-
-def test_an_edited_kernel_is_not_served_stale(tmp_path, monkeypatch):
-    count = compiler.COMPILE_FROM
-    for factor in (2, 3):
-        path = tmp_path / f"version{factor}.py"
-        path.write_text(f"def kernel(p):\n    return ({factor} * p,)\n")
-        scope: dict = {}
-        exec(compile(path.read_text(), str(path), "exec"), scope)
-        assert compiler.batched(scope["kernel"], outputs=1)(np.ones(count))[0, 0] == factor
-
-
-TABLE = [1.0, 2.0]
-
-
-def looks_up(p):
-    return (p * TABLE[0],)
-
-
-def test_a_kernel_may_use_numbers_and_functions_only():
-    with pytest.raises(TypeError, match="looks_up uses TABLE"):
-        compiler.batched(looks_up, outputs=1)(np.ones(compiler.COMPILE_FROM))
-
-
-def test_two_things_of_one_name_do_not_meet_in_one_kernel():
-    """The compiled module has one namespace; modules of plain Python have one each."""
-
-    def in_module(text, **names):
-        scope: dict = dict(names)
-        exec(text, scope)
-        return scope["f"]
-
-    alias, double = in_module("def f(p):\n    return p"), in_module("N = 2.0\ndef f(p):\n    return p * N")
-    double.__name__ = "g"
-    for kernel, clash in (
-        (in_module("def f(p):\n    return (g(p),)", g=alias), "f"),
-        (in_module("N = 3.0\ndef f(p):\n    return (g(p) + N,)", g=double), "N"),
-    ):
-        with pytest.raises(TypeError, match=f"called {clash} meet in f"):
-            compiler.batched(kernel, outputs=1)(np.ones(compiler.COMPILE_FROM))

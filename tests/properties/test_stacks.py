@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from pontryagin import compile as compiler
+from pontryagin import jit
 from pontryagin.triple_integrator import (
     Maneuver,
     energy,
@@ -111,7 +111,7 @@ def test_special_numbers_raise_nothing_in_plain_python(name):
 
 def test_a_stack_is_cut_at_no_particular_size():
     """Just below and just above the size from which stacks are compiled."""
-    for count in (1, compiler.COMPILE_FROM - 1, compiler.COMPILE_FROM, compiler.COMPILE_FROM + 1):
+    for count in (1, jit.COMPILE_FROM - 1, jit.COMPILE_FROM, jit.COMPILE_FROM + 1):
         columns = problems(4 * count)[:, :count]
         solution = minimum_peak(Maneuver(np.zeros(3), *maneuver_columns(columns)))
         last = minimum_peak(Maneuver(np.zeros(3), columns[:3, -1], columns[3, -1]))

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
-from pontryagin.compile import compiled
 from pontryagin.errors import Infeasible
+from pontryagin.jit import compiled
 from pontryagin.orbit_correction.ellipsoids import gauge_stack
 from pontryagin.validation import finite, vectors
 

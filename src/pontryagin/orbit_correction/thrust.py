@@ -11,8 +11,8 @@ from math import fabs
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.compile import compiled
 from pontryagin.errors import Infeasible
+from pontryagin.jit import compiled
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.ellipsoids import gauge_of
 from pontryagin.orbit_correction.kinks import flat_gauge

@@ -1,0 +1,226 @@
+"""From one problem to a stack of a million: plain scalar code compiled by Numba, kept under its hash.
+
+`batched` runs a scalar solver over a stack of problems, `compiled` compiles a function of arrays; both take
+plain Python that also runs as it is.
+"""
+
+import functools
+import hashlib
+import importlib.util
+import inspect
+import math
+import os
+import sys
+import tempfile
+import types
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+COMPILE_FROM = 512
+"""Stacks at least this large are worth the half second that Numba takes to load."""
+
+
+@dataclass(frozen=True)
+class Batched:
+    """A scalar solver that runs over a stack of problems; see `batched`.
+
+    Attributes
+    ----------
+    kernel : function of n floats returning a tuple of floats
+        The plain source.
+    outputs : int
+        How many floats it returns.
+    """
+
+    kernel: Callable[..., tuple]
+    outputs: int
+
+    def __call__(self, *columns: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
+        count = len(columns[0])
+        result = np.empty((count, self.outputs))
+        if (count >= COMPILE_FROM or self.kernel in _LOADED) and has_numba():
+            compiled_loop(self.kernel, len(columns), self.outputs).loop(result, *columns)
+        else:
+            for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
+                result[i] = self._plain(*values)
+        return result
+
+    def _plain(self, *values: float) -> tuple[float, ...]:
+        """The plain source, with nan where it overflows or divides by zero, as the compiled one has."""
+        try:
+            return self.kernel(*values)
+        except ArithmeticError:
+            return (math.nan,) * self.outputs
+
+    def one(self, *values: float) -> NDArray[np.float64]:
+        """Solve one problem, as (outputs,); compiled only if a large stack was solved before."""
+        if self.kernel not in _LOADED:
+            return np.array(self._plain(*values))
+        result = np.empty(self.outputs)
+        _LOADED[self.kernel].one(result, *values)
+        return result
+
+
+def batched(kernel: Callable[..., tuple], outputs: int) -> Batched:
+    """Run a scalar solver over a stack of problems.
+
+    Small stacks run the plain Python source; large ones the same source compiled by Numba and cached on
+    disk under the hash of that source, so that an edited kernel is never served stale. What is compiled
+    already serves small stacks and single problems too.
+
+    Parameters
+    ----------
+    kernel : function of n floats returning a tuple of floats
+        Written in plain arithmetic and the `math` module; what it calls must be so too.
+    outputs : int
+        How many floats it returns.
+
+    Examples
+    --------
+    >>> def halves(x):
+    ...     return x / 2, x / 4
+    >>> batched(halves, outputs=2)(np.array([1.0, 2.0]))
+    array([[0.5 , 0.25],
+           [1.  , 0.5 ]])
+    """
+    return Batched(kernel, outputs)
+
+
+_LOADED: dict[Callable, types.ModuleType] = {}
+
+
+@functools.cache
+def has_numba() -> bool:
+    """Whether Numba can be imported; said once if it cannot."""
+    if importlib.util.find_spec("numba") is None:
+        print("pontryagin: numba is not installed; large stacks run as plain Python, slowly", file=sys.stderr)
+        return False
+    return True
+
+
+def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> types.ModuleType:
+    """Numba-compiled ``loop(result, *columns)`` and ``one(result, *values)`` over a scalar kernel."""
+    if kernel in _LOADED:
+        return _LOADED[kernel]
+    arguments = ", ".join(f"a{i}" for i in range(inputs))
+    items = ", ".join(f"a{i}[i]" for i in range(inputs))
+    in_row, alone = (
+        ", ".join(f"result[{row}{j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
+        for row in ("i, ", "")
+    )
+    of_columns = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
+    of_values = "types.void(types.float64[::1], " + ", ".join(["types.float64"] * inputs) + ")"
+    options = 'cache=True, nogil=True, error_model="numpy"'
+    text = _closure_source(kernel) + (
+        '\n\ncolumn = types.Array(types.float64, 1, "A", readonly=True)\n'
+        f"\n\n@njit({of_columns}, {options})\n"
+        f"def loop(result, {arguments}):\n"
+        f"    for i in range(result.shape[0]):\n"
+        f"        {in_row} = {kernel.__name__}({items})\n"
+        f"\n\n@njit({of_values}, {options})\n"
+        f"def one(result, {arguments}):\n"
+        f"    {alone} = {kernel.__name__}({arguments})\n"
+    )
+    _LOADED[kernel] = _load(text)
+    return _LOADED[kernel]
+
+
+@functools.cache
+def compiled(kernel: Callable, signature: str) -> Callable:
+    """Compile a plain function of arrays by Numba for one signature, cached on disk like `batched`.
+
+    Parameters
+    ----------
+    kernel : function
+        Written in plain arithmetic, loops over arrays, the `math` module and ``np.empty`` and its kin.
+    signature : str
+        Its types in Numba's notation, such as ``"void(float64[::1], float64[:, ::1])"``.
+
+    Returns
+    -------
+    function
+        The compiled kernel, or the kernel itself where Numba is not installed.
+    """
+    if not has_numba():
+        return kernel
+    text = _closure_source(kernel) + (
+        f'\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model="numpy")'
+        f"({kernel.__name__}.py_func)\n"
+    )
+    return _load(text).compiled
+
+
+def _closure_source(kernel: Callable) -> str:
+    """The kernel's source and that of everything it calls, as the text of one module."""
+    functions: dict[str, Callable] = {}
+    constants: dict[str, float] = {}
+    imported: set[str] = set()
+    arrays = False
+
+    def visit(target: Callable) -> None:
+        nonlocal arrays
+        if functions.get(target.__name__) is target:
+            return
+        for name in target.__code__.co_names:
+            if name not in target.__globals__:
+                continue
+            value = target.__globals__[name]
+            if isinstance(value, types.FunctionType):
+                visit(value)
+            elif isinstance(value, int | float):
+                if constants.setdefault(name, value) != value:
+                    raise TypeError(f"two numbers called {name} meet in {kernel.__name__}")
+            elif getattr(math, name, None) is value:
+                imported.add(name)
+            elif value is np:
+                arrays = True
+            else:
+                raise TypeError(
+                    f"{target.__name__} uses {name}, which is neither a number nor a plain function"
+                )
+        if functions.setdefault(target.__name__, target) is not target:
+            raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
+
+    visit(kernel)
+    parts = ["from numba import njit, types"]
+    if arrays:
+        parts.append("import numpy as np")
+    if imported:
+        parts.append("from math import " + ", ".join(sorted(imported)))
+    parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]
+    for target in functions.values():
+        parts.append('\n@njit(cache=True, nogil=True, error_model="numpy")\n' + inspect.getsource(target))
+    return "\n".join(parts)
+
+
+def _load(text: str) -> types.ModuleType:
+    """Import a module from its text, kept in the user's cache under the hash of the text."""
+    digest = hashlib.sha256(text.encode()).hexdigest()[:20]
+    path = _cache_folder() / f"kernel_{digest}.py"
+    if not path.exists():
+        scratch = path.with_suffix(f".{os.getpid()}.tmp")
+        scratch.write_text(text)
+        scratch.replace(path)
+    spec = importlib.util.spec_from_file_location(f"pontryagin_{path.stem}", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[module.__name__] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@functools.cache
+def _cache_folder() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    folder = Path(base).expanduser() / "pontryagin"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="pontryagin-"))
