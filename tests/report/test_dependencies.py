@@ -19,8 +19,9 @@ def source(checkout):
     checkout.module("plain/__init__.py", "from .energy import solve")
     checkout.module("plain/energy.py", "from .. import certificate\ndef solve(): ...")
     checkout.module("plain/figures.py")
-    checkout.module("lazy/__init__.py", "def __getattr__(name): ...")
-    checkout.module("lazy/peak.py", "import pontryagin.compile")
+    checkout.module("lazy.py", "from importlib import import_module\ndef attach(name): import_module(name)")
+    checkout.module("paper/__init__.py", "from pontryagin import lazy\n__all__ = lazy.attach(__name__)")
+    checkout.module("paper/peak.py", "import pontryagin.compile")
     checkout.module("computed/__init__.py")
     checkout.module("computed/all.py", "from importlib import import_module\nimport_module('.' + input())")
     checkout.module("computed/hidden.py")
@@ -52,7 +53,8 @@ def names(source, *code):
         ("from pontryagin.certificate import Certificate", {"pontryagin", "certificate"}),
         ("import pontryagin.compile", {"pontryagin", "compile", "certificate"}),
         ("from pontryagin.plain import solve", {"pontryagin", "plain", "plain.energy", "certificate"}),
-        ("import pontryagin.lazy as l", {"pontryagin", "lazy", "lazy.peak", "compile", "certificate"}),
+        ("import pontryagin.lazy", {"pontryagin", "lazy"}),
+        ("import pontryagin.paper", {"pontryagin", "lazy", "paper", "paper.peak", "compile", "certificate"}),
         ("import pontryagin.computed.all", {"pontryagin", "computed", "computed.all", "computed.hidden"}),
         ("import pontryagin.exact.one", {"pontryagin", "exact", "exact.one", "lonely"}),
         ("import pontryagin.table", {"pontryagin", "table", "lonely"}),

@@ -21,42 +21,31 @@ psi(k)            costates           adjoint vectors, -psi normal to X
 N_min             steps              fewest steps
 """
 
-from importlib import import_module
+from pontryagin import lazy
 
-_HOMES = {
-    "correct": "plan",
-    "Plan": "plan",
-    "gauge": "system",
-    "Gauge": "system",
-    "DiscreteSystem": "system",
-    "least_peak": "alternatives",
-    "least_energy": "alternatives",
-    "least_fuel": "alternatives",
-    "power_gauge": "pball",
-    "fewest_power_steps": "pball",
-    "fly": "flight",
-    "fly_plan": "flight",
-    "close_loop": "flight",
-    "count_impulses": "waste",
-    "random_states": "waste",
-    "impulse_distribution": "montecarlo",
-    "derivation": "",
-    "ergodic": "",
-    "figures": "",
-    "intervals": "",
-    "playback": "",
-}
-
-__all__ = list(_HOMES)
-
-
-def __getattr__(name: str):
-    """Public names load their module at first use."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = _HOMES[name]
-    return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
-
-
-def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+__getattr__, __dir__, __all__ = lazy.attach(
+    __name__,
+    {
+        "correct": "plan",
+        "Plan": "plan",
+        "gauge": "system",
+        "Gauge": "system",
+        "DiscreteSystem": "system",
+        "least_peak": "alternatives",
+        "least_energy": "alternatives",
+        "least_fuel": "alternatives",
+        "power_gauge": "pball",
+        "fewest_power_steps": "pball",
+        "fly": "flight",
+        "fly_plan": "flight",
+        "close_loop": "flight",
+        "count_impulses": "waste",
+        "random_states": "waste",
+        "impulse_distribution": "montecarlo",
+        "derivation": "",
+        "ergodic": "",
+        "figures": "",
+        "intervals": "",
+        "playback": "",
+    },
+)

@@ -12,6 +12,8 @@ from functools import cached_property
 from pathlib import Path
 
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
+_LAZY = "lazy"
+"""The module whose computed imports lie below the package that calls its `attach`."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
 _FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
@@ -66,6 +68,8 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
         if module in known:
             continue
         known.add(module)
+        if module == f"{source.folder.name}.{_LAZY}":
+            continue
         text = source.modules[module].read_text(encoding="utf-8")
         open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
     files = {source.modules[module] for module in known}
@@ -102,14 +106,15 @@ def _needed(source: Source, text: str, package: str) -> set[str]:
             needed |= _named(source, node.value) if node.value in source.modules else set()
         elif isinstance(node, ast.Call):
             needed |= _called(source, node, package)
-    lazy = any(isinstance(node, ast.FunctionDef) and node.name == "__getattr__" for node in tree.body)
-    return needed | (source.below(package) if lazy else set())
+    return needed
 
 
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     function = call.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
     written = [node.value for node in ast.walk(call) if isinstance(node, ast.Constant)]
+    if name == "attach":
+        return source.below(package)
     if name in _COMPUTED:
         constant = bool(call.args) and isinstance(call.args[0], ast.Constant)
         exact = constant and str(written[0]) in source.modules

@@ -26,34 +26,23 @@ a0, am, aT      impulses            at the start, in the middle, at the end
 R               norm                total impulse
 """
 
-from importlib import import_module
+from pontryagin import lazy
 
-_HOMES = {
-    "Maneuver": "maneuver",
-    "minimum_energy": "energy",
-    "minimum_peak": "peak",
-    "minimum_impulse": "impulse",
-    "minimum_norm": "norm",
-    "minimum_time": "time",
-    "maximum_entropy": "entropy",
-    "attitude": "",
-    "coupling": "",
-    "search": "",
-    "derivation": "",
-    "figures": "",
-    "playback": "",
-}
-
-__all__ = list(_HOMES)
-
-
-def __getattr__(name: str):
-    """Public names load their module at first use, so that an import costs nothing it does not need."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = _HOMES[name]
-    return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
-
-
-def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+__getattr__, __dir__, __all__ = lazy.attach(
+    __name__,
+    {
+        "Maneuver": "maneuver",
+        "minimum_energy": "energy",
+        "minimum_peak": "peak",
+        "minimum_impulse": "impulse",
+        "minimum_norm": "norm",
+        "minimum_time": "time",
+        "maximum_entropy": "entropy",
+        "attitude": "",
+        "coupling": "",
+        "search": "",
+        "derivation": "",
+        "figures": "",
+        "playback": "",
+    },
+)
