@@ -7,7 +7,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -17,12 +17,17 @@ import typer
 
 from pontryagin import files
 from pontryagin import formula as formulas
+from pontryagin.certificate import Certificate
+from pontryagin.errors import Infeasible, NotConverged
 
 Report = Mapping[str, Mapping[str, Any]]
 """Headings, and under each its quantities: what a table shows and JSON holds."""
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
+
+ACCEPTED = 1e-8
+"""Largest residual and gap of an answer that is handed out."""
 
 
 class Refusal(typer.TyperException):
@@ -97,11 +102,30 @@ def blaming(options: Mapping[str, str]) -> Iterator[None]:
     """Give errors that begin with an argument's name to the option that it came from."""
     try:
         yield
+    except Infeasible:
+        raise
     except (TypeError, ValueError) as reason:
         name = re.split(r"[ :]", str(reason), maxsplit=1)[0]
         if name not in options:
             raise
         raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
+
+
+@contextmanager
+def solving(options: Mapping[str, str]) -> Iterator[None]:
+    """Blame options for what a solver refuses, and call an overflow what it is."""
+    with np.errstate(all="ignore"), blaming(options):
+        try:
+            yield
+        except (ArithmeticError, np.linalg.LinAlgError) as reason:
+            raise NotConverged(f"the numbers overflow: {reason}", math.inf) from reason
+
+
+def file_names(plot: Path | None, record: Path | None, out: str) -> None:
+    """Refuse files of one answer whose endings are not known, and a batch's file without a batch."""
+    together({"--out": out != "-"}, "--batch", False)
+    ending("--plot", plot, FIGURES)
+    ending("--record", record, RECORDINGS)
 
 
 def ending(option: str, path: Path | None, takes: tuple[str, ...]) -> None:
@@ -154,6 +178,27 @@ def save_figure(option: str, path: Path, figure: Any) -> None:
             return
         with files.replacing(path) as draft:
             figure.savefig(draft, dpi=200)
+
+
+def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> None:
+    """Write a recording by the function that makes it; what is not installed for it is said in one line."""
+    try:
+        with writing(option, path):
+            save(path)
+    except RuntimeError as missing:
+        raise typer.TyperException(str(missing)) from missing
+
+
+def require_proof(proof: Certificate) -> None:
+    """Refuse to end well where a certificate, or one of a stack, is not closed to `ACCEPTED`."""
+    with np.errstate(all="ignore"):
+        left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+    open_ones = ~(left <= ACCEPTED)
+    if open_ones.any():
+        count = (
+            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
+        )
+        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
 
 
 def plain(value: Any) -> Any:

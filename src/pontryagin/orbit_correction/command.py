@@ -3,11 +3,9 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
 from pontryagin import console
-from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.orbit_correction import transcript
 
 ACCEPTED = 1e-8
@@ -65,11 +63,9 @@ def solve(
         _solve_batch(batch, out, engine)
         return
     console.required({"--z0": z0})
-    console.together({"--out": out != "-"}, "--batch", False)
-    console.ending("--plot", plot, console.FIGURES)
-    console.ending("--record", record, console.RECORDINGS)
+    console.file_names(plot, record, out)
     plan = _planned(console.vector("--z0", str(z0), 3), engine)
-    _require_proof(plan)
+    console.require_proof(plan.certificate)
     _files(plan, plot, record)
     told = transcript.transcript(plan)
     if json:
@@ -87,25 +83,8 @@ def _engine(interval: str, peak: str, thrust: str) -> tuple[float, float, str]:
 def _planned(z0: Any, engine: tuple[float, float, str]) -> Any:
     from pontryagin.orbit_correction.plan import correct
 
-    with console.blaming(ARGUMENTS), np.errstate(all="ignore"):
-        try:
-            return correct(z0, *engine)
-        except Infeasible as reason:
-            unreachable = reason
-        except (ArithmeticError, np.linalg.LinAlgError) as reason:
-            raise NotConverged(f"the numbers overflow: {reason}", np.inf) from reason
-    raise unreachable
-
-
-def _require_proof(plan: Any) -> None:
-    proof = plan.certificate
-    left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
-    open_ones = ~(left <= ACCEPTED)
-    if open_ones.any():
-        count = (
-            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
-        )
-        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
+    with console.solving(ARGUMENTS):
+        return correct(z0, *engine)
 
 
 def _files(plan: Any, plot: File, record: File) -> None:
@@ -120,11 +99,7 @@ def _files(plan: Any, plot: File, record: File) -> None:
     if record:
         from pontryagin.orbit_correction.playback import record_plan
 
-        try:
-            with console.writing("--record", record):
-                record_plan(plan, record)
-        except RuntimeError as missing:
-            raise typer.TyperException(str(missing)) from missing
+        console.save_recording("--record", record, lambda path: record_plan(plan, path))
 
 
 def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None:
@@ -132,4 +107,4 @@ def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None
         states = transcript.read(path)
     plan = _planned(states.z0, engine)
     console.emit("--out", out, transcript.to_csv(states, plan))
-    _require_proof(plan)
+    console.require_proof(plan.certificate)

@@ -8,11 +8,7 @@ import numpy as np
 import typer
 
 from pontryagin import console
-from pontryagin.errors import NotConverged
 from pontryagin.triple_integrator import transcript
-
-ACCEPTED = 1e-8
-"""Largest residual and gap of an answer that is handed out."""
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
 """Options whose last check is left to the solvers."""
@@ -80,12 +76,10 @@ def solve(
         _solve_batch(goal, batch, out, force)
         return
     console.required({"--x0": x0, "--xf": xf} | ({} if goal.least_time else {"--duration": duration}))
-    console.together({"--out": out != "-"}, "--batch", False)
     console.together({"--samples": samples}, "--json", json)
-    console.ending("--plot", plot, console.FIGURES)
-    console.ending("--record", record, console.RECORDINGS)
+    console.file_names(plot, record, out)
     solution = _solved(goal, _ends(goal, str(x0), str(xf), t0 or "0", str(duration)), force)
-    _require_proof(solution)
+    console.require_proof(solution.certificate)
     _files(solution, plot, record)
     _print(solution, json, samples)
 
@@ -143,32 +137,16 @@ def _ends(goal: Goal, x0: str, xf: str, t0: str, duration: str) -> Ends:
     return Ends(start, end, first, first + elapsed)
 
 
-@in_silence
 def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
     from pontryagin import triple_integrator as ti
 
-    with console.blaming(ARGUMENTS):
-        try:
-            if goal.least_time:
-                return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)
-            maneuver = ti.Maneuver(ends.x0, ends.xf, ends.tf, ends.t0, force)
-            if goal.q in SOLVERS:
-                return getattr(ti, SOLVERS[goal.q])(maneuver)
-            return ti.minimum_norm(maneuver, goal.q)
-        except (ArithmeticError, np.linalg.LinAlgError) as reason:
-            raise NotConverged(f"the numbers overflow: {reason}", math.inf) from reason
-
-
-@in_silence
-def _require_proof(solution: Any) -> None:
-    proof = solution.certificate
-    left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
-    open_ones = ~(left <= ACCEPTED)
-    if open_ones.any():
-        count = (
-            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
-        )
-        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
+    with console.solving(ARGUMENTS):
+        if goal.least_time:
+            return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)
+        maneuver = ti.Maneuver(ends.x0, ends.xf, ends.tf, ends.t0, force)
+        if goal.q in SOLVERS:
+            return getattr(ti, SOLVERS[goal.q])(maneuver)
+        return ti.minimum_norm(maneuver, goal.q)
 
 
 @in_silence
@@ -182,11 +160,7 @@ def _files(solution: Any, plot: File, record: File) -> None:
     if record:
         from pontryagin.triple_integrator.playback import record_solution
 
-        try:
-            with console.writing("--record", record):
-                record_solution(solution, record)
-        except RuntimeError as missing:
-            raise typer.TyperException(str(missing)) from missing
+        console.save_recording("--record", record, lambda path: record_solution(solution, path))
 
 
 @in_silence
@@ -210,4 +184,4 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     ends = Ends(start, end, problems.columns.get("t0", 0.0), problems.columns.get("tf"))
     solution = _solved(goal, ends, force)
     console.emit("--out", out, batch.to_csv(problems, solution))
-    _require_proof(solution)
+    console.require_proof(solution.certificate)
