@@ -12,13 +12,6 @@ from pontryagin.ledger import Entry
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 
 TILES: dict[str, str] = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
-SECTIONS = {
-    "0": "introduction",
-    "1": "1 moments",
-    "2": "2 energy",
-    "3": "3 peak",
-    "4": "4 impulse",
-}
 _SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
 
 
@@ -105,42 +98,41 @@ def account(entry: Entry) -> str:
     return "\n\n".join(parts)
 
 
-def counts_table(paper: str | None = None) -> dict[str, list[Any]]:
-    """Entries of each verdict by section of the paper: columns for `plotting.show_table`."""
-    rows = sections(ledger.entries(paper))
-    names = [*rows, "all"]
+def counts_table() -> dict[str, list[Any]]:
+    """Entries of each verdict by paper: columns for `plotting.show_table`."""
+    rows = by_paper(ledger.entries())
     groups = [*rows.values(), [one for group in rows.values() for one in group]]
     tallies = [ledger.counts(group) for group in groups]
     seen = [verdict for verdict in ledger.VERDICTS if tallies[-1][verdict]]
-    columns: dict[str, list[Any]] = {"section": names}
+    columns: dict[str, list[Any]] = {"paper": [*rows, "all"]}
     columns |= {verdict: [tally[verdict] for tally in tallies] for verdict in seen}
     return columns | {"entries": [len(group) for group in groups]}
 
 
-def sections(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
-    """Entries by section, read off the equation number in their labels; others stay with the one before."""
+def by_paper(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
+    """Entries under the names of their papers, in the order of the ledger."""
     grouped: dict[str, list[Entry]] = {}
-    section = "0"
     for one in entries:
-        numbered = re.search(r"\((\d)\.", one.label)
-        section = numbered[1] if numbered else section
-        grouped.setdefault(SECTIONS.get(section, section), []).append(one)
+        grouped.setdefault(one.paper, []).append(one)
     return grouped
 
 
 @styled
-def verdict_tiles(paper: str | None = None) -> Figure:
-    """One tile for each entry in the order of the paper, a row a section, coloured by verdict."""
-    grouped = sections(ledger.entries(paper))
+def verdict_tiles() -> Figure:
+    """One tile for each entry in the order of its paper, papers below one another, coloured by verdict."""
+    grouped = by_paper(ledger.entries())
     across = 36
+    gap = 0.5
     lines = [
-        (name if start == 0 else "", group[start : start + across])
-        for name, group in grouped.items()
+        (number * gap, name if start == 0 else "", group[start : start + across])
+        for number, (name, group) in enumerate(grouped.items())
         for start in range(0, len(group), across)
     ]
-    figure = Figure(figsize=(WIDTH, 0.5 + 0.165 * len(lines)), layout="constrained")
+    height = len(lines) + gap * (len(grouped) - 1)
+    figure = Figure(figsize=(WIDTH, 0.5 + 0.165 * height), layout="constrained")
     ax = figure.subplots()
-    for row, (name, group) in enumerate(lines):
+    for line, (offset, name, group) in enumerate(lines):
+        row = line + offset
         ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)
         for column, one in enumerate(group):
             faint = 0.35 if one.verdict == "holds" else 1.0
@@ -148,9 +140,9 @@ def verdict_tiles(paper: str | None = None) -> Figure:
                 (column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0
             )
             ax.add_patch(tile)
-    ax.set(xlim=(-6.5, across), ylim=(len(lines), 0), aspect="equal")
+    ax.set(xlim=(-10.5, across), ylim=(height, 0), aspect="equal")
     ax.axis("off")
-    present = [verdict for verdict, count in ledger.counts(ledger.entries(paper)).items() if count]
+    present = [verdict for verdict, count in ledger.counts(ledger.entries()).items() if count]
     handles = [Patch(color=TILES[verdict], alpha=0.35 if verdict == "holds" else 1.0) for verdict in present]
     figure.legend(handles, present, loc="outside lower center", ncols=len(present), handlelength=1.0)
     return figure
