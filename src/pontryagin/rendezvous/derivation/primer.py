@@ -1,0 +1,98 @@
+"""The same problem in Cartesian coordinates, where n is Lawden's primer vector.
+
+H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*' has psi_R = -psi_V' and
+psi_V'' = G psi_V, G the gradient of gravity. The thrust lies along psi_V: psi_V is n, seen in inertial
+axes. `carried` is d/dt of n in those axes along the reduced equations; with the thrust along n nothing of
+it depends on the thrust, and twice over it gives G n.
+
+The turning axes eta depend on the state, so a thrust that is given in eta is another function of the state
+than one given in inertial axes: for thrusts across n the two sets of costates differ.
+
+paper   here            meaning
+------  --------------  --------------------------------------------------------------
+n_eta   switching       psi_V, in eta
+-       carried         psi_V', in eta: -psi_R
+nu*     -               2 (R x psi_R + V x psi_V), what turning the axes leaves constant
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from pontryagin.rendezvous.derivation import model, principle, reduction, transversality
+from pontryagin.rendezvous.derivation.model import EX, EY, c, gravity, r, v1
+
+size = sp.Symbol("k", nonnegative=True)
+
+
+def thrust_along_primer() -> dict[sp.Symbol, sp.Expr]:
+    """p_eta = k n_eta, k any function of time."""
+    return dict(zip(model.thrust, size * principle.switching(), strict=True))
+
+
+def inertial_rate(vector: sp.Matrix) -> sp.Matrix:
+    """d/dt of a vector given in eta, seen in inertial axes, with the thrust along n."""
+    change = vector.jacobian(list(reduction.REDUCED)) * reduction.rates()
+    whole = change + model.motion()[1].cross(vector)
+    return whole.subs(thrust_along_primer()).applyfunc(sp.expand)
+
+
+@cache
+def carried() -> sp.Matrix:
+    """psi_V' in eta."""
+    return inertial_rate(principle.switching())
+
+
+@cache
+def second_rate() -> sp.Matrix:
+    """psi_V'' in eta."""
+    return inertial_rate(carried())
+
+
+def gravity_gradient() -> sp.Matrix:
+    """d(-fM R/r^3)/dR in eta, at R = r i1."""
+    place = sp.Matrix(sp.symbols("x y z", real=True))
+    field = -gravity * place / sp.sqrt(place.dot(place)) ** 3
+    return field.jacobian(place).subs(dict(zip(place, r * EX, strict=True)))
+
+
+def hamiltonian() -> sp.Expr:
+    """H of the Cartesian problem, its vectors in eta, in C_phi."""
+    velocity = v1 * EX + c / r * EY
+    fall = model.thrust - gravity / r**2 * EX
+    anomaly = reduction.anomaly_costate_of() * model.anomaly_rate()
+    return -principle.running_cost() - carried().dot(velocity) + principle.switching().dot(fall) + anomaly
+
+
+def turning_invariant(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> sp.Matrix:
+    """2 (R x psi_R + V x psi_V) in eta."""
+    velocity = v1 * EX + c / r * EY
+    whole = 2 * ((r * EX).cross(position_costate) + velocity.cross(velocity_costate))
+    return whole.applyfunc(sp.expand)
+
+
+def transversality_condition() -> sp.Expr:
+    """(psi_R, R*') + (psi_V, V*') + Phi*, primes by phi* along the target's orbit, at a meeting, in C_phi.
+
+    Along the orbit d/dphi* is d/dt over phi*', with R*' = V* and V*' = -fM R*/r^3.
+    """
+    velocity, fall = v1 * EX + c / r * EY, -gravity / r**2 * EX
+    along = -carried().dot(velocity) + principle.switching().dot(fall)
+    whole = along / model.anomaly_rate() + reduction.anomaly_costate_of()
+    return whole.subs(transversality.end_values()).subs(gravity, model.GAUSS)
+
+
+def costates(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
+    """rho, s1, e, nu of psi_R and psi_V given in eta: from n, from psi_V' and from the invariant."""
+    along_radius = sp.Dummy("psi_R1")
+    rho = sp.solve(carried()[0] + along_radius, principle.rho)[0]
+    s1, e = velocity_costate[0], velocity_costate[1] / r
+    nu = turning_invariant(position_costate, velocity_costate)
+    return {
+        principle.rho: sp.expand(
+            rho.subs({along_radius: position_costate[0], principle.e: e}, simultaneous=True)
+        ),
+        principle.s1: s1,
+        principle.e: e,
+        **dict(zip(principle.nu, nu, strict=True)),
+    }
