@@ -90,7 +90,8 @@ def kernel_expressions(system: PhaseSystem) -> dict[str, tuple[tuple[sp.Symbol, 
         "switching": ((*z, x, *numbers), switching),
         "boundary": ((*a, *numbers), ends),
         "control": ((*z, x, system.phase_costate, *numbers), list(system.maximiser)),
-        "rates": ((*a, x, *system.control, *numbers), [*system.f, cost, 1 / system.rate]),
+        "rates": ((*a, x, *system.control, *numbers), [*system.f, cost]),
+        "pace": ((*a, x, *numbers), [1 / system.rate]),
     }
 
 

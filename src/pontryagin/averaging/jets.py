@@ -32,7 +32,8 @@ class Jet:
     def __add__(self, other: "Jet") -> "Jet":
         return Jet(self.value + other.value, self.gradient + other.gradient, self.hessian + other.hessian)
 
-    def __rmul__(self, factor: NDArray[np.float64]) -> "Jet":
+    def times(self, factor: NDArray[np.float64]) -> "Jet":
+        """The function times a constant (...)."""
         return Jet(
             factor * self.value, factor[..., None] * self.gradient, factor[..., None, None] * self.hessian
         )

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.averaging.jets import Jet, Kernel, evaluate, jet, width
-from pontryagin.averaging.quadrature import Mean, find_switches, smooth_mean, split_mean, split_rule
+from pontryagin.averaging.quadrature import SOLVING, Rule, find_switches, mean, smooth_mean
 
 Array = NDArray[np.float64]
 BESIDE = 1e-9
@@ -37,7 +37,9 @@ class Model:
     control : kernel of (a, p, x, p_x)
         u*.
     rates : kernel of (a, x, u)
-        f, the whole running cost, and 1 / r.
+        f and the whole running cost.
+    pace : kernel of (a, x)
+        1 / r, proportional to dpsi/dx.
     """
 
     slow: int
@@ -50,44 +52,57 @@ class Model:
     boundary: Kernel
     control: Kernel
     rates: Kernel
+    pace: Kernel
 
-    def averaged(self, z: Array, numbers: tuple[Array, ...]) -> tuple[Jet, Jet]:
+    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: Rule = SOLVING) -> tuple[Jet, Jet]:
         """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
         shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
         flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
         held = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
-        h, omega = self._flat(flat, held)
+        turn = self._turn(flat, held, rule)
+        if self.frequency is not None:
+            columns = evaluate(self.frequency, *flat[:, : self.slow].T, *held)
+            omega = jet(columns, self.slow).padded(2 * self.slow)
+        else:
+            assert turn is not None
+            omega = jet(_one(len(flat), 2 * self.slow), 2 * self.slow) / turn
+        if self.mean is not None:
+            h = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow)
+        else:
+            h = self._quadrature(flat, held, rule)
+            h = h if turn is None else h / turn
         return _shaped(h, shape), _shaped(omega, shape)
 
-    def _flat(self, z: Array, numbers: tuple[Array, ...]) -> tuple[Jet, Jet]:
-        n = self.slow
-        a = tuple(z[:, :n].T)
+    def _turn(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet | None:
         if self.turn is None:
-            assert self.frequency is not None
-            omega = jet(evaluate(self.frequency, *a, *numbers), n).padded(2 * n)
-        else:
-            columns = smooth_mean(_over(self.turn, a, numbers), len(z)).values
-            turn = jet(columns, n).padded(2 * n)
-            omega = jet(_one(len(z), 2 * n), 2 * n) / turn
-        if self.mean is not None:
-            return jet(evaluate(self.mean, *z.T, *numbers), 2 * n), omega
-        h = self._quadrature(z, numbers)
-        return (h if self.turn is None else h / turn), omega
+            return None
+        density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
+        return jet(smooth_mean(density, len(z), rule[0]), self.slow).padded(2 * self.slow)
 
-    def _quadrature(self, z: Array, numbers: tuple[Array, ...]) -> Jet:
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
         assert self.density is not None
         density = _over(self.density, tuple(z.T), numbers)
-        size = width(2 * self.slow)
         switches = self.switches(z, numbers)
-        plain = np.isnan(switches).all(axis=1)
-        columns = np.empty((len(z), size))
-        if plain.any():
-            columns[plain] = _of(density, np.nonzero(plain)[0], size, smooth_mean).values
-        if (~plain).any():
-            kinked = np.nonzero(~plain)[0]
-            columns[kinked] = _of(density, kinked, size, lambda d, _: split_mean(d, switches[kinked])).values
+        columns = mean(lambda x, i: density(x, i)[..., :-1], switches, rule)
         h = jet(columns, 2 * self.slow)
-        return h if plain.all() else Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+        if np.isnan(switches).all():
+            return h
+        return Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+
+    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
+        """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
+        a = tuple(z[:, : self.slow].T)
+        control = _over(self.control, tuple(z.T), (np.zeros(len(z)), *numbers))
+
+        def density(x: Array, index: NDArray[np.intp]) -> Array:
+            u = np.moveaxis(control(x, index), -1, 0)
+            here, held = [c[index, None] for c in a], [v[index, None] for v in numbers]
+            pace = evaluate(self.pace, *here, x, *held)
+            return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *held), pace], axis=-1)
+
+        means = mean(density, self.switches(z, numbers), rule)
+        means = means[:, :-1] / means[:, -1:]
+        return means[:, :-1], means[:, -1]
 
     def switches(self, z: Array, numbers: tuple[Array, ...]) -> Array:
         """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), filled up by nan."""
@@ -107,16 +122,6 @@ class Model:
         np.add.at(result, point, kinks[:, None, None] * gradient[:, :, None] * gradient[:, None, :])
         return result
 
-    def rule(self, z: Array, numbers: tuple[Array, ...], size: int) -> tuple[Array, Array]:
-        """Anomalies and weights dx / 2 pi (points, nodes) to average over at the points z (points, 2n)."""
-        switches = self.switches(z, numbers)
-        plain = np.isnan(switches).all(axis=1)
-        if plain.all():
-            x = 2 * np.pi * np.arange(size) / size
-            return np.broadcast_to(x, (len(z), size)), np.full((len(z), size), 1 / size)
-        start = np.where(plain[:, None] & (np.arange(switches.shape[1]) == 0), 0.0, switches)
-        return split_rule(start, size)
-
     def ends(self, a: Array, numbers: tuple[Array, ...]) -> tuple[Jet, Jet]:
         """Jets in a of M, stacked along the axis before the derivatives' (..., r), and of g (...)."""
         columns = evaluate(self.boundary, *np.moveaxis(a, -1, 0), *numbers)
@@ -131,10 +136,6 @@ def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]):
         return evaluate(kernel, *(c[index, None] for c in point), x, *(v[index, None] for v in numbers))
 
     return density
-
-
-def _of(density, chosen: NDArray[np.intp], size: int, mean) -> Mean:
-    return mean(lambda x, index: density(x, chosen[index])[..., :size], len(chosen))
 
 
 def _one(points: int, variables: int) -> Array:

@@ -2,7 +2,6 @@
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,37 +9,43 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
-FIRST, LAST = 32, 2**15
-GAUSS_FIRST, GAUSS_LAST = 24, 384
+Rule = tuple[int, int]
+SOLVING: Rule = (32, 24)
+"""Nodes to begin with, of the trapezoid and of Gauss's rule."""
+CHECKING: Rule = (45, 31)
+"""Others, that share none of the former's chances."""
+LAST, GAUSS_LAST = 2**15, 384
 HALF_DIGITS = 1e-8
 """The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
 LOOK = 128
 """How finely a turn is searched for switches."""
 
 
-@dataclass(frozen=True)
-class Mean:
-    """Means of columns.
+def mean(density: Density, switches: NDArray[np.float64], rule: Rule) -> NDArray[np.float64]:
+    """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan."""
+    plain = np.isnan(switches).all(axis=1)
+    if plain.all():
+        return smooth_mean(density, len(switches), rule[0])
+    split = np.nonzero(~plain)[0]
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1])
+    result = np.empty((len(switches), columns.shape[-1]))
+    result[split] = columns
+    if plain.any():
+        smooth = np.nonzero(plain)[0]
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0])
+    return result
 
-    Attributes
-    ----------
-    values : (points, columns) array
-        nan where the density is not defined or the rule did not settle.
-    size : int
-        Nodes of the finest rule used.
+
+def smooth_mean(density: Density, points: int, first: int) -> NDArray[np.float64]:
+    """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
+
+    Returns (points, columns); nan where the density is not defined or the rule does not settle.
     """
-
-    values: NDArray[np.float64]
-    size: int
-
-
-def smooth_mean(density: Density, points: int) -> Mean:
-    """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes."""
     active = np.arange(points)
-    size = FIRST
+    size = first
     grid = 2 * np.pi * np.arange(size)[None] / size
-    first = density(grid, active)
-    total, scale = first.mean(axis=-2), np.abs(first).mean(axis=-2)
+    values = density(grid, active)
+    total, scale = values.mean(axis=-2), np.abs(values).mean(axis=-2)
     result = np.full(total.shape, np.nan)
     while True:
         halfway = density(grid + np.pi / size, active).mean(axis=-2)
@@ -50,15 +55,15 @@ def smooth_mean(density: Density, points: int) -> Mean:
         size *= 2
         more = ~settled & np.isfinite(finer).all(axis=-1)
         if size >= LAST or not more.any():
-            return Mean(result, size)
+            return result
         active, total, scale = active[more], finer[more], scale[more]
         grid = 2 * np.pi * np.arange(size)[None] / size
 
 
-def split_mean(density: Density, switches: NDArray[np.float64]) -> Mean:
+def split_mean(density: Density, switches: NDArray[np.float64], first: int) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     active = np.arange(len(switches))
-    size = GAUSS_FIRST
+    size = first
     result: NDArray[np.float64] | None = None
     coarse = _panels(density, switches, active, size)
     while True:
@@ -71,7 +76,7 @@ def split_mean(density: Density, switches: NDArray[np.float64]) -> Mean:
         result[active[settled]] = value[settled]
         more = ~settled & np.isfinite(value).all(axis=-1)
         if size >= GAUSS_LAST or not more.any():
-            return Mean(result, size)
+            return result
         active, coarse = active[more], fine[more]
 
 
