@@ -33,6 +33,8 @@ from importlib import import_module
 
 _HOMES = {
     "PhaseSystem": "system",
+    "solve_averaged": "solution",
+    "AveragedSolution": "solution",
     "Quadratic": "control_sets",
     "Ball": "control_sets",
     "Ellipsoid": "control_sets",

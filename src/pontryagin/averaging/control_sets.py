@@ -171,11 +171,15 @@ class Box:
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
-        return sp.Add(*(sp.sympify(l) * sp.Abs(part) for l, part in zip(self.bounds, s, strict=True)))
+        return sp.Add(
+            *(sp.sympify(l) * _of_one(sp.Abs, part) for l, part in zip(self.bounds, s, strict=True))
+        )
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """l_i sign(s_i)."""
-        return sp.Matrix([sp.sympify(l) * sp.sign(part) for l, part in zip(self.bounds, s, strict=True)])
+        return sp.Matrix(
+            [sp.sympify(l) * _of_one(sp.sign, part) for l, part in zip(self.bounds, s, strict=True)]
+        )
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """Nothing."""
@@ -291,11 +295,18 @@ class Custom:
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:
-    return sp.Abs(s[0]) if len(s) == 1 else sp.sqrt(sp.Add(*(part**2 for part in s)))
+    return _of_one(sp.Abs, s[0]) if len(s) == 1 else sp.sqrt(sp.Add(*(part**2 for part in s)))
 
 
 def _unit(s: Sequence[sp.Expr]) -> sp.Matrix:
-    return sp.Matrix([sp.sign(s[0])]) if len(s) == 1 else sp.Matrix([*s]) / _norm(s)
+    return sp.Matrix([_of_one(sp.sign, s[0])]) if len(s) == 1 else sp.Matrix([*s]) / _norm(s)
+
+
+def _of_one(function: type[sp.Function], value: sp.Expr) -> sp.Expr:
+    """Abs or sign of a real expression: a root in it is of a positive quantity, and stays outside."""
+    roots = {power: sp.Dummy(positive=True) for power in value.atoms(sp.Pow) if not power.exp.is_integer}
+    back = {positive: power for power, positive in roots.items()}
+    return function(sp.sympify(value).xreplace(roots)).xreplace(back)
 
 
 def _require_count(name: str, values: Sequence, dimension: int) -> None:
