@@ -1,4 +1,4 @@
-"""The first correction, proved for Hamiltonians with any coefficients and checked where quadrature is exact."""
+"""The first correction, proved for any coefficients and checked where quadrature is exact."""
 
 import numpy as np
 import sympy as sp
