@@ -74,11 +74,6 @@ def laplace() -> sp.Matrix:
     return sp.rot_ccw_axis3(phi)[:2, :2] * laplace_in_the_orbit()
 
 
-def parameter() -> sp.Expr:
-    """The focal parameter p = K^2: the radius at a right angle from the pericentre."""
-    return conic()[r].subs(anomaly, sp.pi / 2)
-
-
 @functools.cache
 def conic() -> sp.Dict:
     """Where the body is and how fast, as functions of K, e and x: the orbit of (3.4).
@@ -93,6 +88,11 @@ def conic() -> sp.Dict:
     ]
     found = sp.solve(conditions, [r, v_radial, v_transverse], dict=True)
     return sp.Dict({left: sp.simplify(right) for left, right in found[0].items()})
+
+
+def parameter() -> sp.Expr:
+    """The focal parameter p = K^2: the radius at a right angle from the pericentre."""
+    return conic()[r].subs(anomaly, sp.pi / 2)
 
 
 def on_the_orbit(quantity: sp.Expr) -> sp.Expr:
