@@ -39,6 +39,8 @@ class Problem:
     def hamiltonian(self, z: Array) -> Jet:
         """Jet of H0 = omega kappa + h0 at z (s, k, 2n)."""
         h, omega = self.averaged(z)
+        if not self.kappa.any():
+            return h
         return h + omega.times(np.broadcast_to(self.kappa[:, None], omega.value.shape))
 
     def averaged(self, z: Array) -> tuple[Jet, Jet]:
@@ -108,17 +110,19 @@ def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     """
     closeness = np.full(len(path.duration), np.inf)
     active = np.arange(len(closeness))
-    result = path
+    result, h = path, problem.hamiltonian(path.z)
     for _ in range(STEPS):
-        residual, matrix = _equations(problem[active], result[active])
-        step, solvable = _solve(matrix, residual)
-        size = _size(result[active], step)
-        moved, improved = _damped(problem[active], result[active], step, residual, size)
+        here, at = problem[active], result[active]
+        residual = _residual(here, at, h)
+        step, solvable = _solve(_matrix(here, at, h), residual)
+        size = _size(at, step)
+        moved, after, improved = _damped(here, at, step, _norm(at, residual), size)
         keep = solvable & improved
         result = _replaced(result, active[keep], moved[keep])
         done = keep & (size <= CLOSE)
         closeness[active[done]] = size[done]
-        active = active[keep & ~done]
+        going = keep & ~done
+        active, h = active[going], after[going]
         if not len(active):
             break
     return result, closeness
@@ -154,25 +158,23 @@ def _size(path: Path, step: Array) -> Array:
 
 
 def _damped(
-    problem: Problem, path: Path, step: Array, residual: Array, size: Array
-) -> tuple[Path, NDArray[np.bool_]]:
-    """The longest of the step, its half, its quarter, ... that brings the residual down."""
-    before = _norm(path, residual)
+    problem: Problem, path: Path, step: Array, before: Array, size: Array
+) -> tuple[Path, Jet, NDArray[np.bool_]]:
+    """The longest of the step, its half, its quarter, ... that brings the residual down, and H0's jet there."""
     share = np.ones(len(before))
-    accepted = np.zeros(len(before), dtype=bool)
-    for _ in range(HALVINGS):
-        trial = path.moved(step, share)
-        possible = ~accepted & (trial.duration > 0)
-        if possible.any():
-            after = np.full(len(before), np.inf)
-            chosen = np.nonzero(possible)[0]
-            after[chosen] = _norm(trial[chosen], _equations(problem[chosen], trial[chosen], matrix=False)[0])
-            good = (after <= (1 - 0.1 * share) * before) | (np.isfinite(after) & (size <= CLOSE))
-            accepted |= possible & good
-        if accepted.all():
+    trial = path.moved(step, share)
+    h = problem.hamiltonian(trial.z)
+    for halving in range(HALVINGS):
+        after = _norm(trial, _residual(problem, trial, h))
+        good = (after <= (1 - 0.1 * share) * before) | (np.isfinite(after) & (size <= CLOSE))
+        good &= trial.duration > 0
+        if good.all() or halving == HALVINGS - 1:
             break
-        share = np.where(accepted, share, share / 2)
-    return path.moved(step, share), accepted
+        share = np.where(good, share, share / 2)
+        trial = path.moved(step, share)
+        again = np.nonzero(~good)[0]
+        h = h.replaced(again, problem[again].hamiltonian(trial.z[again]))
+    return trial, h, good
 
 
 def _norm(path: Path, residual: Array) -> Array:
@@ -194,51 +196,51 @@ def _norm(path: Path, residual: Array) -> Array:
     return np.nan_to_num(np.abs(residual / rows).max(axis=1), nan=np.inf)
 
 
-def _equations(problem: Problem, path: Path, matrix: bool = True) -> tuple[Array, Array]:
-    """Residuals (s, unknowns) and their derivatives: start, collocation, target, transversality, H0 = 0."""
-    z, duration = path.z, path.duration
-    stack, points, width = z.shape
-    n, degree = width // 2, path.degree
-    weights = chebyshev.integrals(degree)
-    h = problem.hamiltonian(z)
-    rate = _turned(h.gradient, -1)
-    way = weights @ rate
+def _residual(problem: Problem, path: Path, h: Jet) -> Array:
+    """What is left (s, unknowns) of: start, collocation, target, transversality, H0 = 0 at the end."""
+    z, n = path.z, problem.model.slow
+    way = chebyshev.integrals(path.degree) @ _turned(h.gradient, -1)
     target, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
-    residual = np.concatenate(
+    pull = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
+    return np.concatenate(
         [
             z[:, 0, :n] - problem.start,
-            (z - z[:, :1] - duration[:, None, None] * way)[:, 1:].reshape(stack, -1),
+            (z - z[:, :1] - path.duration[:, None, None] * way)[:, 1:].reshape(len(z), -1),
             target.value - problem.level,
-            z[:, -1, n:] + terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient),
+            z[:, -1, n:] + pull,
             h.value[:, -1:],
         ],
         axis=1,
     )
-    if not matrix:
-        return residual, residual
-    r = target.value.shape[-1]
+
+
+def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
+    """Derivatives of the residual (s, unknowns, unknowns) in z by points, the duration and alpha."""
+    stack, points, width = path.z.shape
+    n, degree, r = width // 2, path.degree, path.multipliers.shape[-1]
+    weights = chebyshev.integrals(degree)
     size = points * width
     result = np.zeros((stack, size + 1 + r, size + 1 + r))
     result[:, np.arange(n), np.arange(n)] = 1
-    flow = _turned(h.hessian, -2)
-    block = -duration[:, None, None, None, None] * np.einsum("jk,skab->sjakb", weights, flow)
+    flow = -path.duration[:, None, None, None] * _turned(h.hessian, -2)
+    block = weights[:, None, :, None] * flow.transpose(0, 2, 1, 3)[:, None]
     index = np.arange(points)
     for i in range(width):
         block[:, index, i, index, i] += 1
         block[:, :, i, 0, i] -= 1
-    inner = slice(n, n + degree * width)
-    result[:, inner, :size] = block[:, 1:].reshape(stack, degree * width, size)
-    result[:, inner, size] = -way[:, 1:].reshape(stack, -1)
     row = n + degree * width
+    result[:, n:row, :size] = block[:, 1:].reshape(stack, degree * width, size)
+    result[:, n:row, size] = -(weights @ _turned(h.gradient, -1))[:, 1:].reshape(stack, -1)
+    target, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
     end = slice(size - width, size - n)
     result[:, row : row + r, end] = target.gradient
     row += r
-    curvature = terminal.hessian + np.einsum("sr,srij->sij", path.multipliers, target.hessian)
-    result[:, row : row + n, end] = curvature
+    curvature = np.einsum("sr,srij->sij", path.multipliers, target.hessian)
+    result[:, row : row + n, end] = terminal.hessian + curvature
     result[:, row + np.arange(n), size - n + np.arange(n)] = 1
     result[:, row : row + n, size + 1 :] = np.swapaxes(target.gradient, 1, 2)
     result[:, -1, size - width : size] = h.gradient[:, -1]
-    return residual, result
+    return result
 
 
 def _turned(derivatives: Array, axis: int) -> Array:

@@ -19,15 +19,22 @@ class Jet:
     gradient: NDArray[np.float64]
     hessian: NDArray[np.float64]
 
+    def __getitem__(self, members) -> "Jet":
+        return Jet(self.value[members], self.gradient[members], self.hessian[members])
+
+    def replaced(self, members: NDArray[np.intp], by: "Jet") -> "Jet":
+        """The same with other jets for some members."""
+        parts = [self.value.copy(), self.gradient.copy(), self.hessian.copy()]
+        for part, other in zip(parts, (by.value, by.gradient, by.hessian), strict=True):
+            part[members] = other
+        return Jet(*parts)
+
     def padded(self, size: int) -> "Jet":
         """The same function among `size` variables, independent of the further ones."""
-        more = size - self.gradient.shape[-1]
-        lead = [(0, 0)] * self.value.ndim
-        return Jet(
-            self.value,
-            np.pad(self.gradient, [*lead, (0, more)]),
-            np.pad(self.hessian, [*lead, (0, more), (0, more)]),
-        )
+        count, shape = self.gradient.shape[-1], self.value.shape
+        gradient, hessian = np.zeros((*shape, size)), np.zeros((*shape, size, size))
+        gradient[..., :count], hessian[..., :count, :count] = self.gradient, self.hessian
+        return Jet(self.value, gradient, hessian)
 
     def __add__(self, other: "Jet") -> "Jet":
         return Jet(self.value + other.value, self.gradient + other.gradient, self.hessian + other.hessian)

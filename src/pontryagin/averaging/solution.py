@@ -197,14 +197,13 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
     >>> solution.certificate.holds(1e-10)
     True
     """
-    from pontryagin.averaging.average import model
     from pontryagin.averaging.system import PhaseSystem
 
     if not isinstance(system, PhaseSystem):
         raise TypeError(f"system must be a PhaseSystem, got {system!r}")
     begin = vectors("start", start, len(system.slow))
     names = tuple(str(symbol) for symbol in system.slow)
-    return solved(model(system), names, begin, tuple(system.numbers.values()), lambda: system, kappa=kappa)
+    return solved(system.model, names, begin, tuple(system.numbers.values()), lambda: system, kappa=kappa)
 
 
 def solved(

@@ -95,7 +95,7 @@ class PhaseSystem:
 
     @cached_property
     def phase_costate(self) -> sp.Symbol:
-        """p_x, conjugate to the anomaly; over epsilon, where it stands in `hamiltonian`'s F."""
+        """p_x, conjugate to the anomaly: the whole Hamiltonian is p_x r + epsilon h*."""
         return sp.Symbol(f"p_{self.phase}", real=True)
 
     @cached_property
@@ -138,6 +138,13 @@ class PhaseSystem:
     def maximiser(self) -> sp.Matrix:
         """u*(a, x, p, p_x), (1.5), (m, 1)."""
         return self.control_set.maximiser(list(self.switching))
+
+    @cached_property
+    def model(self):
+        """The numeric side of the system, compiled: a `pontryagin.averaging.model.Model`."""
+        from pontryagin.averaging.average import model
+
+        return model(self)
 
     @cached_property
     def shape(self) -> tuple[int, ...]:

@@ -74,16 +74,11 @@ def laplace() -> sp.Matrix:
     return sp.rot_ccw_axis3(phi)[:2, :2] * laplace_in_the_orbit()
 
 
-def parameter() -> sp.Expr:
-    """The focal parameter p = K^2."""
-    return momentum**2
-
-
 @functools.cache
 def conic() -> sp.Dict:
     """Where the body is and how fast, as functions of K, e and x: the orbit of (3.4).
 
-    Laplace's vector has the length e and makes the angle -x with the radius; this is solved for r, v_r, v_phi.
+    Laplace's vector has the length e and makes the angle -x with the radius: solved for r, v_r, v_phi.
     """
     vector = laplace_in_the_orbit()
     conditions = [
@@ -93,6 +88,11 @@ def conic() -> sp.Dict:
     ]
     found = sp.solve(conditions, [r, v_radial, v_transverse], dict=True)
     return sp.Dict({left: sp.simplify(right) for left, right in found[0].items()})
+
+
+def parameter() -> sp.Expr:
+    """The focal parameter p = K^2: the radius at a right angle from the pericentre."""
+    return conic()[r].subs(anomaly, sp.pi / 2)
 
 
 def on_the_orbit(quantity: sp.Expr) -> sp.Expr:
@@ -210,10 +210,11 @@ class Model(NamedTuple):
 def model() -> Model:
     """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as the engine takes it.
 
-    The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, the true anomaly, real;
-    psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps are affine in
-    the control; `anomaly_rate` is x' without thrust, the same as mean_motion/weight. The eccentricity is
-    written out as sqrt(1 + 2 E K^2); on the circle, where it vanishes, `phase_rate` has no value.
+    The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
+    anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps
+    are affine in the control; `anomaly_rate` is x' without thrust, the same as mean_motion/weight. The
+    eccentricity is written out as sqrt(1 + 2 E K^2); on the circle, where it vanishes, `phase_rate` has no
+    value.
     """
     rates = element_rates()
     slow = sp.Matrix([affine(rates[energy] / epsilon), affine(rates[momentum] / epsilon)])
