@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_ends
-from pontryagin.averaging.canonical import Canonical, canonical, epsilon, y
+from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
 from pontryagin.flow import Ends, ends
 
@@ -117,9 +117,7 @@ class Shooting:
         p_w[..., n:] += jacobian.transpose(0, 2, 1)
         p_theta = rates[:, n : 2 * n] + (curvature @ a_theta[..., None])[..., 0]
         return shot, Slopes(
-            np.concatenate(
-                [jacobian @ a_w / self.scale_m[:, None], p_w / self.scale_p[:, None]], axis=1
-            ),
+            np.concatenate([jacobian @ a_w / self.scale_m[:, None], p_w / self.scale_p[:, None]], axis=1),
             np.concatenate(
                 [(jacobian @ a_theta[..., None])[..., 0] / self.scale_m, p_theta / self.scale_p], axis=1
             ),

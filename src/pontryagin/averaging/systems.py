@@ -84,7 +84,10 @@ def _orbit_in_eccentric_anomaly() -> tuple[sp.Matrix, sp.Expr, sp.Expr]:
     rates = orbit.element_rates()
     of_x = orbit.eccentric_anomaly()
     turn = of_x.diff(x) * -rates[orbit.gamma] + of_x.diff(e) * rates[orbit.e]
-    shift = {u: seen((-turn / orbit.epsilon).coeff(u) if False else sp.expand(-turn / orbit.epsilon).coeff(u)) for u in model.control}
+    shift = {
+        u: seen((-turn / orbit.epsilon).coeff(u) if False else sp.expand(-turn / orbit.epsilon).coeff(u))
+        for u in model.control
+    }
     return rates, shift, seen
 
 
