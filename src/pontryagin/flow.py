@@ -20,7 +20,7 @@ Flow = Callable[..., NDArray[np.float64]]
 Ends = Callable[..., tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 TOLERANCE = 1e-15
-STEPS = 1_000_000
+STEPS = 100_000
 SMALL = 200
 """Right-hand sides of fewer operations than this are unrolled by heyoka: faster, but slow to compile."""
 
