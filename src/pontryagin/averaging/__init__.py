@@ -34,6 +34,10 @@ from importlib import import_module
 _HOMES = {
     "PhaseSystem": "system",
     "solve_averaged": "solution",
+    "smooth_example": "smooth",
+    "rotor": "rotor_example",
+    "kepler": "kepler_example",
+    "spin_down": "spin_down_example",
     "AveragedSolution": "solution",
     "Quadratic": "control_sets",
     "Ball": "control_sets",

@@ -1,6 +1,5 @@
 """From a phase system to its kernels: the average in closed form where it is one, else its density."""
 
-import functools
 from collections.abc import Sequence
 
 import sympy as sp
@@ -57,19 +56,28 @@ def averages(system: PhaseSystem) -> tuple[sp.Expr, sp.Expr] | None:
 
 
 def model(system: PhaseSystem) -> Model:
-    """Compile a system; systems that differ in their numbers only share what was compiled."""
-    kernels = {
-        name: None if columns is None else _compiled(name, arguments, tuple(columns))
-        for name, (arguments, columns) in kernel_expressions(system).items()
-    }
-    return Model(slow=len(system.slow), target=len(system.target), **kernels)
+    """Compile a system; systems that differ in the values of their numbers only share what is compiled."""
+    key = (
+        *(system.slow, system.control, system.phase, tuple(system.numbers), system.f, system.target),
+        *(system.omega, system.rate, system.weight, system.running_cost, system.terminal_cost),
+        *(system.hamiltonian, system.maximiser.as_immutable()),
+    )
+    if key not in _MODELS:
+        kernels = {
+            name: None if columns is None else _compiled(name, arguments, columns)
+            for name, (arguments, columns) in kernel_expressions(system).items()
+        }
+        _MODELS[key] = Model(slow=len(system.slow), target=len(system.target), **kernels)
+    return _MODELS[key]
 
 
-def kernel_expressions(system: PhaseSystem) -> dict[str, tuple[tuple[sp.Symbol, ...], Sequence | None]]:
-    """Arguments and columns of every kernel of `Model`, by name."""
+def kernel_expressions(
+    system: PhaseSystem, averaged: sp.Expr | None = None
+) -> dict[str, tuple[tuple[sp.Symbol, ...], Sequence | None]]:
+    """Arguments and columns of every kernel of `Model`, by name; h0 may be known beforehand."""
     a, p, x, numbers = system.slow, system.costates, system.phase, tuple(system.numbers)
     z = (*a, *p)
-    known = averages(system)
+    known = averages(system) if averaged is None else (averaged, system.omega)
     integral = known is None and system.omega is None
     density: list[sp.Expr] | None = None
     switching: list[sp.Expr] | None = None
@@ -109,6 +117,8 @@ def switching_functions(integrand: sp.Expr, x: sp.Symbol) -> list[sp.Expr]:
     return list(dict.fromkeys(kink for kink in found if kink.has(x)))
 
 
-@functools.lru_cache(maxsize=256)
-def _compiled(name: str, arguments: tuple[sp.Symbol, ...], columns: tuple[sp.Expr, ...]) -> Kernel:
+def _compiled(name: str, arguments: Sequence[sp.Symbol], columns: Sequence[sp.Expr]) -> Kernel:
     return compiler.function(name, arguments, {f"c{i}": column for i, column in enumerate(columns)})
+
+
+_MODELS: dict[tuple, Model] = {}

@@ -160,7 +160,7 @@ def _size(path: Path, step: Array) -> Array:
 def _damped(
     problem: Problem, path: Path, step: Array, before: Array, size: Array
 ) -> tuple[Path, Jet, NDArray[np.bool_]]:
-    """The longest of the step, its half, its quarter, ... that brings the residual down, and H0's jet there."""
+    """The longest of the step, its half, its quarter, ... that lowers the residual, and H0's jet there."""
     share = np.ones(len(before))
     trial = path.moved(step, share)
     h = problem.hamiltonian(trial.z)

@@ -14,6 +14,9 @@ GROWTHS = 40
 NEAR = 1e-5
 """Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
 
+IDLE = 1e-9
+"""The share of a costate that is as good as none, and has derivatives where none has not."""
+
 
 @dataclass(frozen=True, eq=False)
 class Guess:
@@ -47,11 +50,10 @@ def straight(problem: Problem, degree: int) -> Guess:
     end, direction = _nearest(problem)
     share = chebyshev.points(degree)
     slow = start[:, None] + share[:, None] * (end - start)[:, None]
-    still = np.concatenate([slow, np.zeros_like(slow)], axis=-1)
-    h, omega = problem.averaged(still)
-    idle = h.value + problem.kappa[:, None] * omega.value
     length, stuck = _level(problem, slow, direction, _level(problem, slow[:, :1], direction)[0])
     eta = length[..., None] * direction[:, None]
+    h, omega = problem.averaged(np.concatenate([slow, IDLE * eta], axis=-1))
+    idle = h.value + problem.kappa[:, None] * omega.value
     z = np.concatenate([slow, eta], axis=-1)
     speed = problem.hamiltonian(z).gradient[..., model.slow :]
     along = np.einsum("ski,si->sk", speed, direction)

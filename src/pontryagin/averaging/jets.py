@@ -89,6 +89,7 @@ def evaluate(kernel: Kernel, *arguments: NDArray[np.float64]) -> NDArray[np.floa
     """All columns of a kernel at arrays of arguments, (..., columns); nan where it is not defined."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         columns = kernel(*arguments)
+    columns = columns if isinstance(columns, tuple) else (columns,)
     shape = np.broadcast_shapes(*(np.shape(argument) for argument in arguments))
     result = np.empty((*shape, len(columns)))
     for i, column in enumerate(columns):

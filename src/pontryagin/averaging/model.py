@@ -77,13 +77,13 @@ class Model:
         if self.turn is None:
             return None
         density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
-        return jet(smooth_mean(density, len(z), rule[0]), self.slow).padded(2 * self.slow)
+        return jet(smooth_mean(density, len(z), rule[0], 1 + self.slow), self.slow).padded(2 * self.slow)
 
     def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
         assert self.density is not None
         density = _over(self.density, tuple(z.T), numbers)
         switches = self.switches(z, numbers)
-        columns = mean(lambda x, i: density(x, i)[..., :-1], switches, rule)
+        columns = mean(lambda x, i: density(x, i)[..., :-1], switches, rule, 1 + 2 * self.slow)
         h = jet(columns, 2 * self.slow)
         if np.isnan(switches).all():
             return h

@@ -17,26 +17,33 @@ CHECKING: Rule = (45, 31)
 LAST, GAUSS_LAST = 2**15, 384
 HALF_DIGITS = 1e-8
 """The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
+ROUNDING = 1e-14
+"""A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
 """How finely a turn is searched for switches."""
 
 
-def mean(density: Density, switches: NDArray[np.float64], rule: Rule) -> NDArray[np.float64]:
-    """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan."""
+def mean(
+    density: Density, switches: NDArray[np.float64], rule: Rule, judged: int | None = None
+) -> NDArray[np.float64]:
+    """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
+
+    Only the first `judged` columns say when a rule is fine enough: the others are their derivatives.
+    """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
-        return smooth_mean(density, len(switches), rule[0])
+        return smooth_mean(density, len(switches), rule[0], judged)
     split = np.nonzero(~plain)[0]
-    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1])
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
     result = np.empty((len(switches), columns.shape[-1]))
     result[split] = columns
     if plain.any():
         smooth = np.nonzero(plain)[0]
-        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0])
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
     return result
 
 
-def smooth_mean(density: Density, points: int, first: int) -> NDArray[np.float64]:
+def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
     """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
 
     Returns (points, columns); nan where the density is not defined or the rule does not settle.
@@ -50,7 +57,7 @@ def smooth_mean(density: Density, points: int, first: int) -> NDArray[np.float64
     while True:
         halfway = density(grid + np.pi / size, active).mean(axis=-2)
         finer = (total + halfway) / 2
-        settled = (np.abs(finer - total) <= HALF_DIGITS * scale).all(axis=-1)
+        settled = _settled(finer - total, scale, judged)
         result[active[settled]] = finer[settled]
         size *= 2
         more = ~settled & np.isfinite(finer).all(axis=-1)
@@ -60,24 +67,30 @@ def smooth_mean(density: Density, points: int, first: int) -> NDArray[np.float64
         grid = 2 * np.pi * np.arange(size)[None] / size
 
 
-def split_mean(density: Density, switches: NDArray[np.float64], first: int) -> NDArray[np.float64]:
+def split_mean(
+    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     active = np.arange(len(switches))
     size = first
-    result: NDArray[np.float64] | None = None
     coarse = _panels(density, switches, active, size)
+    result = np.full((len(switches), coarse.shape[-1]), np.nan)
     while True:
         size *= 2
         fine = _panels(density, switches, active, size)
-        if result is None:
-            result = np.full(fine.shape[:1] + fine.shape[2:], np.nan)
-        value = fine[:, 0]
-        settled = (np.abs(value - coarse[:, 0]) <= HALF_DIGITS * fine[:, 1]).all(axis=-1)
+        value, scale = fine[:, 0], fine[:, 1]
+        settled = _settled(value - coarse[:, 0], scale, judged)
         result[active[settled]] = value[settled]
         more = ~settled & np.isfinite(value).all(axis=-1)
         if size >= GAUSS_LAST or not more.any():
             return result
         active, coarse = active[more], fine[more]
+
+
+def _settled(change: NDArray, scale: NDArray, judged: int | None) -> NDArray[np.bool_]:
+    change, scale = np.abs(change[:, :judged]), scale[:, :judged]
+    noise = ROUNDING * scale.max(axis=-1, keepdims=True)
+    return (change <= np.maximum(HALF_DIGITS * scale, noise)).all(axis=-1)
 
 
 def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
