@@ -24,6 +24,7 @@ VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 PAPERS = (
     "pontryagin.triple_integrator.claims",
+    "pontryagin.rendezvous.claims",
     "pontryagin.orbit_correction.claims",
 )
 """Modules whose ``ENTRIES`` make up the ledger, a paper a line."""

@@ -21,6 +21,18 @@ PAPERS = (
         "Yu. N. Gorelov, M. V. Morozova, 2012 (in Russian)",
     ),
     Paper(
+        "Pimkina & Chelnokov",
+        "rendezvous",
+        "Boundary value problem of reduced dimension for the optimal control of a spacecraft's orbital motion",
+        "T. V. Pimkina, Yu. N. Chelnokov (in Russian)",
+    ),
+    Paper(
+        "Sapunkov",
+        "rendezvous",
+        "Optimal trajectories and controls in the problem of the rendezvous of spacecraft",
+        "Ya. G. Sapunkov (in Russian; the first page)",
+    ),
+    Paper(
         "Ibragimov 2017",
         "orbit_correction",
         "Time-optimal correction of a satellite's orbit",

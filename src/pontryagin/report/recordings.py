@@ -39,7 +39,7 @@ class Clip:
 def modules(workspace: Workspace) -> list[str]:
     """The papers' playback modules, those that exist."""
     source = dependencies.Source(workspace.source)
-    names = [f"{source.folder.name}.{paper.package}.playback" for paper in PAPERS]
+    names = dict.fromkeys(f"{source.folder.name}.{paper.package}.playback" for paper in PAPERS)
     return [name for name in names if name in source.modules]
 
 

@@ -1,0 +1,192 @@
+"""Section 2, the reduction: integrals, (11) to (14), and the order of the system."""
+
+import sympy as sp
+
+from pontryagin.evidence import Equality, Proof, Refutation, Steps, vanishes
+from pontryagin.ledger import Page
+from pontryagin.rendezvous.claims import meetings
+from pontryagin.rendezvous.claims.statement import at_unit_norm
+from pontryagin.rendezvous.derivation import principle, reduction, transversality
+from pontryagin.rendezvous.derivation.model import anomaly, attitude, c, gravity, r, thrust, v1
+from pontryagin.rendezvous.derivation.principle import mu, nu, nu0, rho, s1
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product
+from pontryagin.rendezvous.derivation.reduction import anomaly_constant
+
+claim = Page("Pimkina & Chelnokov")
+
+e = principle.e
+nu1, nu2, nu3 = nu
+p1, p2, p3 = thrust
+
+
+def rates(*variables: sp.Symbol) -> list[sp.Expr]:
+    """Derived rates of some of the ten variables."""
+    known = dict(zip(reduction.REDUCED, reduction.rates(), strict=True))
+    return [known[x] for x in variables]
+
+
+def constant(expression: sp.Expr) -> bool:
+    """Whether an expression is an integral of the 16 equations, at any thrust."""
+    return vanishes(sp.expand(sp.simplify(reduction.along(expression))))
+
+
+@claim("section 2: ν*", "ν* = μ∘λ~ is a first integral", verdict="holds", remark="At any thrust.")
+def invariant():
+    def argument() -> Steps:
+        for k, part in enumerate(reduction.invariant()):
+            yield f"component {k} of μ∘λ~ is constant along the 16 equations", constant(part)
+
+    return Proof(argument, display=r"\bar\nu^* = \bar\mu\circ\tilde{\bar\lambda} = \mathrm{const}")
+
+
+@claim("section 2: ν = λ~∘ν*∘λ", "the new variable from the integral", verdict="holds")
+def nu_from_the_invariant():
+    def argument() -> Steps:
+        seen = product(conjugate(attitude), reduction.invariant(), attitude)
+        for k, (a, b) in enumerate(zip(seen, reduction.nu_of(), strict=True)):
+            yield f"component {k} of λ~∘ν*∘λ is that of λ~∘μ, for |λ| = 1", vanishes(at_unit_norm(a - b))
+
+    return Proof(argument, display=r"\bar\nu = \tilde{\bar\lambda}\circ\bar\nu^*\circ\bar\lambda")
+
+
+@claim(
+    "section 2: integrals",
+    "the boundary value problem has first integrals, which are taken into account",
+    verdict="holds",
+    remark="ν* (four), |λ|, C_φ and H. ν0 is one of the four in disguise, and a pure gauge: no thrust holds "
+    "it. |ν| stays constant in (14) and is not used: the ten equations are one more than needed.",
+)
+def integrals():
+    def argument() -> Steps:
+        norm, gauge, square = reduction.norms()
+        yield "|λ|² is constant", constant(norm)
+        yield "C_φ = Φ*(1 + e* cos φ*)² is constant", constant(reduction.anomaly_integral())
+        yield "ν0 is constant", constant(gauge)
+        without = {
+            principle.in_nu(part).has(nu0) for part in (principle.hamiltonian(), *principle.switching())
+        }
+        yield "and neither H nor n holds it", without == {False}
+        yield "ν1² + ν2² + ν3² is constant", constant(square)
+        yield (
+            "H is constant where the thrust is stationary or constant in η",
+            vanishes(principle.in_nu(reduction.along(principle.hamiltonian()))),
+        )
+
+    return Proof(argument)
+
+
+@claim("section 2: six", "the order falls by six for any control p", verdict="holds")
+def six():
+    def argument() -> Steps:
+        whole = [*principle.STATE, *principle.COSTATE]
+        yield "16 − 4 (λ) − 4 (μ) − 1 (Φ*) + 3 (ν) = 10", len(whole) - 6 == len(reduction.REDUCED)
+        outside = set().union(*(rate.free_symbols for rate in reduction.rates())) - set(reduction.REDUCED)
+        yield "the ten rates hold no λ, μ, Φ*", outside.isdisjoint(whole)
+        yield "and p1, p2, p3 as they are: any control", set(thrust) < outside
+        yield "ν0 drops out too: its rate is 0", reduction.gauge_rate() == 0
+
+    return Proof(argument)
+
+
+@claim("(11)", "rates of v1, r, c", verdict="holds")
+def translation():
+    keys = (r"\dot v_1", r"\dot r", r"\dot c")
+    printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
+    return Equality(
+        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(v1, r, c), strict=True))
+    )
+
+
+@claim("(12)", "rates of s1 and ρ", verdict="holds")
+def radial_costates():
+    keys = (r"\dot s_1", r"\dot\rho")
+    printed = (
+        -rho,
+        ((3 * c**2 / r - 2 * gravity) * s1 + c * nu3) / r**3 - e * p2 - nu1 * p3 / (2 * c),
+    )
+    return Equality(
+        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(s1, rho), strict=True))
+    )
+
+
+@claim("(13)", "rate of e", verdict="holds")
+def areal_costate():
+    key = r"\dot e"
+    printed = -(2 * c * s1 / r + nu3 / 2) / r**2 + r * nu1 * p3 / (2 * c**2)
+    return Equality({key: printed}, lambda: {key: rates(e)[0]})
+
+
+@claim("(14)", "rates of ν1, ν2, ν3", verdict="holds")
+def nu_rates():
+    keys = (r"\dot\nu_1", r"\dot\nu_2", r"\dot\nu_3")
+    printed = (c * nu2 / r**2, -c * nu1 / r**2 + r * nu3 * p3 / c, -r * nu2 * p3 / c)
+    return Equality(dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(*nu), strict=True)))
+
+
+@claim("after (14): order", "(11) to (14) and φ*' form a system of order ten", verdict="holds")
+def order_ten():
+    def argument() -> Steps:
+        yield "ten variables", len(reduction.REDUCED) == len(reduction.rates()) == 10
+        n = dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True))
+        closed = [rate.subs(n) for rate in reduction.rates()]
+        outside = set().union(*(rate.free_symbols for rate in closed)) - set(reduction.REDUCED)
+        yield "with the optimal thrust they are closed", outside.isdisjoint((*attitude, *mu, *thrust, nu0))
+        yield "φ*' holds φ* alone", set(reduction.REDUCED) & rates(anomaly)[0].free_symbols == {anomaly}
+        yield (
+            "and no other rate holds φ*",
+            not any(
+                rate.has(anomaly) for x, rate in zip(reduction.REDUCED, closed, strict=True) if x != anomaly
+            ),
+        )
+
+    return Proof(argument)
+
+
+@claim(
+    "after (14): eleven",
+    "ten arbitrary constants appear, and t_k is the eleventh unknown",
+    verdict="false",
+    remark="C_φ is a twelfth: it stands in (16) and (17), and no variable of (11) to (14) gives it. The law "
+    "(n, p) = α1 + α2p² at t_k takes the place of both and needs none.",
+)
+def eleven_unknowns():
+    def counterexample() -> Steps:
+        yield "(16) holds C_φ with the factor 1", transversality.condition().diff(anomaly_constant) == 1
+        yield "which is none of the ten variables", anomaly_constant not in reduction.REDUCED
+        member = meetings.INCLINED[0]
+        found = meetings.outcome(member)
+        yield (
+            f"a meeting, C_φ = {found.anomaly_constant:.9f}: all conditions leave "
+            f"{found.printed_conditions:.1e}",
+            found.printed_conditions < meetings.ROUNDING,
+        )
+        other = meetings.left_in_16(member, found.anomaly_constant + 1)
+        yield f"the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}", abs(other - 1) < 1e-9
+
+    return Refutation(counterexample)
+
+
+@claim(
+    "before (15)",
+    "(5), (15), (16) and (17) serve to determine six unknown constants and t_k",
+    verdict="false",
+    remark="With C_φ eight unknowns; (5), (16) and (17) are five conditions, and (15) counts for two, since "
+    "|ν| is constant: seven in all. One-parameter families satisfy everything, see the conclusion.",
+)
+def six_unknowns():
+    def counterexample() -> Steps:
+        found = meetings.singular_values(meetings.INCLINED[0], repaired=False)
+        yield "eight conditions, eight unknowns: ρ, s1, e, ν, t_k, C_φ", len(found) == 8
+        yield (
+            f"at a meeting their Jacobian has the singular values {found[0]:.0f} ... {found[-2]:.3f}, "
+            f"{found[-1]:.0e}",
+            found[-1] < 1e-7 < 1e-2 < found[-2],
+        )
+        pair = meetings.INCLINED[:2]
+        outcomes = [meetings.outcome(member) for member in pair]
+        left = max(outcome.printed_conditions for outcome in outcomes)
+        yield f"two sets of constants leave {left:.1e} in all of them", left < meetings.ROUNDING
+        apart = max(abs(a - b) for a, b in zip(pair[0].costates, pair[1].costates, strict=True))
+        yield f"and differ by {apart:.2f}", apart > 0.1
+
+    return Refutation(counterexample)

@@ -1,0 +1,80 @@
+"""Slow spirals from circle to circle: meetings of ever smaller energy, in closed form.
+
+The areal constant rises as c = 1 + (c* - 1)(3s^2 - 2s^3), s = t/T, and r = c^2/fM, so that gravity and
+rotation balance; the thrust that is left to supply, r'' along the radius and c'/r across, is of order 1/T.
+The durations at which the target is there form a sequence without end.
+"""
+
+import math
+from functools import cache
+
+import mpmath
+import sympy as sp
+
+from pontryagin.rendezvous.derivation import model
+from pontryagin.rendezvous.derivation.model import c, gravity, r, thrust
+
+share, duration = sp.symbols("s T", positive=True)
+OUTER = sp.Rational(3, 2)
+"""Radius of the target's circle; the craft's is 1, fM = 1."""
+LEAD = math.pi / 3
+"""How far the target is ahead at the start."""
+
+
+def areal() -> sp.Expr:
+    """c(s)."""
+    return 1 + (sp.sqrt(OUTER) - 1) * (3 * share**2 - 2 * share**3)
+
+
+def radius() -> sp.Expr:
+    """r(s) = c^2/fM at fM = 1."""
+    return areal() ** 2
+
+
+def by_time(expression: sp.Expr) -> sp.Expr:
+    """d/dt."""
+    return expression.diff(share) / duration
+
+
+@cache
+def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
+    """p1 and p2 that (2) asks for along the spiral, where r = c^2."""
+    rates = model.motion()[0].subs({r: c**2, gravity: 1})
+    radial = sp.solve(rates[1] - by_time(by_time(radius())), thrust[0])[0]
+    across = sp.solve(rates[2].subs(c, areal()) - by_time(areal()), thrust[1])[0]
+    return radial, across
+
+
+def mean(expression: sp.Expr) -> float:
+    """Integral over 0 <= s <= 1."""
+    return float(mpmath.quad(sp.lambdify(share, expression, "mpmath"), [0, 1]))
+
+
+@cache
+def sweep() -> float:
+    """Angle swept by the craft, over T: the mean of c/r^2."""
+    return mean(areal() / radius() ** 2)
+
+
+def target_rate() -> float:
+    """Angular rate of the target on its circle."""
+    return float(OUTER ** sp.Rational(-3, 2))
+
+
+def duration_of(lap: int) -> float:
+    """T at which the craft has made up for the lead and so many laps."""
+    return (LEAD + 2 * math.pi * lap) / (sweep() - target_rate())
+
+
+@cache
+def energies() -> tuple[float, float]:
+    """a and b of the integral of p^2 dt = a/T^3 + b/T: of the radial thrust and of the transverse one."""
+    radial, across = (mean(part.subs(duration, 1) ** 2) for part in needed_thrust())
+    return radial, across
+
+
+def energy_of(lap: int) -> float:
+    """The integral of p^2 dt of the meeting after so many laps."""
+    radial, across = energies()
+    whole = duration_of(lap)
+    return radial / whole**3 + across / whole

@@ -1,0 +1,277 @@
+"""Section 1 up to the functional: the problem, (1) to (6)."""
+
+import sympy as sp
+
+from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
+from pontryagin.ledger import Page
+from pontryagin.rendezvous.claims import meetings
+from pontryagin.rendezvous.derivation import forms, model, principle, transversality
+from pontryagin.rendezvous.derivation.model import (
+    EX,
+    EY,
+    EZ,
+    GAUSS,
+    anomaly,
+    areal,
+    attitude,
+    c,
+    eccentricity,
+    gravity,
+    orientation,
+    parameter,
+    r,
+    thrust,
+    v1,
+)
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product, rotated, vect
+
+claim = Page("Pimkina & Chelnokov")
+
+p1, p2, p3 = thrust
+growth = 1 + eccentricity * sp.cos(anomaly)
+omega = sp.Matrix([r * p3 / c, 0, c / r**2])
+lam = attitude
+
+
+def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Expr:
+    """A polynomial in a quaternion, at the norm 1."""
+    first, *others = quaternion
+    remainder = sp.rem(sp.expand(expression), quaternion.dot(quaternion) - 1, first)
+    return sp.simplify(remainder.subs(first**2, 1 - sum(part**2 for part in others)))
+
+
+@claim(
+    "abstract",
+    "nonlinear transformations lower the dimension of the boundary value problem",
+    verdict="holds",
+    remark="To ten equations and one quadrature more than the paper has: see the conclusion.",
+)
+def lower_dimension():
+    def argument() -> Steps:
+        counts = [len(form("unsaturated").states) for form in (forms.full, forms.repaired)]
+        yield "16 equations become 11 with the angle χ about ν*", counts == [16, 11]
+        found = meetings.singular_values(meetings.INCLINED[0], repaired=True)
+        yield (
+            "seven conditions (5), (6), (n, p) = α1 + α2p² fix seven unknowns: at a meeting their Jacobian "
+            f"has singular values from {found[0]:.0f} to {found[-1]:.4f}",
+            len(found) == 7 and found[-1] > 1e-3,
+        )
+        yield from meetings.true_meeting(meetings.INCLINED)
+
+    return Proof(argument)
+
+
+@claim("(1)", "the thrust is bounded: 0 ≤ p ≤ p_max", verdict="holds")
+def bound():
+    def argument() -> Steps:
+        saturated = principle.optimal_thrust("saturated")
+        yield "saturated, |p| = p_max", vanishes(saturated.dot(saturated) - principle.peak**2)
+        free = principle.optimal_thrust("unsaturated")
+        stationary = principle.stationary_magnitude()
+        yield "unsaturated, |p| = |n|/(2α2)", vanishes(free.dot(free) - stationary**2)
+        switch = {
+            principle.s1: 2 * principle.energy_weight * principle.peak,
+            principle.e: 0,
+            principle.nu[0]: 0,
+        }
+        yield (
+            "which has risen to p_max at |n| = 2α2 p_max, where (10) changes",
+            vanishes(sp.simplify(stationary.subs(switch)) - principle.peak),
+        )
+
+    return Proof(argument, display=r"0 \le p \le p_{\max} < \infty,\quad p = |\bar p|")
+
+
+@claim("(2)", "v1' = c²/r³ − fM/r² + p1, r' = v1, c' = r p2", verdict="holds")
+def translation():
+    keys = (r"\dot v_1", r"\dot r", r"\dot c")
+
+    def derived():
+        rates = model.motion()[0]
+        return dict(zip(keys, (rates[1], rates[0], rates[2]), strict=True))
+
+    printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
+    return Equality(dict(zip(keys, printed, strict=True)), derived)
+
+
+@claim("(3)", "2λ' = λ∘ω, ω = (r p3/c) i1 + (c/r²) i3, φ*' = c*(1 + e* cos φ*)²/p*²", verdict="holds")
+def attitude_and_anomaly():
+    keys = (r"2\dot{\bar\lambda}", r"\bar\omega_\eta", r"\dot\varphi^*")
+    printed = (product(lam, sp.Matrix([0, *omega])), omega, areal * growth**2 / parameter**2)
+
+    def derived():
+        found = (2 * model.attitude_rate(), model.motion()[1], model.anomaly_rate())
+        return dict(zip(keys, found, strict=True))
+
+    return Equality(
+        dict(zip(keys, printed, strict=True)),
+        derived,
+        display=r"2\dot{\bar\lambda} = \bar\lambda\circ\bar\omega_\eta,\quad \bar\omega_\eta = "
+        r"(rp_3/c)\bar i_1 + (c/r^2)\bar i_3,\quad \dot\varphi^* = c^*(1 + e^*\cos\varphi^*)^2/p^{*2}",
+    )
+
+
+@claim("(4)", "the initial state is given by r, v1, c, λ and φ*", verdict="holds")
+def initial_state():
+    def argument() -> Steps:
+        place, velocity = model.cartesian()
+        yield "|R| = r", vanishes(at_unit_norm(place.dot(place)) - r**2)
+        yield "(R, V) = r v1", vanishes(at_unit_norm(place.dot(velocity)) - r * v1)
+        moment = place.cross(velocity) - c * rotated(EZ, lam)
+        yield "R × V = c η3", all(vanishes(at_unit_norm(part)) for part in moment)
+        other = dict(zip(lam, -lam, strict=True))
+        same = (place - place.subs(other, simultaneous=True)).applyfunc(sp.expand)
+        yield "λ and −λ are one place and one velocity", same.is_zero_matrix
+
+    return Proof(
+        argument,
+        display=r"r(0) = r^0,\ v_1(0) = v_1^0,\ c(0) = c^0,\ \bar\lambda(0) = \bar\lambda^0,\ "
+        r"\varphi^*(0) = \varphi_0^*",
+    )
+
+
+@claim("(5)", "r, v1 and c of the target at its true anomaly", verdict="holds")
+def ends():
+    keys = ("r^*", "v_1^*", "c^*")
+    printed = (parameter / growth, eccentricity * areal * sp.sin(anomaly) / parameter, areal)
+
+    def derived():
+        return dict(zip(keys, transversality.meeting()[:3], strict=True))
+
+    return Equality(dict(zip(keys, printed, strict=True)), derived)
+
+
+@claim("(6)", "the attitude of the target, and vect(λ~∘λ*) = 0 for the same attitude", verdict="holds")
+def attitude_at_the_end():
+    turned = sp.Matrix([sp.cos(anomaly / 2), 0, 0, sp.sin(anomaly / 2)])
+
+    def argument() -> Steps:
+        relative = sp.Matrix(sp.symbols("q0:4", real=True))
+        pair = product(conjugate(lam), product(lam, relative))
+        same = all(vanishes(at_unit_norm(a - b)) for a, b in zip(pair, relative, strict=True))
+        yield "for λ* = λ∘q, λ~∘λ* is q, a unit quaternion", same
+        alone = sp.solve([relative[0] ** 2 - 1], [relative[0]])
+        yield "vect q = 0 leaves q = 1 and q = −1: λ* = ±λ, one attitude", set(alone) == {(-1,), (1,)}
+        place = rotated(EX, model.target_attitude())
+        in_orbit = rotated(sp.cos(anomaly) * EX + sp.sin(anomaly) * EY, orientation)
+        difference = (place - in_orbit).applyfunc(lambda part: sp.simplify(sp.expand(part)))
+        yield "η1* is the axis of the pericentre turned by φ* in the orbit", vanishes(difference)
+
+    return Proof(
+        argument,
+        Equality(
+            {r"\bar\lambda^*": product(orientation, turned)},
+            lambda: {r"\bar\lambda^*": model.target_attitude()},
+        ),
+        display=r"\operatorname{vect}(\tilde{\bar\lambda}(t_k)\circ\bar\lambda^*(t_k)) = 0,\quad "
+        r"\bar\lambda^* = \bar\Lambda^*\circ[\cos(\varphi_k^*/2) + \bar i_3\sin(\varphi_k^*/2)]",
+    )
+
+
+@claim("section 1: c*", "R* × V* is constant", verdict="holds")
+def constant_area():
+    def argument() -> Steps:
+        free = dict.fromkeys(thrust, 0)
+        yield "without thrust c' = 0", vanishes(model.motion()[0][2].subs(free))
+        normal = rotated(EZ, lam)
+        change = normal.jacobian(lam) * model.attitude_rate().subs(free)
+        yield "and η3 stays where it is", vanishes(change.applyfunc(sp.expand))
+
+    return Proof(argument)
+
+
+@claim("section 1: η*", "η1* along R*, η3* along c*: v1* is the projection of V* on η1*", verdict="holds")
+def axes_of_the_target():
+    def argument() -> Steps:
+        place, velocity = model.cartesian()
+        yield "R lies along η1", vanishes((place - r * rotated(EX, lam)).applyfunc(sp.expand))
+        moment = place.cross(velocity)
+        yield "R × V has nothing along η1", vanishes(at_unit_norm(moment.dot(rotated(EX, lam))))
+        yield "and nothing along η2", vanishes(at_unit_norm(moment.dot(rotated(EY, lam))))
+        yield "(V, η1) = v1", vanishes(at_unit_norm(velocity.dot(rotated(EX, lam))) - v1)
+
+    return Proof(argument)
+
+
+@claim(
+    "section 1: Λ*",
+    "Λ* follows from the node, the inclination and the pericentre's argument",
+    verdict="holds",
+)
+def orientation_by_angles():
+    node, tilt, pericentre = angles = sp.symbols("Omega I omega", real=True)
+
+    def rational(vector: sp.Matrix) -> sp.Matrix:
+        """The same in the tangents of the half-angles."""
+        halves = {angle: 2 * sp.atan(sp.Symbol(f"x_{angle}", real=True)) for angle in angles}
+        return vector.subs(halves).applyfunc(lambda part: sp.cancel(sp.expand_trig(part)))
+
+    def argument() -> Steps:
+        found = model.orientation_from_angles(node, tilt, pericentre)
+        normal = rotated(EZ, found)
+        expected = sp.Matrix([sp.sin(tilt) * sp.sin(node), -sp.sin(tilt) * sp.cos(node), sp.cos(tilt)])
+        yield "the orbit's normal has the inclination and the node", vanishes(rational(normal - expected))
+        line = sp.Matrix([sp.cos(node), sp.sin(node), 0])
+        back = rotated(sp.cos(pericentre) * EX - sp.sin(pericentre) * EY, found)
+        yield "the pericentre is ω past the line of nodes", vanishes(rational(back - line))
+        yield "|Λ*| = 1", vanishes(sp.simplify(found.dot(found)) - 1)
+
+    return Proof(argument)
+
+
+@claim(
+    "section 1: given",
+    "p*, e*, c*, Λ* and φ0* are given",
+    verdict="conditional",
+    remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) is no motion of a coasting "
+    "craft.",
+)
+def given_quantities():
+    def left_over() -> sp.Expr:
+        radius, speed = model.target_radius(), model.target_radial_velocity()
+        fall = areal**2 / radius**3 - gravity / radius**2
+        return sp.simplify(speed.diff(anomaly) * model.anomaly_rate() - fall)
+
+    def argument() -> Steps:
+        yield "(5) obeys (2) without thrust if fM = c*²/p*", vanishes(left_over().subs(gravity, GAUSS))
+        yield (
+            "and p* = c*²/fM is what Newton's law gives",
+            vanishes(model.conic()[1].subs(gravity, GAUSS) - 1 / parameter),
+        )
+
+    def counterexample() -> Steps:
+        wrong = {areal: sp.Rational(11, 10), parameter: 1, gravity: 1, eccentricity: 0, anomaly: 0}
+        found = left_over().subs(wrong)
+        yield (
+            f"fM = p* = 1, e* = 0, c* = 1.1: v1*' − (c*²/r*³ − fM/r*²) = {found}",
+            found == -sp.Rational(21, 100),
+        )
+        yield "and not 0: r* = 1 is no orbit of that c*", found != 0
+
+    return Conditional(argument, counterexample=counterexample)
+
+
+@claim(
+    "section 1: moving end",
+    "φ*_k is not fixed: the end lies on the manifold (5), (6), and the right end moves",
+    verdict="holds",
+    remark="Two curves, in fact: λ = λ* and λ = −λ*, the same attitudes.",
+)
+def moving_end():
+    def argument() -> Steps:
+        curve = transversality.meeting()
+        tangent = curve.diff(anomaly)
+        yield "φ* alone runs along the manifold, in eight variables", curve.shape == (8, 1)
+        yield "its tangent is nowhere 0: φ* changes at the rate 1", tangent[3] == 1
+        carried = transversality.tangent()[4:, :].subs(dict(zip(lam, model.target_attitude(), strict=True)))
+        yield "λ* changes by λ*∘i3/2", vanishes((tangent[4:, :] - carried).applyfunc(sp.expand))
+        yield (
+            "and vect of λ~∘λ* vanishes on it",
+            vanishes(
+                vect(product(conjugate(model.target_attitude()), model.target_attitude())).applyfunc(
+                    sp.expand
+                )
+            ),
+        )
+
+    return Proof(argument)
