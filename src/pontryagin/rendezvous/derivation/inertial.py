@@ -1,0 +1,49 @@
+"""The maximum principle in Cartesian coordinates, in inertial axes: a second way to every trajectory.
+
+H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3). Nothing here knows of eta, of lambda or of
+a chart, and nothing is singular but the centre of attraction.
+
+paper   here                here too
+------  ------------------  --------------------------------------------------
+R, V    position, velocity  three components each, in inertial axes
+-       position_costate    psi_R
+n       velocity_costate    psi_V, Lawden's primer vector: what the thrust lies along
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from pontryagin.rendezvous.derivation import principle
+from pontryagin.rendezvous.derivation.forms import Form
+from pontryagin.rendezvous.derivation.model import gravity
+from pontryagin.rendezvous.derivation.principle import Mode
+
+position, velocity = sp.Matrix(sp.symbols("x y z", real=True)), sp.Matrix(sp.symbols("u v w", real=True))
+position_costate = sp.Matrix(sp.symbols("psi_x psi_y psi_z", real=True))
+velocity_costate = sp.Matrix(sp.symbols("psi_u psi_v psi_w", real=True))
+force = sp.Matrix(sp.symbols("f_x f_y f_z", real=True))
+
+
+def hamiltonian() -> sp.Expr:
+    """H without the part of phi*, for any thrust."""
+    fall = force - gravity * position / principle.size(position) ** 3
+    cost = principle.time_weight + principle.energy_weight * force.dot(force)
+    return -cost + position_costate.dot(velocity) + velocity_costate.dot(fall)
+
+
+def thrust(mode: Mode) -> sp.Matrix:
+    """What maximises H: psi_V/(2 alpha2), or p_max psi_V/|psi_V|."""
+    if mode == "unsaturated":
+        return velocity_costate / (2 * principle.energy_weight)
+    return principle.peak * velocity_costate / principle.size(velocity_costate)
+
+
+@cache
+def cartesian(mode: Mode) -> Form:
+    """The canonical equations of the 12 variables, with the optimal thrust put in."""
+    states, costates = [*position, *velocity], [*position_costate, *velocity_costate]
+    rates = [*(hamiltonian().diff(x) for x in costates), *(-hamiltonian().diff(x) for x in states)]
+    put_in = dict(zip(force, thrust(mode), strict=True))
+    scale = principle.energy_weight if mode == "unsaturated" else principle.peak
+    return Form((*states, *costates), tuple(rate.subs(put_in) for rate in rates), (gravity, scale))

@@ -1,0 +1,143 @@
+"""Writes `kernels.py` from the derivation: ``python -m pontryagin.rendezvous.generate``."""
+
+from pathlib import Path
+
+import sympy as sp
+
+from pontryagin.compile import source
+from pontryagin.files import write
+from pontryagin.rendezvous.derivation import forms, inertial, model, primer, principle, reduction, repair
+from pontryagin.rendezvous.derivation import terminal, transversality
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product, turn, vect
+
+HEADER = '''"""Numeric kernels of the rendezvous.
+
+Generated from the derivation by `make kernels`; do not edit.
+"""
+
+from numpy import cos, sin, sqrt
+'''
+
+ORBIT = (model.gravity, model.parameter, model.eccentricity, model.areal)
+chart = sp.Symbol("chart", real=True)
+start_nu = sp.Matrix(sp.symbols("nu1_0 nu2_0 nu3_0", real=True))
+goal = sp.Matrix(sp.symbols("r_goal v_goal c_goal", real=True))
+goal_attitude = sp.Matrix(sp.symbols("q0_goal q1_goal q2_goal q3_goal", real=True))
+
+
+def kernels() -> str:
+    """The text of `kernels.py`."""
+    parts = [*_rates(), *_attitude(), *_ends(), *_principle(), *_cartesian()]
+    return HEADER + "\n\n" + "\n\n\n".join(parts) + "\n"
+
+
+def in_any_chart(expression: sp.Expr) -> sp.Expr:
+    """An expression of the first chart with the chart a parameter, +1 or -1: |nu| becomes chart |nu|."""
+    return expression.subs(repair.length, chart * repair.length)
+
+
+def _named(prefix: str, values) -> dict[str, sp.Expr]:
+    return {f"{prefix}{i}": value for i, value in enumerate(values)}
+
+
+def _rates() -> list[str]:
+    texts = []
+    for mode in ("unsaturated", "saturated"):
+        form = forms.repaired(mode)
+        chi_rate = repair.with_length(in_any_chart(repair.chi_rate())).subs(forms.thrust(mode))
+        arguments = [*form.states, *form.parameters, chart]
+        doc = f"Rates of (11) to (14), phi* and chi, {mode}."
+        texts.append(source(mode, arguments, _named("d", [*form.rates[:-1], chi_rate]), doc))
+        whole = forms.full(mode)
+        doc = f"Rates of the 16 equations, {mode}."
+        texts.append(
+            source(f"full_{mode}", [*whole.states, *whole.parameters], _named("d", whole.rates), doc)
+        )
+    return texts
+
+
+def shortest_turn(nu: sp.Matrix) -> sp.Matrix:
+    """T(nu) in either chart."""
+    put_in = dict(zip(principle.nu, nu, strict=True)) | {repair.length: principle.size(nu)}
+    return repair.shortest_turn(chart).subs(put_in)
+
+
+def relative_attitude() -> sp.Matrix:
+    """lambda0~ o lambda: with S = lambda0 o T(nu0), the angle chi starts from 0."""
+    return product(shortest_turn(start_nu), turn(model.EZ, repair.chi), conjugate(shortest_turn(principle.nu)))
+
+
+def _attitude() -> list[str]:
+    arguments = [*start_nu, *principle.nu, repair.chi, chart]
+    return [
+        source("attitude", arguments, _named("q", relative_attitude()), "lambda0~ o lambda of nu and chi.")
+    ]
+
+
+def _ends() -> list[str]:
+    place = [model.anomaly, model.parameter, model.eccentricity, model.areal]
+    radius, radial = model.target_radius(), model.target_radial_velocity()
+    target = {"r_goal": radius, "v_goal": radial, "c_goal": model.areal, "rate": model.anomaly_rate()}
+    target |= _named("q", model.target_attitude())
+    mismatch = [
+        *(sp.Matrix([model.r, model.v1, model.c]) - goal),
+        *vect(product(conjugate(relative_attitude()), goal_attitude)),
+    ]
+    ends = [model.r, model.v1, model.c, *principle.nu, repair.chi, *start_nu, chart, *goal, *goal_attitude]
+    constant = transversality.anomaly_constant_at_the_end()
+    return [
+        source("target", [*place, *model.orientation], target, "r*, v1*, c* of (5), phi*', lambda* of (6)."),
+        source("mismatch", ends, _named("f", mismatch), "(5), and (6) by nu and chi, towards any goal."),
+        source(
+            "anomaly_constant",
+            [principle.rho, principle.s1, principle.nu[2], *place],
+            {"constant": constant},
+            "C_phi at a meeting, (16).",
+        ),
+    ]
+
+
+def _principle() -> list[str]:
+    n = principle.switching()
+    seen = [model.r, model.c, principle.s1, principle.e, principle.nu[0]]
+    whole = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
+    weights = [principle.time_weight, principle.energy_weight]
+    thrust = [*model.thrust]
+    return [
+        source("switching", seen, _named("n", n), "n_eta of (9)."),
+        source("switching_square", seen, {"square": n.dot(n)}, "|n_eta|^2."),
+        source(
+            "hamiltonian",
+            [*whole, *thrust, reduction.anomaly_constant, model.gravity, model.parameter, model.areal, *weights],
+            {"value": reduction.hamiltonian()},
+            "H of (17) at any thrust.",
+        ),
+        source("terminal_law", [*seen, *thrust, *weights], {"value": terminal.law()}, "(n, p) - alpha1 - alpha2 p^2."),
+    ]
+
+
+def _cartesian() -> list[str]:
+    texts = []
+    for mode in ("unsaturated", "saturated"):
+        form = inertial.cartesian(mode)
+        arguments = [*form.states, *form.parameters]
+        doc = f"Rates of R, V, psi_R and psi_V, {mode}."
+        texts.append(source(f"cartesian_{mode}", arguments, _named("d", form.rates), doc))
+    position, velocity = model.cartesian()
+    place = [model.r, model.v1, model.c, *model.attitude]
+    texts.append(
+        source("cartesian", place, _named("x", [*position, *velocity]), "R and V of r, v1, c and lambda.")
+    )
+    costate = [*(-primer.carried()), *principle.switching()]
+    whole = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
+    texts.append(source("primer", whole, _named("psi", costate), "psi_R and psi_V, seen in eta."))
+    return texts
+
+
+def main() -> None:
+    """Write the file beside this one."""
+    write(Path(__file__).with_name("kernels.py"), kernels())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,380 @@
+"""Numeric kernels of the rendezvous.
+
+Generated from the derivation by `make kernels`; do not edit.
+"""
+
+from numpy import cos, sin, sqrt
+
+
+def unsaturated(r, v1, c, phi, rho, s1, e, nu1, nu2, nu3, chi, fM, p_star, e_star, c_star, alpha2, chart):
+    """Rates of (11) to (14), phi* and chi, unsaturated."""
+    x0 = 1/alpha2
+    x1 = (1/2)*x0
+    x2 = (r*r)
+    x3 = 1/x2
+    x4 = (c*c)
+    x5 = 1/(r*r*r)
+    x6 = 2*s1
+    x7 = 1/x4
+    x8 = x0*x7
+    x9 = (nu1*nu1)
+    x10 = c*x3
+    x11 = (1/4)*x2*x8
+    d0 = v1
+    d1 = -fM*x3 + s1*x1 + x4*x5
+    d2 = e*x1*x2
+    d3 = c_star*((e_star*cos(phi) + 1)*(e_star*cos(phi) + 1))/(p_star*p_star)
+    d4 = c*nu3*x5 - (e*e)*r*x1 - fM*x5*x6 - 1/8*r*x8*x9 + 3*s1*x4/(r*r*r*r)
+    d5 = -rho
+    d6 = -c*x5*x6 - 1/2*nu3*x3 + (1/8)*x0*x2*x9/(c*c*c)
+    d7 = nu2*x10
+    d8 = (1/4)*nu1*nu3*x0*x2*x7 - nu1*x10
+    d9 = -nu1*nu2*x11
+    d10 = x10 + x11*x9/(chart*sqrt((nu2*nu2) + (nu3*nu3) + x9) + nu3)
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10
+
+
+def full_unsaturated(r, v1, c, phi, lambda0, lambda1, lambda2, lambda3, rho, s1, e, Phi, mu0, mu1, mu2, mu3, fM, p_star, e_star, c_star, alpha2):
+    """Rates of the 16 equations, unsaturated."""
+    x0 = 1/alpha2
+    x1 = (1/2)*x0
+    x2 = (r*r)
+    x3 = 1/x2
+    x4 = (c*c)
+    x5 = 1/(r*r*r)
+    x6 = e_star*cos(phi) + 1
+    x7 = c_star/(p_star*p_star)
+    x8 = (1/2)*x3
+    x9 = lambda3*x8
+    x10 = 1/x4
+    x11 = lambda0*mu1 - lambda1*mu0 - lambda2*mu3 + lambda3*mu2
+    x12 = (1/8)*x0*x10*x11
+    x13 = x12*x2
+    x14 = lambda2*x8
+    x15 = lambda1*x8
+    x16 = lambda0*x8
+    x17 = c*x5
+    x18 = r*x12
+    x19 = 1/(c*c*c)
+    x20 = (1/8)*x0*x11*x19*x2
+    x21 = c*x8
+    d0 = v1
+    d1 = -fM*x3 + s1*x1 + x4*x5
+    d2 = e*x1*x2
+    d3 = (x6*x6)*x7
+    d4 = -c*x9 - lambda1*x13
+    d5 = c*x14 + lambda0*x13
+    d6 = -c*x15 + (1/8)*lambda3*x0*x10*x11*x2
+    d7 = c*x16 - lambda2*x13
+    d8 = -(e*e)*r*x1 - mu0*(-lambda1*x18 + lambda3*x17) - mu1*((1/8)*lambda0*r*x0*x10*x11 - lambda2*x17) - mu2*(lambda1*x17 + lambda3*x18) - mu3*(-lambda0*x17 - lambda2*x18) - s1*(2*fM*x5 - 3*x4/(r*r*r*r))
+    d9 = -rho
+    d10 = -mu0*((1/8)*lambda1*x0*x11*x19*x2 - x9) - mu1*(-lambda0*x20 + x14) - mu2*(-lambda3*x20 - x15) - mu3*(lambda2*x20 + x16) - 2*s1*x17
+    d11 = 2*Phi*e_star*x6*x7*sin(phi)
+    d12 = -mu1*x13 - mu3*x21
+    d13 = mu0*x13 + mu2*x21
+    d14 = -mu1*x21 + (1/8)*mu3*x0*x10*x11*x2
+    d15 = mu0*x21 - mu2*x13
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15
+
+
+def saturated(r, v1, c, phi, rho, s1, e, nu1, nu2, nu3, chi, fM, p_star, e_star, c_star, p_max, chart):
+    """Rates of (11) to (14), phi* and chi, saturated."""
+    x0 = (r*r)
+    x1 = 1/x0
+    x2 = (c*c)
+    x3 = 1/(r*r*r)
+    x4 = (e*e)
+    x5 = 1/x2
+    x6 = x0*x5
+    x7 = (nu1*nu1)
+    x8 = (1/4)*x7
+    x9 = 1/sqrt((s1*s1) + x0*x4 + x6*x8)
+    x10 = p_max*x9
+    x11 = 2*s1
+    x12 = r*x10
+    x13 = c*x1
+    x14 = x10*x6
+    d0 = v1
+    d1 = -fM*x1 + s1*x10 + x2*x3
+    d2 = e*x0*x10
+    d3 = c_star*((e_star*cos(phi) + 1)*(e_star*cos(phi) + 1))/(p_star*p_star)
+    d4 = c*nu3*x3 - fM*x11*x3 - x12*x4 - x12*x5*x8 + 3*s1*x2/(r*r*r*r)
+    d5 = -rho
+    d6 = -c*x11*x3 - 1/2*nu3*x1 + (1/4)*p_max*x0*x7*x9/(c*c*c)
+    d7 = nu2*x13
+    d8 = (1/2)*nu1*nu3*p_max*x0*x5*x9 - nu1*x13
+    d9 = -1/2*nu1*nu2*x14
+    d10 = x13 + (1/2)*x14*x7/(chart*sqrt((nu2*nu2) + (nu3*nu3) + x7) + nu3)
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10
+
+
+def full_saturated(r, v1, c, phi, lambda0, lambda1, lambda2, lambda3, rho, s1, e, Phi, mu0, mu1, mu2, mu3, fM, p_star, e_star, c_star, p_max):
+    """Rates of the 16 equations, saturated."""
+    x0 = (r*r)
+    x1 = 1/x0
+    x2 = (c*c)
+    x3 = 1/(r*r*r)
+    x4 = (e*e)
+    x5 = lambda0*mu1 - lambda1*mu0 - lambda2*mu3 + lambda3*mu2
+    x6 = 1/x2
+    x7 = (1/4)*x6
+    x8 = x0*x7
+    x9 = 1/sqrt((s1*s1) + x0*x4 + (x5*x5)*x8)
+    x10 = p_max*x9
+    x11 = x0*x10
+    x12 = e_star*cos(phi) + 1
+    x13 = c_star/(p_star*p_star)
+    x14 = (1/2)*x1
+    x15 = lambda3*x14
+    x16 = lambda1*x5
+    x17 = x10*x8
+    x18 = lambda2*x14
+    x19 = x17*x5
+    x20 = lambda1*x14
+    x21 = lambda0*x14
+    x22 = r*x10
+    x23 = c*x3
+    x24 = x22*x7
+    x25 = x24*x5
+    x26 = 1/(c*c*c)
+    x27 = (1/4)*x11*x26*x5
+    x28 = c*x14
+    d0 = v1
+    d1 = -fM*x1 + s1*x10 + x2*x3
+    d2 = e*x11
+    d3 = (x12*x12)*x13
+    d4 = -c*x15 - x16*x17
+    d5 = c*x18 + lambda0*x19
+    d6 = -c*x20 + (1/4)*lambda3*p_max*x0*x5*x6*x9
+    d7 = c*x21 - lambda2*x19
+    d8 = -mu0*(lambda3*x23 - x16*x24) - mu1*((1/4)*lambda0*p_max*r*x5*x6*x9 - lambda2*x23) - mu2*(lambda1*x23 + lambda3*x25) - mu3*(-lambda0*x23 - lambda2*x25) - s1*(2*fM*x3 - 3*x2/(r*r*r*r)) - x22*x4
+    d9 = -rho
+    d10 = -mu0*((1/4)*lambda1*p_max*x0*x26*x5*x9 - x15) - mu1*(-lambda0*x27 + x18) - mu2*(-lambda3*x27 - x20) - mu3*(lambda2*x27 + x21) - 2*s1*x23
+    d11 = 2*Phi*e_star*x12*x13*sin(phi)
+    d12 = -mu1*x19 - mu3*x28
+    d13 = mu0*x19 + mu2*x28
+    d14 = -mu1*x28 + (1/4)*mu3*p_max*x0*x5*x6*x9
+    d15 = mu0*x28 - mu2*x19
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15
+
+
+def attitude(nu1_0, nu2_0, nu3_0, nu1, nu2, nu3, chi, chart):
+    """lambda0~ o lambda of nu and chi."""
+    x0 = (nu1_0*nu1_0) + (nu2_0*nu2_0) + (nu3_0*nu3_0)
+    x1 = x0**(-1/4)
+    x2 = (1/2)*chi
+    x3 = x1*cos(x2)
+    x4 = (nu1*nu1) + (nu2*nu2) + (nu3*nu3)
+    x5 = sqrt(chart*nu3 + sqrt(x4))
+    x6 = x4**(-1/4)
+    x7 = x5*x6
+    x8 = sqrt(chart*nu3_0 + sqrt(x0))
+    x9 = (1/2)*x8
+    x10 = (1/2)*sqrt(2)
+    x11 = chart*x10
+    x12 = x11/x8
+    x13 = nu1_0*x12
+    x14 = sin(x2)
+    x15 = x1*x14
+    x16 = nu2_0*x12
+    x17 = x13*x3 + x15*x16
+    x18 = x6/x5
+    x19 = x11*x18
+    x20 = nu1*x19
+    x21 = x13*x15 - x16*x3
+    x22 = nu2*x19
+    x23 = chart*x18*x9
+    x24 = x15*x23
+    x25 = x23*x3
+    x26 = x10*x7
+    q0 = x17*x20 - x21*x22 + x3*x7*x9
+    q1 = nu1*x24 + nu2*x25 + x21*x26
+    q2 = -nu1*x25 + nu2*x24 + x17*x26
+    q3 = (1/2)*x1*x14*x5*x6*x8 - x17*x22 - x20*x21
+    return q0, q1, q2, q3
+
+
+def target(phi, p_star, e_star, c_star, Lambda0, Lambda1, Lambda2, Lambda3):
+    """r*, v1*, c* of (5), phi*', lambda* of (6)."""
+    x0 = e_star*cos(phi) + 1
+    x1 = (1/2)*phi
+    x2 = cos(x1)
+    x3 = sin(x1)
+    r_goal = p_star/x0
+    v_goal = c_star*e_star*sin(phi)/p_star
+    c_goal = c_star
+    rate = c_star*(x0*x0)/(p_star*p_star)
+    q0 = Lambda0*x2 - Lambda3*x3
+    q1 = Lambda1*x2 + Lambda2*x3
+    q2 = -Lambda1*x3 + Lambda2*x2
+    q3 = Lambda0*x3 + Lambda3*x2
+    return r_goal, v_goal, c_goal, rate, q0, q1, q2, q3
+
+
+def mismatch(r, v1, c, nu1, nu2, nu3, chi, nu1_0, nu2_0, nu3_0, chart, r_goal, v_goal, c_goal, q0_goal, q1_goal, q2_goal, q3_goal):
+    """(5), and (6) by nu and chi, towards any goal."""
+    x0 = (nu1_0*nu1_0) + (nu2_0*nu2_0) + (nu3_0*nu3_0)
+    x1 = x0**(-1/4)
+    x2 = (1/2)*chi
+    x3 = x1*sin(x2)
+    x4 = sqrt(chart*nu3_0 + sqrt(x0))
+    x5 = (1/2)*x4
+    x6 = (nu1*nu1) + (nu2*nu2) + (nu3*nu3)
+    x7 = x6**(-1/4)
+    x8 = sqrt(chart*nu3 + sqrt(x6))
+    x9 = 1/x8
+    x10 = x7*x9
+    x11 = chart*x10*x5
+    x12 = cos(x2)
+    x13 = x1*x12
+    x14 = nu2*x11
+    x15 = (1/2)*sqrt(2)
+    x16 = chart*x15
+    x17 = x16/x4
+    x18 = nu1_0*x17
+    x19 = nu2_0*x17
+    x20 = -x13*x19 + x18*x3
+    x21 = x7*x8
+    x22 = x15*x21
+    x23 = -nu1*x11*x3 - x13*x14 - x20*x22
+    x24 = x13*x18 + x19*x3
+    x25 = (1/2)*chart*nu1*x1*x12*x4*x7*x9 - x14*x3 - x22*x24
+    x26 = x21*x5
+    x27 = x10*x16
+    x28 = nu1*x27
+    x29 = nu2*x27
+    x30 = x13*x26 - x20*x29 + x24*x28
+    x31 = x20*x28 + x24*x29 - x26*x3
+    f0 = r - r_goal
+    f1 = v1 - v_goal
+    f2 = c - c_goal
+    f3 = q0_goal*x23 + q1_goal*x30 - q2_goal*x31 + q3_goal*x25
+    f4 = q0_goal*x25 + q1_goal*x31 + q2_goal*x30 - q3_goal*x23
+    f5 = q0_goal*x31 - q1_goal*x25 + q2_goal*x23 + q3_goal*x30
+    return f0, f1, f2, f3, f4, f5
+
+
+def anomaly_constant(rho, s1, nu3, phi, p_star, e_star, c_star):
+    """C_phi at a meeting, (16)."""
+    x0 = e_star*cos(phi)
+    x1 = ((x0 + 1)*(x0 + 1))
+    constant = -c_star*s1*x0*x1/p_star - e_star*p_star*rho*sin(phi) - 1/2*nu3*x1
+    return constant
+
+
+def switching(r, c, s1, e, nu1):
+    """n_eta of (9)."""
+    n0 = s1
+    n1 = e*r
+    n2 = (1/2)*nu1*r/c
+    return n0, n1, n2
+
+
+def switching_square(r, c, s1, e, nu1):
+    """|n_eta|^2."""
+    x0 = (r*r)
+    square = (e*e)*x0 + (s1*s1) + (1/4)*(nu1*nu1)*x0/(c*c)
+    return square
+
+
+def hamiltonian(r, v1, c, rho, s1, e, nu1, nu2, nu3, p1, p2, p3, C_phi, fM, p_star, c_star, alpha1, alpha2):
+    """H of (17) at any thrust."""
+    x0 = 1/(r*r)
+    value = C_phi*c_star/(p_star*p_star) - alpha1 - alpha2*(p1*p1) - alpha2*(p2*p2) - alpha2*(p3*p3) + (c*c)*s1/(r*r*r) + (1/2)*c*nu3*x0 + e*p2*r - fM*s1*x0 + p1*s1 + rho*v1 + (1/2)*nu1*p3*r/c
+    return value
+
+
+def terminal_law(r, c, s1, e, nu1, p1, p2, p3, alpha1, alpha2):
+    """(n, p) - alpha1 - alpha2 p^2."""
+    value = -alpha1 - alpha2*((p1*p1) + (p2*p2) + (p3*p3)) + e*p2*r + p1*s1 + (1/2)*nu1*p3*r/c
+    return value
+
+
+def cartesian_unsaturated(x, y, z, u, v, w, psi_x, psi_y, psi_z, psi_u, psi_v, psi_w, fM, alpha2):
+    """Rates of R, V, psi_R and psi_V, unsaturated."""
+    x0 = 1/alpha2
+    x1 = (x*x)
+    x2 = (y*y)
+    x3 = (z*z)
+    x4 = x1 + x2 + x3
+    x5 = fM/x4**(3/2)
+    x6 = 3*fM/x4**(5/2)
+    x7 = x*x6
+    x8 = x7*y
+    x9 = psi_w*z
+    x10 = -x5
+    x11 = x6*y
+    d0 = u
+    d1 = v
+    d2 = w
+    d3 = (1/2)*psi_u*x0 - x*x5
+    d4 = (1/2)*psi_v*x0 - x5*y
+    d5 = (1/2)*psi_w*x0 - x5*z
+    d6 = -psi_u*(x1*x6 + x10) - psi_v*x8 - x7*x9
+    d7 = -psi_u*x8 - psi_v*(x10 + x2*x6) - x11*x9
+    d8 = -psi_u*x7*z - psi_v*x11*z - psi_w*(x10 + x3*x6)
+    d9 = -psi_x
+    d10 = -psi_y
+    d11 = -psi_z
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11
+
+
+def cartesian_saturated(x, y, z, u, v, w, psi_x, psi_y, psi_z, psi_u, psi_v, psi_w, fM, p_max):
+    """Rates of R, V, psi_R and psi_V, saturated."""
+    x0 = (x*x)
+    x1 = (y*y)
+    x2 = (z*z)
+    x3 = x0 + x1 + x2
+    x4 = fM/x3**(3/2)
+    x5 = 1/sqrt((psi_u*psi_u) + (psi_v*psi_v) + (psi_w*psi_w))
+    x6 = 3*fM/x3**(5/2)
+    x7 = x*x6
+    x8 = x7*y
+    x9 = psi_w*z
+    x10 = -x4
+    x11 = x6*y
+    d0 = u
+    d1 = v
+    d2 = w
+    d3 = p_max*psi_u*x5 - x*x4
+    d4 = p_max*psi_v*x5 - x4*y
+    d5 = p_max*psi_w*x5 - x4*z
+    d6 = -psi_u*(x0*x6 + x10) - psi_v*x8 - x7*x9
+    d7 = -psi_u*x8 - psi_v*(x1*x6 + x10) - x11*x9
+    d8 = -psi_u*x7*z - psi_v*x11*z - psi_w*(x10 + x2*x6)
+    d9 = -psi_x
+    d10 = -psi_y
+    d11 = -psi_z
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11
+
+
+def cartesian(r, v1, c, lambda0, lambda1, lambda2, lambda3):
+    """R and V of r, v1, c and lambda."""
+    x6 = 2*r
+    x7 = lambda0*x6
+    x8 = c/r
+    x9 = lambda0*v1 - lambda3*x8
+    x10 = lambda1*x8 - lambda2*v1
+    x11 = lambda0*x8 + lambda3*v1
+    x12 = -lambda1*v1 - lambda2*x8
+    x0 = (lambda0*lambda0)*r + (lambda1*lambda1)*r - (lambda2*lambda2)*r - (lambda3*lambda3)*r
+    x1 = lambda1*lambda2*x6 + lambda3*x7
+    x2 = 2*lambda1*lambda3*r - lambda2*x7
+    x3 = lambda0*x9 - lambda1*x12 + lambda2*x10 - lambda3*x11
+    x4 = lambda0*x11 - lambda1*x10 - lambda2*x12 + lambda3*x9
+    x5 = lambda0*x10 + lambda1*x11 - lambda2*x9 - lambda3*x12
+    return x0, x1, x2, x3, x4, x5
+
+
+def primer(r, v1, c, rho, s1, e, nu1, nu2, nu3):
+    """psi_R and psi_V, seen in eta."""
+    x0 = 1/r
+    x1 = (1/2)*x0
+    x2 = (1/2)*nu1/c
+    psi0 = c*e*x0 + rho
+    psi1 = c*s1/(r*r) - e*v1 + nu3*x1
+    psi2 = -nu2*x1 - v1*x2
+    psi3 = s1
+    psi4 = e*r
+    psi5 = r*x2
+    return psi0, psi1, psi2, psi3, psi4, psi5

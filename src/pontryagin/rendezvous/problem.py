@@ -1,0 +1,314 @@
+"""The rendezvous as posed: the target's orbit, the craft's start, the functional, the bound. All checked."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.rendezvous import kernels
+from pontryagin.validation import finite, vectors
+
+Array = NDArray[np.float64]
+
+UNIT_WITHIN = 1e-9
+"""A quaternion this close to the unit length is normalised; one farther off is refused."""
+
+
+def number(name: str, value: object, least: float | None = None, excluded: bool = False) -> float:
+    """`value` as one finite float, at least `least`, or above it where that is `excluded`."""
+    array = finite(name, value, "a number")
+    if array.ndim:
+        raise ValueError(f"{name} must be one number, got an array of shape {array.shape}")
+    if least is not None and (array < least or (excluded and array == least)):
+        raise ValueError(f"{name} must be {'greater than' if excluded else 'at least'} {least:g}, got {array}")
+    return float(array)
+
+
+def unit_quaternion(name: str, value: ArrayLike) -> Array:
+    """`value` as a unit quaternion, scalar part first."""
+    array = vectors(name, value, 4)
+    if array.shape != (4,):
+        raise ValueError(f"{name} must be one quaternion of shape (4,), got shape {array.shape}")
+    length = float(np.linalg.norm(array))
+    if abs(length - 1) > UNIT_WITHIN:
+        raise ValueError(f"{name} must be a unit quaternion, got one of length {length:.12g}")
+    return array / length
+
+
+def product(a: ArrayLike, b: ArrayLike) -> Array:
+    """a o b of quaternions along the last axis."""
+    p, q = np.asarray(a), np.asarray(b)
+    scalar = p[..., :1] * q[..., :1] - np.sum(p[..., 1:] * q[..., 1:], axis=-1, keepdims=True)
+    vector = p[..., :1] * q[..., 1:] + q[..., :1] * p[..., 1:] + np.cross(p[..., 1:], q[..., 1:])
+    return np.concatenate([scalar, vector], axis=-1)
+
+
+def conjugate(a: ArrayLike) -> Array:
+    """a~ along the last axis."""
+    return np.asarray(a) * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """The target's Kepler ellipse and its place on it at the start.
+
+    Parameters
+    ----------
+    parameter : float
+        p*, in units of length.
+    eccentricity : float
+        e*, 0 <= e* < 1.
+    attitude : (4,) array_like
+        Unit quaternion Lambda* of the orbit (first axis to the pericentre, third along R x V) in inertial
+        axes, scalar part first.
+    anomaly : float
+        True anomaly phi* at t0, in radians.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6).eccentricity
+    0.1
+    """
+
+    parameter: float
+    eccentricity: float
+    attitude: ArrayLike
+    anomaly: float
+
+    def __post_init__(self) -> None:
+        checked = {
+            "parameter": number("parameter", self.parameter, 0.0, excluded=True),
+            "eccentricity": number("eccentricity", self.eccentricity, 0.0),
+            "attitude": unit_quaternion("attitude", self.attitude),
+            "anomaly": number("anomaly", self.anomaly),
+        }
+        if checked["eccentricity"] >= 1:
+            raise ValueError(
+                f"eccentricity must be less than 1: the target goes round, got {self.eccentricity}"
+            )
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_angles(
+        cls,
+        parameter: float,
+        eccentricity: float,
+        node: float,
+        inclination: float,
+        pericentre: float,
+        anomaly: float,
+    ) -> "Orbit":
+        """The orbit whose node, inclination and pericentre's argument are given, in radians.
+
+        Examples
+        --------
+        >>> Orbit.from_angles(1.5, 0.1, 0.0, 0.0, 0.0, 0.6).attitude
+        array([1., 0., 0., 0.])
+        """
+        angles = {"node": node, "inclination": inclination, "pericentre": pericentre}
+        quaternion = np.array([1.0, 0, 0, 0])
+        for axis, (name, angle) in zip((3, 1, 3), angles.items(), strict=True):
+            half = number(name, angle) / 2
+            turn = np.zeros(4)
+            turn[[0, axis]] = math.cos(half), math.sin(half)
+            quaternion = product(quaternion, turn)
+        return cls(parameter, eccentricity, quaternion, anomaly)
+
+
+@dataclass(frozen=True)
+class Chaser:
+    """Where the craft is at t0 and how it moves.
+
+    Parameters
+    ----------
+    r : float
+        Distance from the centre of attraction, in units of length.
+    v1 : float
+        Radial velocity.
+    c : float
+        Areal constant |R x V|, positive.
+    attitude : (4,) array_like
+        Unit quaternion lambda of the axes eta (first along R, third along R x V) in inertial axes, scalar
+        part first.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]).r
+    1.0
+    """
+
+    r: float
+    v1: float
+    c: float
+    attitude: ArrayLike
+
+    def __post_init__(self) -> None:
+        checked = {
+            "r": number("r", self.r, 0.0, excluded=True),
+            "v1": number("v1", self.v1),
+            "c": number("c", self.c, 0.0, excluded=True),
+            "attitude": unit_quaternion("attitude", self.attitude),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True)
+class Rendezvous:
+    """Meet the target with the least integral of alpha1 + alpha2 p^2, under |p| <= p_max.
+
+    Parameters
+    ----------
+    chaser, target : Chaser, Orbit
+        The craft and what it is to meet, at t0 = 0.
+    time_weight, energy_weight : float
+        alpha1 and alpha2, not negative and not both zero. With ``energy_weight=0`` the time is least.
+    peak : float
+        p_max, in units of acceleration; ``math.inf`` for no bound, if ``energy_weight`` is positive.
+    gravity : float
+        fM, in the units of the lengths and times given.
+    duration : float, optional
+        t_k, where it is fixed. By default it is free.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, peak=0.05).free
+    True
+    """
+
+    chaser: Chaser
+    target: Orbit
+    time_weight: float = 1.0
+    energy_weight: float = 0.0
+    peak: float = 0.1
+    gravity: float = 1.0
+    duration: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, kind in (("chaser", Chaser), ("target", Orbit)):
+            if not isinstance(getattr(self, name), kind):
+                raise TypeError(f"{name} must be of type {kind.__name__}, got {getattr(self, name)!r}")
+        unbounded = isinstance(self.peak, float) and self.peak == math.inf
+        checked = {
+            "time_weight": number("time_weight", self.time_weight, 0.0),
+            "energy_weight": number("energy_weight", self.energy_weight, 0.0),
+            "peak": math.inf if unbounded else number("peak", self.peak, 0.0, excluded=True),
+            "gravity": number("gravity", self.gravity, 0.0, excluded=True),
+        }
+        if self.duration is not None:
+            checked["duration"] = number("duration", self.duration, 0.0, excluded=True)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        self._require_sense()
+
+    def _require_sense(self) -> None:
+        """Weights, bound and duration must belong together, and the craft must start on an ellipse."""
+        if self.time_weight == 0 and self.energy_weight == 0:
+            raise ValueError("time_weight and energy_weight must not both be 0: nothing would be minimised")
+        if self.energy_weight == 0 and self.peak == math.inf:
+            raise ValueError("peak must be finite where energy_weight is 0, got inf")
+        if self.energy_weight == 0 and self.duration is not None:
+            raise ValueError(
+                "duration must be left free where energy_weight is 0, "
+                f"got {self.duration:g}: every control would cost the same"
+            )
+        craft = self.chaser
+        energy = (craft.v1**2 + (craft.c / craft.r) ** 2) / 2 - self.gravity / craft.r
+        if energy >= 0:
+            raise ValueError(
+                "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, "
+                f"got {energy:.6g}"
+            )
+
+    @property
+    def free(self) -> bool:
+        """Whether the duration is free."""
+        return self.duration is None
+
+    @cached_property
+    def scaled(self) -> "Scaled":
+        """The same problem in the solver's units."""
+        return Scaled(self)
+
+
+class Scaled:
+    """A problem with p* = c* = fM = 1, in which the craft starts with the attitude 1.
+
+    The cost is in units in which alpha2 = 1, or alpha1 = 1 where alpha2 = 0.
+
+    Attributes
+    ----------
+    length, time : float
+        p* and sqrt(p*^3/fM) in the user's units.
+    value : float
+        The unit of the cost.
+    start : (3,) array
+        r, v1, c at t0.
+    anomaly, eccentricity : float
+        phi* at t0; e*.
+    orientation : (4,) array
+        lambda0~ o Lambda*.
+    ratio : float
+        alpha1/alpha2; inf where alpha2 = 0.
+    peak : float
+        p_max.
+    duration : float or None
+        t_k where fixed.
+    """
+
+    def __init__(self, problem: Rendezvous) -> None:
+        craft, orbit = problem.chaser, problem.target
+        self.length = orbit.parameter
+        self.time = math.sqrt(self.length**3 / problem.gravity)
+        speed = self.length / self.time
+        self.start = np.array([craft.r / self.length, craft.v1 / speed, craft.c / (self.length * speed)])
+        self.anomaly, self.eccentricity = orbit.anomaly, orbit.eccentricity
+        self.orientation = product(conjugate(craft.attitude), orbit.attitude)
+        self.acceleration = speed / self.time
+        self.peak = problem.peak / self.acceleration
+        time_weight, energy_weight = (
+            problem.time_weight * self.time,
+            problem.energy_weight * self.acceleration**2 * self.time,
+        )
+        self.ratio = time_weight / energy_weight if energy_weight else math.inf
+        self.value = energy_weight or time_weight
+        self.duration = None if problem.duration is None else problem.duration / self.time
+
+    @property
+    def weights(self) -> tuple[float, float]:
+        """alpha1 and alpha2 in these units."""
+        return (1.0, 0.0) if self.ratio == math.inf else (self.ratio, 1.0)
+
+    @property
+    def costate_units(self) -> Array:
+        """User's units of rho, s1, e, nu1, nu2, nu3: those of the cost over those of the state."""
+        speed = self.length / self.time
+        return self.value / np.array([self.length, speed, self.length * speed, 1.0, 1.0, 1.0])
+
+    def target(self, anomaly: float, orientation: Array | None = None) -> tuple[Array, Array]:
+        """r*, v1*, c* and lambda0~ o lambda* (7,), and their rates (7,), at an anomaly."""
+        place = self.orientation if orientation is None else orientation
+        step = 1e-30j
+        values = np.array(kernels.target(anomaly + step, 1.0, self.eccentricity, 1.0, *place))
+        rate = values[3].real
+        goal = np.delete(values, 3)
+        return goal.real, goal.imag / step.imag * rate
