@@ -4,7 +4,7 @@ A curve is followed by its tangent and corrected across it, so that it may turn 
 of one problem meet) and give several solutions at one value of the parameter.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,11 +108,13 @@ def follow(
     step: float = 0.1,
     steps: int = STEPS,
     largest: float = 0.5,
-):
+    rows: int | None = None,
+) -> Iterator["Point"]:
     """Points of the curve through a solution, from ``start`` first in the direction of ``towards``.
 
     Yields `Point`; the first is the start itself. It ends where the steps become too short or too many: the
-    caller looks at the points and stops when it has what it wants.
+    caller looks at the points and stops when it has what it wants. Only the first ``rows`` equations hold
+    along the curve, in as many unknowns; the others are looked at by the caller.
     """
     values, by_parameter = family(unknowns, start)
     here = Point(unknowns, start, values)
@@ -120,9 +122,10 @@ def follow(
     direction = np.append(np.zeros(len(unknowns)), np.sign(towards - start))
     for _ in range(steps):
         scale = np.append(scales(here.unknowns), 1.0)
-        tangent = _tangent(here.equations.jacobian, by_parameter, scale, direction)
+        kept = here.equations.jacobian[:rows, :rows]
+        tangent = _tangent(kept, by_parameter, scale, direction)
         while True:
-            landed = _land(family, here, scale, tangent, step)
+            landed = _land(family, here, scale, tangent, step, rows)
             if landed is not None:
                 break
             step /= 2
@@ -144,7 +147,7 @@ def _tangent(jacobian: Array, by_parameter: Array, scale: Array, direction: Arra
 
 
 def _land(
-    family: Family, here: Point, scale: Array, tangent: Array, step: float
+    family: Family, here: Point, scale: Array, tangent: Array, step: float, rows: int | None
 ) -> tuple[Point, Array, int] | None:
     """Predict along the tangent, correct across it: the new point, its slope in the parameter, the effort."""
     start = np.append(here.unknowns, here.parameter)
@@ -156,9 +159,9 @@ def _land(
         except (NotConverged, FloatingPointError, OverflowError):
             return None
         across = tangent @ ((y - start) / scale) - step
-        matrix = np.vstack([np.column_stack([values.jacobian, by_parameter]) * scale, tangent])
+        matrix = np.vstack([np.column_stack([values.jacobian[:rows, :rows], by_parameter]) * scale, tangent])
         try:
-            change = np.linalg.solve(matrix, -np.append(values.residual, across))
+            change = np.linalg.solve(matrix, -np.append(values.residual[:rows], across))
         except np.linalg.LinAlgError:
             return None
         size = float(np.linalg.norm(change))

@@ -103,6 +103,10 @@ class Equations:
     by_ratio: Array
     by_lead: Array
 
+    def scaled(self, scale: Array) -> "Equations":
+        """The same in unknowns divided by a scale."""
+        return replace(self, jacobian=self.jacobian * scale)
+
 
 def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
     """(5) and (6) towards a goal r, v1, c, lambda0~ o lambda (7,): values (6,), slopes (6, 12) in the end

@@ -72,6 +72,13 @@ def twist(relative: Array) -> float:
     return angle - 2 * math.pi * round(angle / (2 * math.pi))
 
 
+def coasting_twist(scaled: Scaled, duration: float) -> float:
+    """The angle in the orbit's plane from where the craft coasts to where the target will be, (-pi, pi]."""
+    flight = fly(scaled, SEED, duration)
+    goal, _ = scaled.target(float(flight.end[3]))
+    return twist(product(conjugate(attitude_of(flight)), goal[3:]))
+
+
 def _turn(angle: float) -> Array:
     return np.array([math.cos(angle / 2), 0, 0, math.sin(angle / 2)])
 
@@ -90,7 +97,7 @@ def _path(flight: Flight, goal: Array, revolutions: int):
 
     def goal_at(share: float) -> tuple[Array, Array]:
         tilted = math.cos(share * half) * np.array([1.0, 0, 0, 0]) + math.sin(share * half) * axis
-        attitude = product(place, tilted, ) if not whole else product(product(place, tilted), _turn(share * whole))
+        attitude = product(product(place, tilted), _turn(share * whole))
         rate = product(product(place, product(tilted, half * axis)), _turn(share * whole))
         rate = rate + whole / 2 * product(attitude, I3)
         return (

@@ -1,0 +1,299 @@
+"""From one extremal to all that the search finds: durations, revolutions, the bound, least time.
+
+Every step follows a curve of true rendezvous problems: the duration of the unbounded problem, the place of
+the target's pericentre turned through whole revolutions, the bound from where it does not bind down to
+p_max, and alpha1/alpha2 upwards until the thrust is saturated throughout.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.homotopy import Point, Root, between, follow, newton
+from pontryagin.rendezvous.problem import Scaled
+from pontryagin.rendezvous.shooting import Equations, Setting, equations
+from pontryagin.rendezvous.start import attitude_of, ballistic_lead, cold_start, coasting_twist
+
+Array = NDArray[np.float64]
+
+TAU = 2 * math.pi
+WALK = 200
+"""Points of a curve through the revolutions, each way."""
+REVOLUTIONS = 6
+"""How many revolutions more or fewer than the first extremal's are looked at."""
+WORSE = 2.0
+"""The walk through the revolutions ends where an extremal costs this many times the best and more."""
+KEPT = 4
+"""How many extremals of the unbounded problem are taken on to the bound."""
+END_SHARE = 0.7
+"""Share of p_max that the thrust has at the end of the mixed problem from which least time is sought."""
+STEEPEST = 1e12
+"""alpha1/alpha2, in units of p_max^2, at which the thrust must be saturated throughout."""
+
+
+@dataclass
+class Search:
+    """What was looked at: filled in as the search goes on."""
+
+    durations: list[float] = field(default_factory=list)
+    revolutions: list[int] = field(default_factory=list)
+    given_up: list[str] = field(default_factory=list)
+
+
+def extremals(setting: Setting, log: Search) -> list[Root]:
+    """All extremals found of a problem, in no order.
+
+    Raises
+    ------
+    NotConverged
+        If none was reached.
+    Infeasible
+        If the bound is too small for the fixed duration on every curve followed.
+    """
+    loose = setting.but(peak=math.inf, ratio=_loose_ratio(setting))
+    first = _first(loose, log)
+    found = _through_revolutions(loose, first, log)
+    found.sort(key=value)
+    roots: list[Root] = []
+    for j, root in enumerate(found[:KEPT]):
+        try:
+            roots += _bounded(setting, loose.but(lead=root.lead), root.root)
+        except (NotConverged, Infeasible) as reason:
+            log.given_up.append(f"extremal {j + 1} of the unbounded problem: {reason}")
+    if not roots:
+        raise _failure(setting, log)
+    return roots
+
+
+def _failure(setting: Setting, log: Search) -> Exception:
+    reasons = "; ".join(log.given_up)
+    if not setting.free:
+        return Infeasible(f"no extremal of this duration stays within the peak: {reasons}")
+    return NotConverged(f"no extremal was reached: {reasons}", float("inf"))
+
+
+def _loose_ratio(setting: Setting) -> float:
+    """alpha1/alpha2 of the unbounded problem that is solved first."""
+    return (END_SHARE * setting.peak) ** 2 if setting.bang else setting.ratio
+
+
+@dataclass(frozen=True)
+class Found:
+    """An extremal of the unbounded problem and the lead it belongs to."""
+
+    root: Root
+    lead: float
+    ratio: float
+
+
+def value(found: Found) -> float:
+    """Its cost, alpha2 = 1."""
+    flight = found.root.flight
+    return found.ratio * flight.duration + energy(flight)
+
+
+def energy(flight: Flight) -> float:
+    """The integral of p^2, by Gauss's rule on panels of every arc."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    edges = [*(piece.begin for piece in flight.pieces), flight.duration]
+    total = 0.0
+    for a, b in zip(edges[:-1], edges[1:], strict=True):
+        panels = np.linspace(a, b, 2 + int(2 * (b - a)))
+        half = np.diff(panels)[:, None] / 2
+        times = panels[:-1, None] + half * (1 + nodes)
+        squares = np.sum(flight.thrust(times.ravel()) ** 2, axis=1).reshape(times.shape)
+        total += float(np.sum(half * weights * squares))
+    return total
+
+
+# --- the unbounded problem -----------------------------------------------------------------------------
+
+
+def first_duration(scaled: Scaled, ratio: float) -> float:
+    """A duration in which thrust of about sqrt(alpha1/alpha2) changes one orbit into the other."""
+    radius, radial, areal = scaled.start
+    energy_gap = abs(math.sqrt(max(2 / radius - radial**2 - (areal / radius) ** 2, 1e-3)) - math.sqrt(
+        1 - scaled.eccentricity**2
+    ))
+    eccentricity = math.hypot(areal**2 / radius - 1, areal * radial)
+    w, x, y, z = scaled.orientation
+    tilt = 2 * math.asin(min(1.0, math.hypot(x, y)))
+    speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
+    return min(max(2.0, speed / math.sqrt(ratio)), 400.0)
+
+
+def _first(setting: Setting, log: Search) -> Root:
+    """An extremal of the unbounded problem, of the fixed duration or of a free one."""
+    guess = setting.duration or first_duration(setting.scaled, setting.ratio)
+    for stretch in (1.0,) if setting.duration else (1.0, 1.5, 0.7, 2.5, 0.4):
+        duration = guess * stretch
+        log.durations.append(duration)
+        for extra in (0, 1, -1, 2, -2):
+            fixed = setting.but(duration=duration)
+            turns = _even_turns(setting.scaled, duration) + extra
+            try:
+                root = cold_start(fixed, turns)
+                return root if setting.duration else _free(setting, root)
+            except NotConverged as reason:
+                log.given_up.append(f"start with the duration {duration:.3g}, {turns} turns: {reason}")
+    raise NotConverged("no first extremal was found", float("inf"))
+
+
+def _even_turns(scaled: Scaled, duration: float) -> int:
+    """Revolutions that let the craft turn halfway between what it and the target would turn coasting."""
+    wanted = ballistic_lead(scaled, duration) / 2
+    return round((wanted - coasting_twist(scaled, duration)) / TAU)
+
+
+def _free(setting: Setting, fixed: Root) -> Root:
+    """March the duration from a fixed-time extremal until the terminal law holds."""
+    last: Point | None = None
+    for point in marched(setting, fixed):
+        if last is not None and last.equations.residual[-1] * point.equations.residual[-1] <= 0:
+            share = last.equations.residual[-1] / (
+                last.equations.residual[-1] - point.equations.residual[-1]
+            )
+            whole = [np.append(p.unknowns, math.exp(p.parameter)) for p in (last, point)]
+            return newton(setting, whole[0] + share * (whole[1] - whole[0]))
+        last = point
+    raise NotConverged("the terminal law was not met along the durations", float("inf"))
+
+
+def marched(setting: Setting, fixed: Root) -> Iterator[Point]:
+    """The family of fixed-time extremals over log t_k; the last residual of a point is the terminal law."""
+
+    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        duration = math.exp(parameter)
+        whole = equations(setting, np.append(unknowns, duration))
+        return whole, whole.jacobian[:6, 6] * duration
+
+    start = math.log(fixed.flight.duration)
+    law = equations(setting, np.append(fixed.unknowns, fixed.flight.duration)).residual[-1]
+    yield from follow(family, fixed.unknowns, start, start + np.sign(law), rows=6)
+
+
+def _through_revolutions(setting: Setting, first: Root, log: Search) -> list[Found]:
+    """Extremals with more revolutions and with fewer, along the curve on which the target's orbit turns."""
+    found = [Found(first, 0.0, setting.ratio)]
+    log.revolutions.append(0)
+    for sign in (1, -1):
+        found += _walk(setting, first, sign, log, value(found[0]))
+    return found
+
+
+def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) -> list[Found]:
+    found: list[Found] = []
+    last: Point | None = None
+    cost = best
+    for point in follow(turning(setting), first.unknowns, 0.0, sign, step=0.3, steps=WALK, largest=1.5):
+        for j in _passed(last, point):
+            lead = TAU * j
+            try:
+                root = newton(setting.but(lead=lead), between(last, point, lead))
+            except NotConverged as reason:
+                log.given_up.append(f"{j} revolutions more: {reason}")
+                continue
+            found.append(Found(root, lead, setting.ratio))
+            log.revolutions.append(j)
+            cost = value(found[-1])
+            best = min(best, cost)
+        if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5) or cost > WORSE * best:
+            break
+        last = point
+    return found
+
+
+def _passed(last: Point | None, point: Point) -> list[int]:
+    """Whole revolutions between two points of a curve; the start is known already."""
+    if last is None:
+        return []
+    low, high = sorted((last.parameter / TAU, point.parameter / TAU))
+    return [j for j in range(math.ceil(low), math.floor(high) + 1) if not (j == 0 and last.parameter == 0)]
+
+
+def turning(setting: Setting):
+    """The family over the lead."""
+
+    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(setting.but(lead=parameter), unknowns)
+        return values, values.by_lead
+
+    return family
+
+
+# --- the bound -----------------------------------------------------------------------------------------
+
+
+def _bounded(setting: Setting, loose: Setting, root: Root) -> list[Root]:
+    """The extremal under the bound, and under alpha2 = 0 if that is asked for."""
+    final = setting.but(lead=loose.lead)
+    if not final.bang:
+        return [_lowered(loose, root, final.peak)]
+    lowered = _lowered(loose, root, final.peak)
+    return [_least_time(final.but(ratio=loose.ratio), lowered)]
+
+
+def largest_thrust(flight: Flight) -> float:
+    """Largest |p| on a fine grid."""
+    times = np.linspace(0, flight.duration, 200 + int(40 * flight.duration))
+    return float(np.linalg.norm(flight.thrust(times), axis=1).max())
+
+
+def _lowered(loose: Setting, root: Root, peak: float) -> Root:
+    """Bring the bound down to p_max."""
+    if peak == math.inf:
+        return root
+    highest = 1.001 * largest_thrust(root.flight)
+    if highest < peak:
+        return newton(loose.but(peak=peak), root.unknowns)
+
+    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(loose.but(peak=math.exp(parameter)), unknowns)
+        return values, values.by_peak
+
+    start, end = math.log(highest), math.log(peak)
+    last: Point | None = None
+    least = start
+    for point in follow(family, root.unknowns, start, end, largest=1.0):
+        if last is not None and last.parameter > end >= point.parameter:
+            return newton(loose.but(peak=peak), between(last, point, end))
+        if np.abs(point.unknowns[:6]).max() > 1e4 * np.abs(root.unknowns[:6]).max():
+            break
+        last, least = point, min(least, point.parameter)
+    units = loose.scaled.acceleration
+    raise Infeasible(f"the bound went down to {math.exp(least) * units:.6g}, not to {peak * units:.6g}")
+
+
+def _least_time(setting: Setting, root: Root) -> Root:
+    """Raise alpha1/alpha2 until everything is saturated; then alpha2 = 0."""
+
+    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        """In costates over |n(t_k)|, which stay of one size."""
+        there = setting.but(ratio=math.exp(parameter))
+        size, growth = there.end_switching, there.end_switching_slopes[0]
+        scale = np.array([size] * 6 + [1.0])
+        values = equations(there, unknowns * scale)
+        by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
+        return values.scaled(scale), by_ratio
+
+    scale = np.array([setting.end_switching] * 6 + [1.0])
+    start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
+    bang = setting.but(ratio=math.inf)
+    reason = "alpha1/alpha2 could not be raised"
+    for point in follow(family, root.unknowns / scale, start, end, step=0.3, largest=3.0):
+        pieces = point.equations.flight.pieces
+        if len(pieces) == 1 and pieces[0].mode == "saturated":
+            rescaled = np.append(point.unknowns[:6] / setting.peak, point.unknowns[6])
+            return newton(bang, rescaled)
+        if point.parameter > end:
+            reason = "the thrust vanishes on the way"
+            break
+    raise NotConverged(reason, float("inf"))
+
+
+__all__ = ["Found", "Search", "attitude_of", "energy", "extremals", "largest_thrust"]
