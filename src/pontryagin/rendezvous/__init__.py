@@ -29,3 +29,18 @@ n_eta            switching                  what the thrust lies along: the prim
 -                chi                        angle about nu*: what the ten equations do not know
 A, B, w, Q       A, B, w, Q                 Sapunkov's elements; Q = A^2 + B^2, twice the semi-axis
 """
+
+from pontryagin import lazy
+
+__getattr__, __dir__, __all__ = lazy.attach(
+    __name__,
+    {
+        "Orbit": "problem",
+        "Chaser": "problem",
+        "Rendezvous": "problem",
+        "solve": "solution",
+        "Extremal": "solution",
+        "RendezvousCertificate": "certify",
+        "derivation": "",
+    },
+)

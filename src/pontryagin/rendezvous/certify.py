@@ -1,0 +1,161 @@
+"""How exactly an extremal satisfies everything that it must, found out in three ways.
+
+The reduced flight is compared with the 16 equations, flown by another integrator, and with Newton's law in
+inertial axes. The attitude is tested against (6) as the 16 equations carry it; lambda* and -lambda* are one
+attitude.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.certificate import MaximumPrinciple
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.cartesian import cartesian_of, fly_cartesian, integrate, target_by_kepler
+from pontryagin.rendezvous.flight import Flight, switching
+from pontryagin.rendezvous.homotopy import Root, scales
+from pontryagin.rendezvous.problem import conjugate, product
+
+Array = NDArray[np.float64]
+SAMPLES = 201
+
+
+@dataclass(frozen=True)
+class RendezvousCertificate(MaximumPrinciple):
+    """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on other controls' cost.
+
+    ``boundary`` is that of (5), ``transversality`` that of (16) and, at a free duration, of the law for the
+    thrust at the end. ``hamiltonian`` is |H|, or at a fixed duration its change, and with ``maximality`` in
+    units of the largest running cost.
+
+    Parameters
+    ----------
+    attitude : () array
+        |vect(lambda~ o lambda*)| of (6) at the meeting, with lambda carried by its own equation.
+    agreement : () array
+        Largest difference between the reduced flight and the 16 equations.
+    cartesian : () array
+        Distance between craft and target at the meeting, and difference of their velocities, by Newton's
+        law in inertial axes and Kepler's equation.
+    condition : () array
+        Condition number of the shooting equations: how much larger the costates' error can be.
+    """
+
+    attitude: NDArray[np.float64]
+    agreement: NDArray[np.float64]
+    cartesian: NDArray[np.float64]
+    condition: NDArray[np.float64]
+
+    @cached_property
+    def residual(self) -> NDArray[np.float64]:
+        """The largest of all but the condition number."""
+        own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
+        return np.max([*own, self.attitude, self.agreement, self.cartesian], axis=0)
+
+
+def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousCertificate:
+    """Evaluate every condition anew; weights are alpha1 and alpha2 in the solver's units."""
+    flight = root.flight
+    times = np.linspace(0, flight.duration, SAMPLES)
+    reduced, whole = flight.sample(times), fly_full(flight, times)
+    thrust = flown_thrust(flight, times, reduced)
+    largest = float(np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1)))
+    constant = anomaly_constant(flight)
+    energy = hamiltonian(reduced, thrust, constant, weights)
+    end = whole[-1]
+    goal, _ = flight.scaled.target(float(end[3]))
+    last = fly_cartesian(flight, times[-1:])[0]
+    law = terminal_law(reduced[-1], thrust[-1], weights) / largest if free else 0.0
+    return RendezvousCertificate(
+        boundary=np.abs(reduced[-1, :3] - goal[:3]).max(),
+        transversality=np.maximum(abs(law), transversality(end, flight.scaled.eccentricity)),
+        hamiltonian=np.abs(energy - (0.0 if free else energy[-1])).max() / largest,
+        maximality=np.max(maximality(flight, reduced, thrust, weights)) / largest,
+        attitude=np.abs(product(conjugate(end[4:8]), goal[3:])[1:]).max(),
+        agreement=agreement(flight, reduced, whole),
+        cartesian=np.abs(last[:6] - target_by_kepler(flight.scaled, flight.duration)).max(),
+        condition=condition(root),
+    )
+
+
+def fly_full(flight: Flight, times: Array) -> Array:
+    """The 16 equations at ascending times, (k, 16), by DOP853: nu0 = 0 and lambda0 = 1 at the start."""
+    scaled, z = flight.scaled, flight.costates
+    grown = (1 + scaled.eccentricity * np.cos(scaled.anomaly)) ** 2
+    pair = anomaly_constant(flight) / grown
+    start = np.concatenate([scaled.start, [scaled.anomaly, 1, 0, 0, 0], z[:3], [pair, 0.0], z[3:]])
+
+    def rates(mode: str):
+        kernel, scale = getattr(kernels, f"full_{mode}"), flight.peak if mode == "saturated" else 1.0
+        return lambda x: np.array(kernel(*x, 1.0, 1.0, scaled.eccentricity, 1.0, scale))
+
+    return integrate(rates, flight, start, times)
+
+
+def anomaly_constant(flight: Flight) -> float:
+    """C_phi that (16) asks for."""
+    end = flight.end
+    return float(
+        kernels.anomaly_constant(end[4], end[5], end[9], end[3], 1.0, flight.scaled.eccentricity, 1.0)
+    )
+
+
+def transversality(end: Array, eccentricity: float) -> float:
+    """(16) at the end of the 16 equations, relative to the largest costate."""
+    rho, s1, _, pair = end[8:12]
+    nu3 = product(conjugate(end[4:8]), end[12:])[3]
+    wanted = kernels.anomaly_constant(rho, s1, nu3, end[3], 1.0, eccentricity, 1.0)
+    constant = pair * (1 + eccentricity * np.cos(end[3])) ** 2
+    return float(abs(constant - wanted) / np.abs(end[8:]).max())
+
+
+def flown_thrust(flight: Flight, times: Array, states: Array) -> Array:
+    """The thrust of the mode that each arc was flown in, (k, 3), whatever |n| says."""
+    begins = np.array([piece.begin for piece in flight.pieces])
+    which = np.clip(np.searchsorted(begins, times, side="right") - 1, 0, None)
+    saturated = np.array([piece.mode == "saturated" for piece in flight.pieces])[which]
+    n = switching(states)
+    size = np.linalg.norm(n, axis=-1)
+    magnitude = np.where(saturated, flight.peak if saturated.any() else 0.0, size / 2)
+    return n * (magnitude / np.where(size > 0, size, 1.0))[:, None]
+
+
+def hamiltonian(states: Array, thrust: Array, constant: float, weights: tuple[float, float]) -> Array:
+    """H of (17) along the flight."""
+    r, v1, c, _, rho, s1, e, nu1, nu2, nu3 = states.T[:10]
+    costates = (rho, s1, e, nu1, nu2, nu3)
+    return np.asarray(kernels.hamiltonian(r, v1, c, *costates, *thrust.T, constant, 1.0, 1.0, 1.0, *weights))
+
+
+def terminal_law(state: Array, thrust: Array, weights: tuple[float, float]) -> float:
+    """(n, p) - alpha1 - alpha2 p^2 at the end."""
+    return float(kernels.terminal_law(state[0], state[2], *state[5:8], *thrust, *weights))
+
+
+def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[float, float]) -> Array:
+    """By how much the largest H over |p| <= p_max exceeds H at the thrust flown."""
+    n = switching(states)
+    size = np.linalg.norm(n, axis=-1)
+    best = np.minimum(size / (2 * weights[1]), flight.peak) if weights[1] else flight.peak
+    most = size * best - weights[1] * best**2
+    used = np.sum(n * thrust, axis=-1) - weights[1] * np.sum(thrust**2, axis=-1)
+    excess = np.maximum(np.linalg.norm(thrust, axis=-1) - flight.peak, 0.0)
+    return np.abs(most - used) + excess
+
+
+def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
+    """Largest difference of R, V, rho, s1, e and nu, the costates relative to the largest of them."""
+    attitude = np.stack(
+        kernels.attitude(*flight.costates[3:], *reduced.T[7:11], flight.chart), axis=-1
+    )
+    places = cartesian_of(reduced, attitude) - cartesian_of(whole, whole[:, 4:8])
+    nu = product(conjugate(whole[:, 4:8]), whole[:, 12:])[:, 1:]
+    costates = reduced[:, 4:10] - np.hstack([whole[:, 8:11], nu])
+    return float(max(np.abs(places).max(), np.abs(costates).max() / np.abs(reduced[:, 4:10]).max()))
+
+
+def condition(root: Root) -> float:
+    """Condition number, costates measured by the largest and the duration by itself."""
+    return float(np.linalg.cond(root.equations.jacobian * scales(root.unknowns)))

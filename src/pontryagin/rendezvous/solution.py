@@ -1,0 +1,195 @@
+"""Solve a rendezvous: every extremal found, best first."""
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import Infeasible
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.certify import RendezvousCertificate, certify
+from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.homotopy import Root, newton
+from pontryagin.rendezvous.problem import Chaser, Orbit, Rendezvous, product
+from pontryagin.rendezvous.search import Search, energy, extremals
+from pontryagin.rendezvous.shooting import Setting
+from pontryagin.validation import times
+
+Array = NDArray[np.float64]
+SAME = 1e-7
+"""Extremals whose durations and costs agree to this are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Extremal:
+    """A rendezvous that satisfies the maximum principle.
+
+    Attributes
+    ----------
+    problem : Rendezvous
+        What was asked for.
+    others : tuple of Extremal
+        The other extremals found, by cost; only the best one has them.
+    searched : Search
+        Durations started from, revolutions more or fewer, and what was given up and why.
+    """
+
+    problem: Rendezvous
+    root: Root = field(repr=False)
+    others: tuple["Extremal", ...] = field(default=(), repr=False)
+    searched: Search | None = field(default=None, repr=False)
+
+    @property
+    def flight(self) -> Flight:
+        """The extremal in the solver's units."""
+        return self.root.flight
+
+    @property
+    def duration(self) -> float:
+        """t_k, in the user's unit of time."""
+        return self.flight.duration * self.problem.scaled.time
+
+    @cached_property
+    def cost(self) -> float:
+        """J, the integral of alpha1 + alpha2 p^2."""
+        scaled = self.problem.scaled
+        alpha1, alpha2 = scaled.weights
+        spent = alpha2 * energy(self.flight) if alpha2 else 0.0
+        return (alpha1 * self.flight.duration + spent) * scaled.value
+
+    @property
+    def arrival_anomaly(self) -> float:
+        """phi*_k in radians, with the revolutions since t0 counted."""
+        return float(self.flight.end[3])
+
+    @property
+    def initial_costate(self) -> Array:
+        """rho, s1, e, nu1, nu2, nu3 at t0, (6,), in the user's units of the cost over those of the state."""
+        return self.flight.costates * self.problem.scaled.costate_units
+
+    @property
+    def switch_times(self) -> Array:
+        """Where the thrust meets its bound or leaves it, (k,)."""
+        return self.flight.switch_times * self.problem.scaled.time
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """"unsaturated" or "saturated" for each arc between the switches."""
+        return tuple(piece.mode for piece in self.flight.pieces)
+
+    @cached_property
+    def revolutions(self) -> float:
+        """Angle that the craft turns about the centre, in revolutions."""
+        nodes, weights = np.polynomial.legendre.leggauss(12)
+        edges = np.linspace(0, self.flight.duration, 2 + int(2 * self.flight.duration))
+        half = np.diff(edges)[:, None] / 2
+        states = self.flight.sample((edges[:-1, None] + half * (1 + nodes)).ravel())
+        rates = (states[:, 2] / states[:, 0] ** 2).reshape(-1, 12)
+        return float(np.sum(half * weights * rates) / (2 * math.pi))
+
+    @cached_property
+    def certificate(self) -> RendezvousCertificate:
+        """Every condition of the maximum principle evaluated anew; see `RendezvousCertificate`."""
+        return certify(self.root, self.problem.scaled.weights, self.problem.free)
+
+    def _sampled(self, t: ArrayLike) -> Array:
+        zero, end = np.array(0.0), np.array(self.duration)
+        inside = times("t", t, zero, end) / self.problem.scaled.time
+        return self.flight.sample(np.clip(inside, 0.0, self.flight.duration))
+
+    def state(self, t: ArrayLike) -> Array:
+        """r, v1, c, phi* and lambda (four) at the times t (k,), (k, 8)."""
+        scaled, states = self.problem.scaled, self._sampled(t)
+        speed = scaled.length / scaled.time
+        relative = np.stack(
+            kernels.attitude(*self.flight.costates[3:], *states.T[7:11], self.flight.chart), axis=-1
+        )
+        attitude = product(self.problem.chaser.attitude, relative)
+        units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
+        return np.hstack([states[:, :4] * units, attitude])
+
+    def costate(self, t: ArrayLike) -> Array:
+        """rho, s1, e, nu1, nu2, nu3 at the times t (k,), (k, 6)."""
+        return self._sampled(t)[:, 4:10] * self.problem.scaled.costate_units
+
+    def control(self, t: ArrayLike) -> Array:
+        """p_eta at the times t (k,), (k, 3)."""
+        from pontryagin.rendezvous.flight import thrust
+
+        return thrust(self._sampled(t), self.flight.peak, self.flight.bang) * self.problem.scaled.acceleration
+
+
+def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
+    """The best extremal found of a rendezvous; the others found are its `others`.
+
+    From coasting the costates are led to a transfer without bound, by families over the duration and over
+    the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
+    saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
+    cheapest comes first, and `searched` tells where they were looked for.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        What is to be solved.
+    start : Extremal, optional
+        A solution of a problem close to this one; its costates are then taken as the start of Newton's
+        method, and nothing else is looked for.
+
+    Raises
+    ------
+    Infeasible
+        If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
+        bound on all families followed.
+    NotConverged
+        If no extremal was reached.
+
+    Examples
+    --------
+    >>> import math
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> best = solve(leap)
+    >>> round(best.cost, 6), best.certificate.holds(1e-10)
+    (0.065811, True)
+    """
+    if not isinstance(problem, Rendezvous):
+        raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")
+    if problem.free and problem.time_weight == 0:
+        raise Infeasible(
+            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
+            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
+            "fix the duration, or give time_weight a positive value"
+        )
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    if start is not None:
+        return Extremal(problem, newton(setting, _unknowns(start, problem)))
+    log = Search()
+    found = [Extremal(problem, root) for root in extremals(setting, log)]
+    distinct: list[Extremal] = []
+    for candidate in sorted(found, key=lambda x: x.cost):
+        if not any(_same(candidate, other) for other in distinct):
+            distinct.append(candidate)
+    best, *others = distinct
+    return replace(best, others=tuple(others), searched=log)
+
+
+def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
+    """The costates of a neighbour's solution in this problem's units, and its duration if one is needed."""
+    scaled = problem.scaled
+    costates = start.initial_costate / scaled.costate_units
+    return np.append(costates, start.duration / scaled.time) if problem.free else costates
+
+
+def _same(a: Extremal, b: Extremal) -> bool:
+    return bool(
+        np.isclose(a.duration, b.duration, rtol=SAME)
+        and np.isclose(a.cost, b.cost, rtol=SAME)
+        and np.allclose(a.flight.costates, b.flight.costates, rtol=1e-5, atol=1e-6)
+    )
+
+
+__all__ = ["Chaser", "Extremal", "Orbit", "Rendezvous", "solve"]
