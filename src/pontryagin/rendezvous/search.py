@@ -22,16 +22,25 @@ from pontryagin.rendezvous.start import attitude_of, ballistic_lead, cold_start,
 Array = NDArray[np.float64]
 
 TAU = 2 * math.pi
-WALK = 200
+WALK = 100
 """Points of a curve through the revolutions, each way."""
-REVOLUTIONS = 6
+REVOLUTIONS = 4
 """How many revolutions more or fewer than the first extremal's are looked at."""
 WORSE = 2.0
 """The walk through the revolutions ends where an extremal costs this many times the best and more."""
 KEPT = 4
 """How many extremals of the unbounded problem are taken on to the bound."""
-END_SHARE = 0.7
-"""Share of p_max that the thrust has at the end of the mixed problem from which least time is sought."""
+END_SHARES = (2.5, 1.5, 0.7)
+"""Thrust in units of p_max at the end of the unbounded problems from which least time is sought.
+
+From one of them alone the curve may turn back before the thrust is saturated, or lead to a slower extremal.
+"""
+RUNAWAY = 1e4
+"""Growth of the costates at which a bound is taken to be the least for the duration."""
+LOWER = 120
+"""Points of a curve along which the bound is lowered."""
+RISE = 80
+"""Points of a curve along which alpha1/alpha2 is raised."""
 STEEPEST = 1e12
 """alpha1/alpha2, in units of p_max^2, at which the thrust must be saturated throughout."""
 
@@ -55,16 +64,19 @@ def extremals(setting: Setting, log: Search) -> list[Root]:
     Infeasible
         If the bound is too small for the fixed duration on every curve followed.
     """
-    loose = setting.but(peak=math.inf, ratio=_loose_ratio(setting))
-    first = _first(loose, log)
-    found = _through_revolutions(loose, first, log)
-    found.sort(key=value)
     roots: list[Root] = []
-    for j, root in enumerate(found[:KEPT]):
+    for ratio in _loose_ratios(setting):
+        loose = setting.but(peak=math.inf, ratio=ratio)
         try:
-            roots += _bounded(setting, loose.but(lead=root.lead), root.root)
-        except (NotConverged, Infeasible) as reason:
-            log.given_up.append(f"extremal {j + 1} of the unbounded problem: {reason}")
+            found = _through_revolutions(loose, _first(loose, log), log)
+        except NotConverged as reason:
+            log.given_up.append(f"the unbounded problem: {reason}")
+            continue
+        for j, known in enumerate(sorted(found, key=value)[: 2 if setting.bang else KEPT]):
+            try:
+                roots.append(_bounded(setting, loose.but(lead=known.lead), known.root))
+            except (NotConverged, Infeasible) as reason:
+                log.given_up.append(f"extremal {j + 1} of the unbounded problem: {reason}")
     if not roots:
         raise _failure(setting, log)
     return roots
@@ -77,9 +89,9 @@ def _failure(setting: Setting, log: Search) -> Exception:
     return NotConverged(f"no extremal was reached: {reasons}", float("inf"))
 
 
-def _loose_ratio(setting: Setting) -> float:
-    """alpha1/alpha2 of the unbounded problem that is solved first."""
-    return (END_SHARE * setting.peak) ** 2 if setting.bang else setting.ratio
+def _loose_ratios(setting: Setting) -> list[float]:
+    """alpha1/alpha2 of the unbounded problems that are solved first."""
+    return [(share * setting.peak) ** 2 for share in END_SHARES] if setting.bang else [setting.ratio]
 
 
 @dataclass(frozen=True)
@@ -229,13 +241,10 @@ def turning(setting: Setting):
 # --- the bound -----------------------------------------------------------------------------------------
 
 
-def _bounded(setting: Setting, loose: Setting, root: Root) -> list[Root]:
+def _bounded(setting: Setting, loose: Setting, root: Root) -> Root:
     """The extremal under the bound, and under alpha2 = 0 if that is asked for."""
-    final = setting.but(lead=loose.lead)
-    if not final.bang:
-        return [_lowered(loose, root, final.peak)]
-    lowered = _lowered(loose, root, final.peak)
-    return [_least_time(final.but(ratio=loose.ratio), lowered)]
+    lowered = _lowered(loose, root, setting.peak)
+    return _least_time(loose.but(peak=setting.peak), lowered) if setting.bang else lowered
 
 
 def largest_thrust(flight: Flight) -> float:
@@ -259,10 +268,10 @@ def _lowered(loose: Setting, root: Root, peak: float) -> Root:
     start, end = math.log(highest), math.log(peak)
     last: Point | None = None
     least = start
-    for point in follow(family, root.unknowns, start, end, largest=1.0):
+    for point in follow(family, root.unknowns, start, end, steps=LOWER, largest=1.0):
         if last is not None and last.parameter > end >= point.parameter:
             return newton(loose.but(peak=peak), between(last, point, end))
-        if np.abs(point.unknowns[:6]).max() > 1e4 * np.abs(root.unknowns[:6]).max():
+        if point.parameter > start or np.abs(point.unknowns[:6]).max() > RUNAWAY * np.abs(root.unknowns[:6]).max():
             break
         last, least = point, min(least, point.parameter)
     units = loose.scaled.acceleration
@@ -285,13 +294,16 @@ def _least_time(setting: Setting, root: Root) -> Root:
     start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
     bang = setting.but(ratio=math.inf)
     reason = "alpha1/alpha2 could not be raised"
-    for point in follow(family, root.unknowns / scale, start, end, step=0.3, largest=3.0):
+    for point in follow(family, root.unknowns / scale, start, end, step=0.3, steps=RISE, largest=3.0):
         pieces = point.equations.flight.pieces
         if len(pieces) == 1 and pieces[0].mode == "saturated":
             rescaled = np.append(point.unknowns[:6] / setting.peak, point.unknowns[6])
             return newton(bang, rescaled)
         if point.parameter > end:
             reason = "the thrust vanishes on the way"
+            break
+        if point.parameter < start:
+            reason = "the family turns back"
             break
     raise NotConverged(reason, float("inf"))
 
