@@ -23,7 +23,7 @@ PAPERS = (
     Paper(
         "Pimkina & Chelnokov",
         "rendezvous",
-        "Boundary value problem of reduced dimension for the optimal control of a spacecraft's orbital motion",
+        "Boundary value problem of reduced dimension for optimal control of a spacecraft's orbital motion",
         "T. V. Pimkina, Yu. N. Chelnokov (in Russian)",
     ),
     Paper(

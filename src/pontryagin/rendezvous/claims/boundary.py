@@ -44,7 +44,7 @@ tilde = conjugate(attitude)
     "(15)",
     "what is equal at t_k and t0: λ~∘ν∘λ~",
     verdict="misprint",
-    remark="Printed, as far as the scan shows: a tilde over both λ. Right: λ∘ν∘λ~, the integral ν*. At t_k, "
+    remark="Printed, or so the scan shows: a tilde over all four λ. Right: λ∘ν∘λ~, the integral ν*. At t_k, "
     "λ*(t_k) has to stand for λ(t_k), or it says nothing of the meeting.",
 )
 def equal_at_both_ends():
@@ -172,8 +172,8 @@ def hamiltonian():
     verdict="false",
     remark="(15) compares two vectors of equal length: rank 2, where (6) has rank 3. The turn about ν* is "
     "lost, in one plane the whole place on the orbit. Families of false meetings satisfy (5), (15), (16) and "
-    "(17) to rounding; one that is 20° behind even costs less than the true one. Repair: an eleventh equation, "
-    "χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
+    "(17) to rounding; one that is 20° behind even costs less than the true one. Repair: an eleventh "
+    "equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
 )
 def reduced_problem():
     def counterexample() -> Steps:

@@ -122,9 +122,9 @@ def functionals():
     "section 1: both craft",
     "(1) describes the motion of the controlled and of the uncontrolled craft",
     verdict="holds",
-    remark="Each in its own φ: a meeting compares the two craft at one t, where their φ differ. The page leaves "
-    "undefined ε (unit of thrust in units of gravity), P(u), (·,·), u² = |u|², and the condition on the start, "
-    "scal(ũ∘i1∘w) = 0.",
+    remark="Each in its own φ: a meeting compares the two craft at one t, where their φ differ. The page "
+    "leaves undefined ε (unit of thrust in units of gravity), P(u), (·,·), u² = |u|², and the condition on "
+    "the start, scal(ũ∘i1∘w) = 0.",
 )
 def both_craft():
     def argument() -> Steps:

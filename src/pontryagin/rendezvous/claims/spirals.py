@@ -39,9 +39,10 @@ def by_time(expression: sp.Expr) -> sp.Expr:
 @cache
 def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
     """p1 and p2 that (2) asks for along the spiral, where r = c^2."""
-    rates = model.motion()[0].subs({r: c**2, gravity: 1})
-    radial = sp.solve(rates[1] - by_time(by_time(radius())), thrust[0])[0]
-    across = sp.solve(rates[2].subs(c, areal()) - by_time(areal()), thrust[1])[0]
+    _, speed_rate, areal_rate = model.motion()[0].subs({r: c**2, gravity: 1})
+    change = sp.Symbol("change", real=True)
+    radial = sp.solve(speed_rate - change, thrust[0])[0].subs(change, by_time(by_time(radius())))
+    across = sp.solve(areal_rate - change, thrust[1])[0].subs({change: by_time(areal()), c: areal()})
     return radial, across
 
 

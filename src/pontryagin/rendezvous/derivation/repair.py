@@ -38,12 +38,14 @@ def nearby(attitude_: sp.Matrix = attitude) -> sp.Matrix:
     return product(attitude_, sp.Matrix([1, *(small_turn / 2)]))
 
 
+@cache
 def change_of_mismatch() -> sp.Matrix:
     """How vect(lambda~ o lambda*) of (6) changes with a small turn away from lambda = lambda*: 3 x 3."""
     mismatch = vect(product(conjugate(nearby()), attitude))
     return mismatch.jacobian(small_turn).applyfunc(principle.in_nu)
 
 
+@cache
 def change_of_invariant() -> sp.Matrix:
     """How lambda o nu o lambda~ of (15) changes with a small turn, seen in eta: 3 x 3."""
     there = product(nearby(), pure(nu), conjugate(nearby()))

@@ -1,0 +1,175 @@
+"""The ledger of Pimkina & Chelnokov and of Sapunkov, and proof that each of its checks can fail."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.optimize import root
+
+from pontryagin.evidence import Misprint, Refutation
+from pontryagin.ledger import VERDICTS, Unsupported, counts
+from pontryagin.rendezvous.claims import ENTRIES, functional, meetings, spirals
+
+NAMES = [f"{entry.paper[:1]} {entry.label}" for entry in ENTRIES]
+JUDGED = [entry for entry in ENTRIES if entry.evidence]
+WITH_PRINT = [entry for entry in JUDGED if entry.printed is not None]
+REFUTED = [entry for entry in JUDGED if hasattr(entry.evidence, "counterexample")]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=NAMES)
+def test_the_verdict_is_earned_and_no_other(entry):
+    entry.check()
+    for verdict in set(VERDICTS) - {entry.verdict}:
+        with pytest.raises(Unsupported):
+            replace(entry, verdict=verdict, remark="altered", build=lambda: Found(entry.verdict)).check()
+
+
+class Found:
+    """Evidence that has been checked: it finds again what it found."""
+
+    def __init__(self, verdict):
+        self.verdict = verdict
+
+    def finding(self):
+        return self.verdict
+
+
+def altered_prints(evidence):
+    """The evidence with one printed right-hand side altered at a time."""
+    if getattr(evidence, "formula", None):
+        for left, formula in altered_prints(evidence.formula):
+            yield left, replace(evidence, formula=formula)
+        return
+    for left, side in evidence.printed.items():
+        other = side + (sp.ones(*side.shape) if isinstance(side, sp.MatrixBase) else 1)
+        yield left, replace(evidence, printed={**evidence.printed, left: other})
+
+
+@pytest.mark.parametrize("entry", WITH_PRINT, ids=lambda entry: entry.label)
+def test_any_other_print_changes_the_verdict(entry):
+    altered = list(altered_prints(entry.evidence))
+    assert altered
+    for _, evidence in altered:
+        with pytest.raises(Unsupported):
+            evidence.finding()
+
+
+def terms(side):
+    """The sign of each term of a printed expression, changed."""
+    side = sp.sympify(side)
+    for term in side.args if side.is_Add else [side]:
+        if not term.is_zero:
+            yield side - 2 * term
+
+
+@pytest.mark.parametrize("label", ["(2)", "(11)", "(12)", "(13)", "(14)", "(16)", "(17)"])
+def test_a_sign_changed_anywhere_is_found(label):
+    entry = next(entry for entry in ENTRIES if entry.label == label)
+    formula = getattr(entry.evidence, "formula", None) or entry.evidence
+    derived = formula.derivation()
+    tried = 0
+    for left, side in formula.printed.items():
+        for other in terms(sp.expand(side)):
+            changed = replace(formula, printed={**formula.printed, left: other}, derived=lambda: derived)
+            with pytest.raises(Unsupported):
+                changed.finding()
+            tried += 1
+    assert tried >= 3
+
+
+@pytest.mark.parametrize(
+    "entry", [e for e in JUDGED if isinstance(e.evidence, Misprint)], ids=lambda entry: entry.label
+)
+def test_a_corrected_print_is_no_misprint(entry):
+    corrected = replace(entry.evidence, printed=entry.evidence.derivation())
+    with pytest.raises(Unsupported, match="no misprint"):
+        corrected.finding()
+
+
+@pytest.mark.parametrize("entry", REFUTED, ids=lambda entry: entry.label)
+def test_a_counterexample_is_needed_and_names_numbers(entry):
+    def nothing():
+        yield from ()
+
+    with pytest.raises(Unsupported):
+        replace(entry.evidence, counterexample=nothing).finding()
+    steps = list(entry.evidence.counterexample())
+    assert len(steps) >= 2
+    assert any(re.search(r"\d", words) for words, _ in steps)
+
+
+TRUE, CHEAP, *OTHERS = meetings.COPLANAR
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "wrong", "label"),
+    [
+        (meetings, "COPLANAR", (TRUE, TRUE), "conclusion: reduced"),
+        (meetings, "COPLANAR", (CHEAP, TRUE), "conclusion: reduced"),
+        (meetings, "COPLANAR", (TRUE, *OTHERS), "conclusion: reduced"),
+        (
+            meetings,
+            "INCLINED",
+            (meetings.INCLINED[0], replace(meetings.INCLINED[1], duration=8.79)),
+            "conclusion: reduced",
+        ),
+        (meetings, "INCLINED", (meetings.INCLINED[0],) * 2, "before (15)"),
+        (meetings, "INCLINED", (replace(meetings.INCLINED[0], duration=8.03),), "after (14): eleven"),
+        (meetings, "INCLINED", meetings.INCLINED[1:], "abstract"),
+        (meetings, "PEAK", 0.05, "conclusion: reduced"),
+        (spirals, "OUTER", sp.Integer(1), "section 1: α1 = 0"),
+        (functional, "start_mass", functional.flow_rate, "section 1: dm/dt"),
+    ],
+)
+def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, label):
+    entry = next(entry for entry in ENTRIES if entry.label == label)
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises(Unsupported):
+        replace(entry).check()
+
+
+def test_every_numbered_formula_is_there_in_the_papers_order():
+    first = [entry.label for entry in ENTRIES if entry.paper == "Pimkina & Chelnokov"]
+    numbered = [label for label in first if re.fullmatch(r"\(\d+\)", label)]
+    assert numbered == [f"({k})" for k in range(1, 18)]
+    second = [entry.label for entry in ENTRIES if entry.paper == "Sapunkov"]
+    assert sum(label.startswith("(1)") for label in second) == 6
+    assert [entry.paper for entry in ENTRIES] == ["Pimkina & Chelnokov"] * len(first) + ["Sapunkov"] * len(
+        second
+    )
+
+
+def test_labels_are_unique_and_what_fails_has_a_remark():
+    assert len(set(NAMES)) == len(NAMES)
+    assert all(len(entry.statement) > 9 or entry.printed_latex for entry in ENTRIES)
+    assert all(entry.remark for entry in ENTRIES if entry.verdict != "holds")
+
+
+def test_the_tally():
+    tally = counts(ENTRIES)
+    assert tally["not checked"] == 3
+    assert tally["misprint"] == 2 and tally["false"] == 4 and tally["conditional"] == 3
+    assert not any(
+        isinstance(entry.evidence, Refutation | Misprint) for entry in ENTRIES if entry.verdict == "holds"
+    )
+
+
+def test_in_one_plane_the_printed_conditions_leave_nu3_free():
+    """The family is no accident of the stored numbers: Newton's method walks along it."""
+    conditions = meetings.evaluation(0)
+
+    def residual(unknowns, nu3):
+        rho, s1, e, duration = unknowns
+        member = meetings.Meeting("", (rho, s1, e, 0.0, 0.0, nu3), duration)
+        end = conditions(meetings.flown(member, np.array([0.0, duration]))[-1], 0.0)
+        return [*end["ends"], *end["law"]]
+
+    at = np.array([*TRUE.costates[:3], TRUE.duration])
+    for share in (0.25, 0.5, 0.75, 1.0):
+        nu3 = TRUE.costates[5] + share * (CHEAP.costates[5] - TRUE.costates[5])
+        found = root(residual, at, args=(nu3,), tol=1e-10)
+        at = found.x
+        assert found.success and np.abs(found.fun).max() < 1e-9
+    np.testing.assert_allclose(at, [*CHEAP.costates[:3], CHEAP.duration], atol=1e-6)
