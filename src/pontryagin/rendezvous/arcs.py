@@ -26,7 +26,7 @@ COSTATES = slice(4, 10)
 BOUND = 11
 COUNT, COLUMNS = 12, 7
 STEPS_PER_UNIT = 100
-"""An arc that needs more Taylor steps than this per unit of time, and as many again, runs into a singularity."""
+"""An arc that needs more Taylor steps than this per unit of time runs into a singularity."""
 
 
 class Reached(NamedTuple):
@@ -90,9 +90,7 @@ class _Taylor:
         x = hy.make_vars(*STATES)
         rates = _rates(lifted(getattr(kernels, mode)), x, hy.par[0], hy.par[1])
         rates[BOUND] = hy.expression(0.0)
-        system = hy.var_ode_sys(
-            list(zip(x, rates, strict=True)), [*x[COSTATES], x[BOUND]], order=1
-        )
+        system = hy.var_ode_sys(list(zip(x, rates, strict=True)), [*x[COSTATES], x[BOUND]], order=1)
         events = []
         if ends:
             growing = hy.event_direction.positive if mode == "unsaturated" else hy.event_direction.negative

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.flight import Flight
-from pontryagin.rendezvous.problem import Scaled, conjugate, product
+from pontryagin.rendezvous.quaternions import rotated
+from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
 
@@ -27,21 +28,17 @@ def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, ti
     state = np.asarray(start, dtype=float)
     for piece, end in zip(flight.pieces, ends, strict=True):
         rate = rates(piece.mode)
+
+        def along(_: float, x: Array, rate: Callable = rate) -> Array:
+            return rate(x)
+
         inside = (times >= piece.begin) & (times <= end)
         grid, back = np.unique(np.append(times[inside], end), return_inverse=True)
-        result = solve_ivp(
-            lambda _, x, rate=rate: rate(x), (piece.begin, end), state, "DOP853", grid, rtol=3e-14, atol=1e-15
-        )
+        result = solve_ivp(along, (piece.begin, end), state, "DOP853", grid, rtol=3e-14, atol=1e-15)
         if result.status:
             raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - result.t[-1])
         rows[inside], state = result.y.T[back[:-1]], result.y[:, -1]
     return rows
-
-
-def rotated(vector: Array, attitude: Array) -> Array:
-    """a o x o a~, along the last axes."""
-    pure = np.concatenate([np.zeros((*vector.shape[:-1], 1)), vector], axis=-1)
-    return product(product(attitude, pure), conjugate(attitude))[..., 1:]
 
 
 def cartesian_of(states: Array, attitude: Array) -> Array:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from pontryagin.rendezvous.problem import Chaser, Orbit, Rendezvous
+from pontryagin.rendezvous.quaternions import about_third, product
 
 ONE = (1.0, 0.0, 0.0, 0.0)
 SUN = 1.32712440018e11
@@ -53,14 +54,13 @@ def chaser_on(orbit: Orbit, gravity: float = 1.0) -> Chaser:
     areal = math.sqrt(gravity * orbit.parameter)
     growth = 1 + orbit.eccentricity * math.cos(orbit.anomaly)
     radial = areal / orbit.parameter * orbit.eccentricity * math.sin(orbit.anomaly)
-    from pontryagin.rendezvous.problem import product
-
-    half = orbit.anomaly / 2
-    attitude = product(orbit.attitude, [math.cos(half), 0.0, 0.0, math.sin(half)])
+    attitude = product(orbit.attitude, about_third(orbit.anomaly))
     return Chaser(orbit.parameter / growth, radial, areal, attitude)
 
 
-def _orbit(parameter: float, eccentricity: float, inclination: float, anomaly: float, node: float = 0.0) -> Orbit:
+def _orbit(
+    parameter: float, eccentricity: float, inclination: float, anomaly: float, node: float = 0.0
+) -> Orbit:
     return Orbit.from_angles(parameter, eccentricity, node, math.radians(inclination), 0.0, anomaly)
 
 
@@ -82,7 +82,9 @@ def _to_ellipse() -> Case:
 
 
 def _to_ellipse_mixed() -> Case:
-    problem = Rendezvous(circle(), _orbit(1.5, 0.2, 0, 0.6), time_weight=0.002, energy_weight=1, peak=math.inf)
+    problem = Rendezvous(
+        circle(), _orbit(1.5, 0.2, 0, 0.6), time_weight=0.002, energy_weight=1, peak=math.inf
+    )
     return Case("ellipse-mixed", "coplanar circle to ellipse, mixed, without bound", problem, 14.0, 2.2)
 
 
@@ -90,14 +92,20 @@ def _inclined(degrees: int, guess: float, revolutions: float) -> Callable[[], Ca
     def make() -> Case:
         problem = Rendezvous(circle(), _orbit(1.5, 0.1, degrees, 0.6), peak=0.1)
         return Case(
-            f"inclined-{degrees}", f"circle to an ellipse inclined by {degrees}°, least time", problem, guess, revolutions
+            f"inclined-{degrees}",
+            f"circle to an ellipse inclined by {degrees}°, least time",
+            problem,
+            guess,
+            revolutions,
         )
 
     return make
 
 
 def _inclined_mixed() -> Case:
-    problem = Rendezvous(circle(), _orbit(1.5, 0.1, 20, 0.6), time_weight=0.0036, energy_weight=1, peak=math.inf)
+    problem = Rendezvous(
+        circle(), _orbit(1.5, 0.1, 20, 0.6), time_weight=0.0036, energy_weight=1, peak=math.inf
+    )
     return Case("mixed", "inclined by 20°, mixed, without bound", problem, 10.0, 1.0)
 
 
@@ -117,7 +125,9 @@ def _bounded_energy() -> Case:
     problem = Rendezvous(
         circle(), _orbit(1.5, 0.1, 20, 0.6), time_weight=0, energy_weight=1, peak=0.08, duration=9.0
     )
-    return Case("energy-bounded", "inclined by 20°, least energy in fixed time, the bound met", problem, 9.0, 0.9)
+    return Case(
+        "energy-bounded", "inclined by 20°, least energy in fixed time, the bound met", problem, 9.0, 0.9
+    )
 
 
 def _ellipses() -> Case:
@@ -144,7 +154,9 @@ def _glonass() -> Case:
     start = Orbit.from_angles(21000.0, 0.0, 0.0, 60.0 * degree, 0.0, 0.0)
     target = Orbit.from_angles(25507.0, 0.001, 2.0 * degree, 64.8 * degree, 0.0, 40 * degree)
     problem = Rendezvous(chaser_on(start, EARTH), target, peak=2e-5, gravity=EARTH)
-    return Case("glonass", "a lower circle to an orbit like GLONASS's, least time, km and s", problem, 50000.0, 1.2)
+    return Case(
+        "glonass", "a lower circle to an orbit like GLONASS's, least time, km and s", problem, 50000.0, 1.2
+    )
 
 
 MAKERS: tuple[Callable[[], Case], ...] = (

@@ -16,7 +16,7 @@ from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.cartesian import cartesian_of, fly_cartesian, integrate, target_by_kepler
 from pontryagin.rendezvous.flight import Flight, switching
 from pontryagin.rendezvous.homotopy import Root, scales
-from pontryagin.rendezvous.problem import conjugate, product
+from pontryagin.rendezvous.quaternions import conjugate, product
 
 Array = NDArray[np.float64]
 SAMPLES = 201
@@ -72,11 +72,11 @@ def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousC
         boundary=np.abs(reduced[-1, :3] - goal[:3]).max(),
         transversality=np.maximum(abs(law), transversality(end, flight.scaled.eccentricity)),
         hamiltonian=np.abs(energy - (0.0 if free else energy[-1])).max() / largest,
-        maximality=np.max(maximality(flight, reduced, thrust, weights)) / largest,
+        maximality=np.asarray(np.max(maximality(flight, reduced, thrust, weights)) / largest),
         attitude=np.abs(product(conjugate(end[4:8]), goal[3:])[1:]).max(),
-        agreement=agreement(flight, reduced, whole),
+        agreement=np.asarray(agreement(flight, reduced, whole)),
         cartesian=np.abs(last[:6] - target_by_kepler(flight.scaled, flight.duration)).max(),
-        condition=condition(root),
+        condition=np.asarray(condition(root)),
     )
 
 
@@ -125,13 +125,13 @@ def flown_thrust(flight: Flight, times: Array, states: Array) -> Array:
 def hamiltonian(states: Array, thrust: Array, constant: float, weights: tuple[float, float]) -> Array:
     """H of (17) along the flight."""
     r, v1, c, _, rho, s1, e, nu1, nu2, nu3 = states.T[:10]
-    costates = (rho, s1, e, nu1, nu2, nu3)
-    return np.asarray(kernels.hamiltonian(r, v1, c, *costates, *thrust.T, constant, 1.0, 1.0, 1.0, *weights))
+    inputs = [r, v1, c, rho, s1, e, nu1, nu2, nu3, *thrust.T, constant, 1.0, 1.0, 1.0, *weights]
+    return np.asarray(kernels.hamiltonian(*inputs))
 
 
 def terminal_law(state: Array, thrust: Array, weights: tuple[float, float]) -> float:
     """(n, p) - alpha1 - alpha2 p^2 at the end."""
-    return float(kernels.terminal_law(state[0], state[2], *state[5:8], *thrust, *weights))
+    return float(kernels.terminal_law(*[state[0], state[2], *state[5:8], *thrust, *weights]))
 
 
 def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[float, float]) -> Array:
@@ -147,9 +147,7 @@ def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[floa
 
 def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
     """Largest difference of R, V, rho, s1, e and nu, the costates relative to the largest of them."""
-    attitude = np.stack(
-        kernels.attitude(*flight.costates[3:], *reduced.T[7:11], flight.chart), axis=-1
-    )
+    attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - cartesian_of(whole, whole[:, 4:8])
     nu = product(conjugate(whole[:, 4:8]), whole[:, 12:])[:, 1:]
     costates = reduced[:, 4:10] - np.hstack([whole[:, 8:11], nu])

@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.cartesian import cartesian_of, rotated
-from pontryagin.rendezvous.problem import Rendezvous, Scaled, conjugate, product
+from pontryagin.rendezvous.cartesian import cartesian_of, target_by_kepler
+from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.quaternions import about_third, conjugate, product, rotated
+from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.start import twist
 
 Array = NDArray[np.float64]
@@ -92,7 +94,9 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
         if alpha2:
             cost += alpha2 * step * (ca.sum1(thrust[:, part] ** 2) @ weights)
     opti.subject_to(nodes[:, -1] == _target(ca, scaled, eccentric))
-    opti.subject_to(eccentric - scaled.eccentricity * ca.sin(eccentric) == _mean(scaled) + _motion(scaled) * end_time)
+    opti.subject_to(
+        eccentric - scaled.eccentricity * ca.sin(eccentric) == _mean(scaled) + _motion(scaled) * end_time
+    )
     if scaled.peak < math.inf:
         opti.subject_to(ca.sum1(thrust**2) / scaled.peak**2 <= 1)
     if fixed is None:
@@ -103,12 +107,14 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
     opti.set_initial(thrust, controls.T)
     opti.set_initial(eccentric, _mean(scaled) + _motion(scaled) * start)
     opti.minimize(cost)
-    quiet = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 2000}
+    quiet: dict = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 2000}
     opti.solver("ipopt", {"print_time": False, "detect_simple_bounds": True}, quiet)
     try:
         answer = opti.solve()
     except RuntimeError:
-        raise NotConverged(f"Ipopt: {opti.return_status()}", float(opti.stats()["iterations"]["inf_pr"][-1])) from None
+        raise NotConverged(
+            f"Ipopt: {opti.return_status()}", float(opti.stats()["iterations"]["inf_pr"][-1])
+        ) from None
     statistics = answer.stats()
     return Direct(
         float(answer.value(end_time)) * scaled.time,
@@ -148,9 +154,7 @@ def _target(ca, scaled: Scaled, eccentric):
 
 
 def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) -> tuple[Array, Array, Array]:
-    """A path that turns and tilts evenly from the start to the target: at nodes, at the points inside; no thrust."""
-    from pontryagin.rendezvous.cartesian import target_by_kepler
-
+    """A path that turns and tilts evenly to the target: at nodes, at the points inside, and no thrust."""
     goal = target_by_kepler(scaled, duration)
     place, velocity = goal[:3], goal[3:]
     normal = np.cross(place, velocity)
@@ -161,7 +165,7 @@ def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) 
     x, y, z, w = Rotation.from_matrix(axes).as_quat()
     relative = np.array([w, x, y, z])
     angle = twist(relative)
-    tilt = product(relative, conjugate(_about_third(angle)))
+    tilt = product(relative, conjugate(about_third(angle)))
     turned = angle + 2 * math.pi * round(revolutions - angle / (2 * math.pi))
     size = float(np.linalg.norm(tilt[1:]))
     half = math.atan2(size, abs(tilt[0]))
@@ -169,7 +173,7 @@ def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) 
 
     def states(share: Array) -> Array:
         attitude = np.column_stack([np.cos(share * half), np.sin(share * half)[:, None] * axis])
-        attitude = product(attitude, _about_third(share * turned))
+        attitude = product(attitude, about_third(share * turned))
         r = scaled.start[0] + share * (np.linalg.norm(place) - scaled.start[0])
         still = np.zeros_like(r)
         return cartesian_of(np.column_stack([r, still, r**2 * turned / duration]), attitude)
@@ -180,9 +184,3 @@ def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) 
     points = np.array(ca.collocation_points(DEGREE, "radau"))
     inner = (np.arange(intervals)[:, None] + points).ravel() / intervals
     return states(shares), states(inner), np.full((len(inner), 3), 1e-3 * min(scaled.peak, 1.0))
-
-
-def _about_third(angle) -> Array:
-    half = np.asarray(angle) / 2
-    still = np.zeros_like(half)
-    return np.stack([np.cos(half), still, still, np.sin(half)], axis=-1)

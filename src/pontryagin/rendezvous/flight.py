@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.arcs import COSTATES, COUNT, Mode, arc, identity
-from pontryagin.rendezvous.problem import Scaled
+from pontryagin.rendezvous.arcs import COUNT, Mode, arc, identity
+from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
 SWITCHES = 200
@@ -90,6 +90,11 @@ class Flight:
             rows[chosen] = states[back[:-1]]
         return rows
 
+    def attitude(self, states: Array) -> Array:
+        """lambda0~ o lambda (..., 4) of states (..., 12)."""
+        values = [*self.costates[3:], *np.moveaxis(states[..., 7:11], -1, 0), float(self.chart)]
+        return np.stack(kernels.attitude(*values), axis=-1)
+
     def thrust(self, times: Array) -> Array:
         """p in eta, (k, 3)."""
         return thrust(self.sample(times), self.peak, self.bang)
@@ -151,6 +156,3 @@ def fly(
     return Flight(
         scaled, np.array(costates), duration, peak, bang, chosen, tuple(pieces), end, slopes, taylor
     )
-
-
-__all__ = ["COSTATES", "Flight", "Piece", "chart_of", "fly", "switching", "thrust"]

@@ -6,8 +6,17 @@ import sympy as sp
 
 from pontryagin.compile import source
 from pontryagin.files import write
-from pontryagin.rendezvous.derivation import forms, inertial, model, primer, principle, reduction, repair
-from pontryagin.rendezvous.derivation import terminal, transversality
+from pontryagin.rendezvous.derivation import (
+    forms,
+    inertial,
+    model,
+    primer,
+    principle,
+    reduction,
+    repair,
+    terminal,
+    transversality,
+)
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, turn, vect
 
 HEADER = '''"""Numeric kernels of the rendezvous.
@@ -64,7 +73,9 @@ def shortest_turn(nu: sp.Matrix) -> sp.Matrix:
 
 def relative_attitude() -> sp.Matrix:
     """lambda0~ o lambda: with S = lambda0 o T(nu0), the angle chi starts from 0."""
-    return product(shortest_turn(start_nu), turn(model.EZ, repair.chi), conjugate(shortest_turn(principle.nu)))
+    return product(
+        shortest_turn(start_nu), turn(model.EZ, repair.chi), conjugate(shortest_turn(principle.nu))
+    )
 
 
 def _attitude() -> list[str]:
@@ -108,11 +119,24 @@ def _principle() -> list[str]:
         source("switching_square", seen, {"square": n.dot(n)}, "|n_eta|^2."),
         source(
             "hamiltonian",
-            [*whole, *thrust, reduction.anomaly_constant, model.gravity, model.parameter, model.areal, *weights],
+            [
+                *whole,
+                *thrust,
+                reduction.anomaly_constant,
+                model.gravity,
+                model.parameter,
+                model.areal,
+                *weights,
+            ],
             {"value": reduction.hamiltonian()},
             "H of (17) at any thrust.",
         ),
-        source("terminal_law", [*seen, *thrust, *weights], {"value": terminal.law()}, "(n, p) - alpha1 - alpha2 p^2."),
+        source(
+            "terminal_law",
+            [*seen, *thrust, *weights],
+            {"value": terminal.law()},
+            "(n, p) - alpha1 - alpha2 p^2.",
+        ),
     ]
 
 

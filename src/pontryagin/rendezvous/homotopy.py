@@ -60,15 +60,15 @@ def newton(setting: Setting, unknowns: Array, tolerance: float = EXACT) -> Root:
         When the residual stays above 1e-6.
     """
     here = equations(setting, unknowns)
-    size, correction = np.linalg.norm(here.residual), np.inf
+    size, correction = float(np.linalg.norm(here.residual)), np.inf
     for _ in range(ITERATIONS):
-        step = np.linalg.solve(here.jacobian, -here.residual)
+        step = np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
         correction = float(np.abs(step / scales(unknowns)).max())
         moved = _damped(setting, unknowns, step, size)
         if moved is None:
             break
         unknowns, here = moved
-        size = np.linalg.norm(here.residual)
+        size = float(np.linalg.norm(here.residual))
         if correction < tolerance:
             break
     if not size < 1e-6:

@@ -5,6 +5,7 @@ the target's pericentre turned through whole revolutions, the bound from where i
 p_max, and alpha1/alpha2 upwards until the thrust is saturated throughout.
 """
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.rendezvous.bound import bounded
 from pontryagin.rendezvous.flight import Flight
 from pontryagin.rendezvous.homotopy import Point, Root, between, follow, newton
-from pontryagin.rendezvous.problem import Scaled
+from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.shooting import Equations, Setting, equations
-from pontryagin.rendezvous.start import attitude_of, ballistic_lead, cold_start, coasting_twist
+from pontryagin.rendezvous.start import ballistic_lead, coasting_twist, cold_start
 
 Array = NDArray[np.float64]
 
@@ -35,14 +37,6 @@ END_SHARES = (2.5, 1.5, 0.7)
 
 From one of them alone the curve may turn back before the thrust is saturated, or lead to a slower extremal.
 """
-RUNAWAY = 1e4
-"""Growth of the costates at which a bound is taken to be the least for the duration."""
-LOWER = 120
-"""Points of a curve along which the bound is lowered."""
-RISE = 80
-"""Points of a curve along which alpha1/alpha2 is raised."""
-STEEPEST = 1e12
-"""alpha1/alpha2, in units of p_max^2, at which the thrust must be saturated throughout."""
 
 
 @dataclass
@@ -74,7 +68,7 @@ def extremals(setting: Setting, log: Search) -> list[Root]:
             continue
         for j, known in enumerate(sorted(found, key=value)[: 2 if setting.bang else KEPT]):
             try:
-                roots.append(_bounded(setting, loose.but(lead=known.lead), known.root))
+                roots.append(bounded(setting, loose.but(lead=known.lead), known.root))
             except (NotConverged, Infeasible) as reason:
                 log.given_up.append(f"extremal {j + 1} of the unbounded problem: {reason}")
     if not roots:
@@ -114,7 +108,7 @@ def energy(flight: Flight) -> float:
     nodes, weights = np.polynomial.legendre.leggauss(12)
     edges = [*(piece.begin for piece in flight.pieces), flight.duration]
     total = 0.0
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in itertools.pairwise(edges):
         panels = np.linspace(a, b, 2 + int(2 * (b - a)))
         half = np.diff(panels)[:, None] / 2
         times = panels[:-1, None] + half * (1 + nodes)
@@ -129,12 +123,12 @@ def energy(flight: Flight) -> float:
 def first_duration(scaled: Scaled, ratio: float) -> float:
     """A duration in which thrust of about sqrt(alpha1/alpha2) changes one orbit into the other."""
     radius, radial, areal = scaled.start
-    energy_gap = abs(math.sqrt(max(2 / radius - radial**2 - (areal / radius) ** 2, 1e-3)) - math.sqrt(
-        1 - scaled.eccentricity**2
-    ))
+    energy_gap = abs(
+        math.sqrt(max(2 / radius - radial**2 - (areal / radius) ** 2, 1e-3))
+        - math.sqrt(1 - scaled.eccentricity**2)
+    )
     eccentricity = math.hypot(areal**2 / radius - 1, areal * radial)
-    w, x, y, z = scaled.orientation
-    tilt = 2 * math.asin(min(1.0, math.hypot(x, y)))
+    tilt = 2 * math.asin(min(1.0, float(np.hypot(*scaled.orientation[1:3]))))
     speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
     return min(max(2.0, speed / math.sqrt(ratio)), 400.0)
 
@@ -167,9 +161,7 @@ def _free(setting: Setting, fixed: Root) -> Root:
     last: Point | None = None
     for point in marched(setting, fixed):
         if last is not None and last.equations.residual[-1] * point.equations.residual[-1] <= 0:
-            share = last.equations.residual[-1] / (
-                last.equations.residual[-1] - point.equations.residual[-1]
-            )
+            share = last.equations.residual[-1] / (last.equations.residual[-1] - point.equations.residual[-1])
             whole = [np.append(p.unknowns, math.exp(p.parameter)) for p in (last, point)]
             return newton(setting, whole[0] + share * (whole[1] - whole[0]))
         last = point
@@ -203,10 +195,10 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
     last: Point | None = None
     cost = best
     for point in follow(turning(setting), first.unknowns, 0.0, sign, step=0.3, steps=WALK, largest=1.5):
-        for j in _passed(last, point):
+        for j, guess in _passed(last, point):
             lead = TAU * j
             try:
-                root = newton(setting.but(lead=lead), between(last, point, lead))
+                root = newton(setting.but(lead=lead), guess)
             except NotConverged as reason:
                 log.given_up.append(f"{j} revolutions more: {reason}")
                 continue
@@ -220,12 +212,13 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
     return found
 
 
-def _passed(last: Point | None, point: Point) -> list[int]:
-    """Whole revolutions between two points of a curve; the start is known already."""
+def _passed(last: Point | None, point: Point) -> list[tuple[int, Array]]:
+    """Whole revolutions between two points of a curve, and unknowns there; the start is known already."""
     if last is None:
         return []
     low, high = sorted((last.parameter / TAU, point.parameter / TAU))
-    return [j for j in range(math.ceil(low), math.floor(high) + 1) if not (j == 0 and last.parameter == 0)]
+    turns = [j for j in range(math.ceil(low), math.floor(high) + 1) if j or last.parameter]
+    return [(j, between(last, point, TAU * j)) for j in turns]
 
 
 def turning(setting: Setting):
@@ -236,76 +229,3 @@ def turning(setting: Setting):
         return values, values.by_lead
 
     return family
-
-
-# --- the bound -----------------------------------------------------------------------------------------
-
-
-def _bounded(setting: Setting, loose: Setting, root: Root) -> Root:
-    """The extremal under the bound, and under alpha2 = 0 if that is asked for."""
-    lowered = _lowered(loose, root, setting.peak)
-    return _least_time(loose.but(peak=setting.peak), lowered) if setting.bang else lowered
-
-
-def largest_thrust(flight: Flight) -> float:
-    """Largest |p| on a fine grid."""
-    times = np.linspace(0, flight.duration, 200 + int(40 * flight.duration))
-    return float(np.linalg.norm(flight.thrust(times), axis=1).max())
-
-
-def _lowered(loose: Setting, root: Root, peak: float) -> Root:
-    """Bring the bound down to p_max."""
-    if peak == math.inf:
-        return root
-    highest = 1.001 * largest_thrust(root.flight)
-    if highest < peak:
-        return newton(loose.but(peak=peak), root.unknowns)
-
-    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        values = equations(loose.but(peak=math.exp(parameter)), unknowns)
-        return values, values.by_peak
-
-    start, end = math.log(highest), math.log(peak)
-    last: Point | None = None
-    least = start
-    for point in follow(family, root.unknowns, start, end, steps=LOWER, largest=1.0):
-        if last is not None and last.parameter > end >= point.parameter:
-            return newton(loose.but(peak=peak), between(last, point, end))
-        if point.parameter > start or np.abs(point.unknowns[:6]).max() > RUNAWAY * np.abs(root.unknowns[:6]).max():
-            break
-        last, least = point, min(least, point.parameter)
-    units = loose.scaled.acceleration
-    raise Infeasible(f"the bound went down to {math.exp(least) * units:.6g}, not to {peak * units:.6g}")
-
-
-def _least_time(setting: Setting, root: Root) -> Root:
-    """Raise alpha1/alpha2 until everything is saturated; then alpha2 = 0."""
-
-    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        """In costates over |n(t_k)|, which stay of one size."""
-        there = setting.but(ratio=math.exp(parameter))
-        size, growth = there.end_switching, there.end_switching_slopes[0]
-        scale = np.array([size] * 6 + [1.0])
-        values = equations(there, unknowns * scale)
-        by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
-        return values.scaled(scale), by_ratio
-
-    scale = np.array([setting.end_switching] * 6 + [1.0])
-    start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
-    bang = setting.but(ratio=math.inf)
-    reason = "alpha1/alpha2 could not be raised"
-    for point in follow(family, root.unknowns / scale, start, end, step=0.3, steps=RISE, largest=3.0):
-        pieces = point.equations.flight.pieces
-        if len(pieces) == 1 and pieces[0].mode == "saturated":
-            rescaled = np.append(point.unknowns[:6] / setting.peak, point.unknowns[6])
-            return newton(bang, rescaled)
-        if point.parameter > end:
-            reason = "the thrust vanishes on the way"
-            break
-        if point.parameter < start:
-            reason = "the family turns back"
-            break
-    raise NotConverged(reason, float("inf"))
-
-
-__all__ = ["Found", "Search", "attitude_of", "energy", "extremals", "largest_thrust"]

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.flight import Flight, fly, switching
-from pontryagin.rendezvous.problem import Scaled, product
+from pontryagin.rendezvous.quaternions import about_third, product
+from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
 
@@ -113,7 +114,7 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
     states, (6, 3) in nu at the start."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
     steps = inputs[:, None] + 1j * STEP * np.eye(len(inputs))
-    values = np.array(kernels.mismatch(*steps, flight.chart, *goal))
+    values = np.array(kernels.mismatch(*[*steps, flight.chart, *goal]))
     slopes = values.imag / STEP
     by_state = np.zeros((6, 12))
     by_state[:, SEEN] = slopes[:, :7]
@@ -123,7 +124,8 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
 def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
     """Derivative of `mismatch` when the goal moves in a direction."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    return np.array(kernels.mismatch(*inputs, flight.chart, *(goal + 1j * STEP * direction))).imag / STEP
+    moved = goal + 1j * STEP * direction
+    return np.array(kernels.mismatch(*[*inputs, flight.chart, *moved])).imag / STEP
 
 
 def end_rates(flight: Flight) -> Array:
@@ -136,8 +138,7 @@ def end_rates(flight: Flight) -> Array:
 
 def goal_of(setting: Setting, anomaly: float) -> tuple[Array, Array]:
     """The target at an anomaly, its orbit turned ahead by the lead, and its rate there."""
-    half = setting.lead / 2
-    ahead = product(setting.scaled.orientation, [math.cos(half), 0, 0, math.sin(half)])
+    ahead = product(setting.scaled.orientation, about_third(setting.lead))
     return setting.scaled.target(anomaly, ahead)
 
 
@@ -170,7 +171,7 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
         [[columns[:, :6], by_time[:, None]], [law_columns[None, :6], np.array([[law_by_state @ rates]])]]
     )
     wanted = setting.end_switching
-    by_ratio, by_peak = (0.0, 1.0 / setting.peak) if setting.bang else setting.end_switching_slopes
+    by_ratio, by_peak = (0.0, -1.0 / setting.peak) if setting.bang else setting.end_switching_slopes
     share = (law + 1) / wanted
     return Equations(
         flight,

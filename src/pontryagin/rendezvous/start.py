@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.flight import Flight, fly
 from pontryagin.rendezvous.homotopy import Root, newton
-from pontryagin.rendezvous.problem import Scaled, conjugate, product
+from pontryagin.rendezvous.quaternions import about_third, conjugate, product
+from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.shooting import I3, Setting, by_goal, goal_of, mismatch
 
 Array = NDArray[np.float64]
@@ -61,11 +61,6 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
     raise NotConverged("the goal could not be led to the target", 1 - done)
 
 
-def attitude_of(flight: Flight) -> Array:
-    """lambda0~ o lambda at the end."""
-    return np.array(kernels.attitude(*flight.costates[3:], *flight.end[7:11], flight.chart))
-
-
 def twist(relative: Array) -> float:
     """The angle about i3 of a turn = (a turn about an axis across i3) o (a turn about i3), in (-pi, pi]."""
     angle = 2 * math.atan2(relative[3], relative[0])
@@ -76,19 +71,15 @@ def coasting_twist(scaled: Scaled, duration: float) -> float:
     """The angle in the orbit's plane from where the craft coasts to where the target will be, (-pi, pi]."""
     flight = fly(scaled, SEED, duration)
     goal, _ = scaled.target(float(flight.end[3]))
-    return twist(product(conjugate(attitude_of(flight)), goal[3:]))
-
-
-def _turn(angle: float) -> Array:
-    return np.array([math.cos(angle / 2), 0, 0, math.sin(angle / 2)])
+    return twist(product(conjugate(flight.attitude(flight.end)), goal[3:]))
 
 
 def _path(flight: Flight, goal: Array, revolutions: int):
     """The goal (7,) and its rate as functions of the share of the way."""
-    place = attitude_of(flight)
+    place = flight.attitude(flight.end)
     relative = product(conjugate(place), goal[3:])
     angle = twist(relative)
-    tilt = product(relative, _turn(-angle))
+    tilt = product(relative, about_third(-angle))
     tilt = tilt if tilt[0] >= 0 else -tilt
     size = np.linalg.norm(tilt[1:])
     axis = np.concatenate([[0.0], tilt[1:] / size]) if size else np.zeros(4)
@@ -97,8 +88,8 @@ def _path(flight: Flight, goal: Array, revolutions: int):
 
     def goal_at(share: float) -> tuple[Array, Array]:
         tilted = math.cos(share * half) * np.array([1.0, 0, 0, 0]) + math.sin(share * half) * axis
-        attitude = product(product(place, tilted), _turn(share * whole))
-        rate = product(product(place, product(tilted, half * axis)), _turn(share * whole))
+        attitude = product(product(place, tilted), about_third(share * whole))
+        rate = product(product(place, product(tilted, half * axis)), about_third(share * whole))
         rate = rate + whole / 2 * product(attitude, I3)
         return (
             np.concatenate([here + share * (goal[:3] - here), attitude]),
@@ -164,7 +155,8 @@ def _swept(parameter: float, eccentricity: float, anomaly: float, duration: floa
     mean = begin - eccentricity * math.sin(begin) + motion * duration
     eccentric = mean
     for _ in range(60):
-        step = (eccentric - eccentricity * math.sin(eccentric) - mean) / (1 - eccentricity * math.cos(eccentric))
+        gap = eccentric - eccentricity * math.sin(eccentric) - mean
+        step = gap / (1 - eccentricity * math.cos(eccentric))
         eccentric -= step
         if abs(step) < 1e-14 * (1 + abs(eccentric)):
             break

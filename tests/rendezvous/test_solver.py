@@ -1,0 +1,245 @@
+"""The rendezvous solver: exact derivatives, meetings in every geometry, certificates that can fail."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pontryagin
+from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, solve
+from pontryagin.rendezvous.bound import bounded
+from pontryagin.rendezvous.certify import certify
+from pontryagin.rendezvous.flight import fly
+from pontryagin.rendezvous.homotopy import newton
+from pontryagin.rendezvous.search import Search, energy, extremals
+from pontryagin.rendezvous.shooting import Setting, end_thrust, equations
+from pontryagin.rendezvous.start import cold_start
+
+CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
+COSTATES = np.array([0.01, 0.02, 0.05, 0.01, 0.02, 0.03])
+INCLINATIONS = (0, 1, 60, 150)
+
+
+def orbit(degrees: float, eccentricity: float = 0.1) -> Orbit:
+    return Orbit.from_angles(1.5, eccentricity, 0.3, math.radians(degrees), 0.5, 0.6)
+
+
+def problem(degrees: float, **changes) -> Rendezvous:
+    given = {"time_weight": 0, "energy_weight": 1, "peak": math.inf} | changes
+    return Rendezvous(CRAFT, orbit(degrees), **given)
+
+
+def test_the_kernels_are_what_the_derivation_generates():
+    assert Path(kernels.__file__).read_text() == generate.kernels()
+
+
+def test_importing_the_package_loads_neither_sympy_nor_an_integrator():
+    heavy = "{'sympy', 'heyoka', 'scipy.integrate', 'numba', 'casadi', 'matplotlib'}"
+    code = f"import sys, pontryagin.rendezvous as r; r.Orbit; print({heavy} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+@pytest.mark.parametrize("degrees", INCLINATIONS)
+@pytest.mark.parametrize(("ratio", "peak"), [(0.01, 0.05), (0.001, 0.05), (math.inf, 0.05), (0.01, math.inf)])
+def test_the_derivatives_are_those_of_the_equations(degrees, ratio, peak):
+    """Also across the switches, of the terminal law, in the bound, in alpha1/alpha2 and in the lead."""
+    setting, h = Setting(problem(degrees).scaled, ratio, peak), 1e-6
+    point = np.append(COSTATES, 6.0)
+    exact = equations(setting, point)
+
+    def slope(there, back):
+        return (there.residual - back.residual) / (2 * h)
+
+    columns = [slope(equations(setting, point + h * x), equations(setting, point - h * x)) for x in np.eye(7)]
+    assert np.allclose(np.array(columns).T, exact.jacobian, rtol=1e-6, atol=1e-6)
+    turned = [equations(setting.but(lead=x), point) for x in (h, -h)]
+    assert np.allclose(slope(*turned), exact.by_lead, atol=1e-8)
+    if peak < math.inf:
+        bounds = [equations(setting.but(peak=peak * math.exp(x)), point) for x in (h, -h)]
+        assert np.allclose(slope(*bounds), exact.by_peak, atol=1e-7)
+    if ratio < math.inf:
+        ratios = [equations(setting.but(ratio=ratio * math.exp(x)), point) for x in (h, -h)]
+        assert np.allclose(slope(*ratios), exact.by_ratio, atol=1e-8)
+
+
+@pytest.mark.parametrize("peak", [math.inf, 0.03])
+def test_both_integrators_fly_the_same_arcs(peak):
+    taylor, classic = (fly(problem(20).scaled, COSTATES, 8.0, peak, taylor=use) for use in (True, False))
+    assert len(taylor.pieces) == len(classic.pieces) == (1 if peak == math.inf else 2)
+    assert np.allclose(taylor.switch_times, classic.switch_times, atol=1e-11)
+    assert np.allclose(taylor.end, classic.end, atol=1e-10)
+    assert np.allclose(taylor.slopes, classic.slopes, atol=1e-8)
+    grid = np.linspace(0, 8, 33)
+    assert np.allclose(taylor.sample(grid), classic.sample(grid), atol=1e-10)
+
+
+def test_the_two_charts_are_one_attitude():
+    scaled = problem(20).scaled
+    above, below = (fly(scaled, COSTATES, 5.0, chart=chart) for chart in (1, -1))
+    first, second = above.attitude(above.end), below.attitude(below.end)
+    assert np.allclose(first, np.sign(first @ second) * second, atol=1e-12)
+
+
+@pytest.mark.parametrize("degrees", INCLINATIONS)
+def test_a_cold_start_meets_the_target_in_every_geometry(degrees):
+    """The attitude of (6) is carried by the 16 equations, the place by Newton's law and Kepler's equation."""
+    setting = Setting(problem(degrees).scaled, 1.0, math.inf, duration=3.0)
+    root = cold_start(setting)
+    assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
+
+
+def test_more_revolutions_are_other_extremals():
+    setting = Setting(problem(20).scaled, 1.0, math.inf, duration=12.0)
+    costs = {turns: energy(cold_start(setting, turns).flight) for turns in (-1, 0, 1)}
+    assert len({round(cost, 6) for cost in costs.values()}) == 3
+
+
+@pytest.mark.parametrize("taylor", [True, False])
+def test_a_wrong_costate_is_found_out(taylor):
+    setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0, taylor=taylor)
+    root = newton(setting, cold_start(setting).unknowns)
+    moved = equations(setting, root.unknowns + [0, 0, 0, 1e-6, 0, 0])
+    assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
+    wrong = type(root)(root.unknowns, moved, 0.0)
+    assert not certify(wrong, (0.0, 1.0), free=False).holds(1e-8)
+
+
+def test_a_meeting_ahead_of_the_target_fails_by_its_attitude_alone():
+    """In one plane, with a round target, (5), (15), (16) and H = 0 hold anywhere on the orbit."""
+    free = Rendezvous(CRAFT, orbit(0, eccentricity=0.0), 0.002, 1.0, math.inf)
+    best = solve(free)
+    setting = Setting(free.scaled, free.scaled.ratio, math.inf)
+    ahead = newton(setting.but(lead=0.1), best.root.unknowns)
+    false = certify(ahead, free.scaled.weights, free=True)
+    others = (false.boundary, false.transversality, false.hamiltonian, false.maximality, false.agreement)
+    assert max(others) < 1e-10
+    assert false.attitude == pytest.approx(math.sin(0.05), rel=1e-6)
+    assert best.certificate.holds(1e-10)
+
+
+def test_the_cost_falls_with_the_duration_by_the_end_thrust():
+    """dJ/dt_k = alpha1 - alpha2 p(t_k)^2 along the family of fixed times."""
+    setting, h = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0), 1e-4
+    here = cold_start(setting)
+    later, sooner = (energy(newton(setting.but(duration=3.0 + x), here.unknowns).flight) for x in (h, -h))
+    assert (later - sooner) / (2 * h) == pytest.approx(-(end_thrust(here.flight) ** 2), rel=1e-6)
+
+
+def test_a_mixed_problem_meets_the_bound_and_obeys_the_end_law():
+    best = solve(problem(20, time_weight=0.0036, peak=0.08))
+    assert all(b.certificate.holds(1e-9) for b in (best, *best.others))
+    assert "saturated" in best.modes and best.modes[-1] == "unsaturated"
+    thrust = np.linalg.norm(best.control([*best.switch_times, best.duration]), axis=1)
+    assert thrust[:-1] == pytest.approx(0.08, rel=1e-12)
+    assert thrust[-1] == pytest.approx(math.sqrt(0.0036), rel=1e-10)
+    assert [b.cost for b in (best, *best.others)] == sorted(b.cost for b in (best, *best.others))
+    assert best.searched.durations and 0 in best.searched.revolutions
+
+
+def least_time(degrees: float):
+    """One curve from the unbounded problem to least time."""
+    given = problem(degrees, time_weight=1, energy_weight=0, peak=0.1)
+    scaled = given.scaled
+    loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
+    (root, *_) = extremals(loose, Search())
+    return given, bounded(Setting(scaled, scaled.ratio, scaled.peak), loose, root)
+
+
+@pytest.mark.parametrize("degrees", [0, 30])
+def test_least_time_is_saturated_throughout(degrees):
+    given, root = least_time(degrees)
+    certificate = certify(root, given.scaled.weights, free=True)
+    assert certificate.holds(1e-10)
+    assert [piece.mode for piece in root.flight.pieces] == ["saturated"]
+
+
+def test_units_and_signs_of_quaternions_change_nothing():
+    """Lengths times 7000, fM = 398600, and -Lambda* in place of Lambda*."""
+    plain = problem(20, duration=8.0)
+    length, gravity = 7000.0, 398600.0
+    time = math.sqrt(length**3 / gravity)
+    speed = length / time
+    target = plain.target
+    other = Rendezvous(
+        Chaser(length, 0.0, length * speed, [-1, 0, 0, 0]),
+        Orbit(1.5 * length, target.eccentricity, -np.asarray(target.attitude), target.anomaly),
+        time_weight=0,
+        energy_weight=1,
+        peak=math.inf,
+        gravity=gravity,
+        duration=8.0 * time,
+    )
+    first, second = solve(plain), solve(other)
+    assert second.cost * time / speed**2 == pytest.approx(first.cost, rel=1e-11)
+    assert second.arrival_anomaly == pytest.approx(first.arrival_anomaly, abs=1e-11)
+    assert second.certificate.holds(1e-10)
+
+
+def test_what_is_sampled_is_in_the_users_units():
+    given = problem(20, duration=8.0)
+    best = solve(given)
+    t = np.linspace(0, 8, 9)
+    states = best.state(t)
+    assert states.shape == (9, 8) and best.costate(t).shape == (9, 6) and best.control(t).shape == (9, 3)
+    assert np.allclose(states[0], [1, 0, 1, 0.6, 1, 0, 0, 0], atol=1e-14)
+    assert np.allclose(best.costate(0.0)[0], best.initial_costate)
+    assert np.allclose(np.linalg.norm(states[:, 4:], axis=1), 1, atol=1e-12)
+    with pytest.raises(ValueError, match=r"^t must lie between"):
+        best.state(8.1)
+
+
+def test_a_neighbours_solution_is_a_start():
+    first = solve(problem(20, duration=8.0))
+    near = solve(problem(20, duration=8.05), start=first)
+    assert near.certificate.holds(1e-10) and near.cost < first.cost
+
+
+def test_the_judge_agrees_and_its_error_shrinks():
+    pytest.importorskip("casadi")
+    from pontryagin.rendezvous.direct import direct
+
+    given = problem(20, duration=8.0)
+    best = solve(given)
+    errors = [abs(direct(given, 8.0, 0.7, n).cost / best.cost - 1) for n in (15, 30)]
+    assert errors[0] < 1e-2 and errors[1] < errors[0] / 8
+
+
+BAD = {
+    "attitude must be a unit quaternion": lambda: Orbit(1, 0.1, [1, 1, 0, 0], 0),
+    "eccentricity must be less than 1": lambda: Orbit(1, 1.0, [1, 0, 0, 0], 0),
+    "eccentricity must be at least 0": lambda: Orbit(1, -0.1, [1, 0, 0, 0], 0),
+    "parameter must be greater than 0": lambda: Orbit(0, 0.1, [1, 0, 0, 0], 0),
+    "anomaly must be a number and finite": lambda: Orbit(1, 0.1, [1, 0, 0, 0], math.nan),
+    "r must be greater than 0": lambda: Chaser(-1, 0, 1, [1, 0, 0, 0]),
+    "c must be greater than 0": lambda: Chaser(1, 0, 0, [1, 0, 0, 0]),
+    "attitude must be an array": lambda: Chaser(1, 0, 1, [1, 0, 0]),
+    "chaser must start on an ellipse": lambda: Rendezvous(Chaser(1, 0, 1.5, [1, 0, 0, 0]), orbit(0)),
+    "peak must be greater than 0": lambda: problem(0, peak=0),
+    "peak must be a number and finite": lambda: problem(0, peak=math.nan),
+    "peak must be finite": lambda: problem(0, time_weight=1, energy_weight=0),
+    "must not both be 0": lambda: problem(0, energy_weight=0, peak=1.0),
+    "time_weight must be at least 0": lambda: problem(0, time_weight=-1),
+    "duration must be greater than 0": lambda: problem(0, duration=0),
+    "duration must be left free": lambda: problem(0, time_weight=1, energy_weight=0, peak=1.0, duration=5),
+    "gravity must be greater than 0": lambda: problem(0, gravity=0),
+}
+
+
+@pytest.mark.parametrize("message", BAD)
+def test_bad_input_is_named(message):
+    with pytest.raises(ValueError, match=message):
+        BAD[message]()
+
+
+def test_energy_alone_leaves_no_best_free_time():
+    with pytest.raises(pontryagin.Infeasible, match="longer flight is always cheaper"):
+        solve(problem(20))
+
+
+def test_a_bound_too_small_for_the_duration_is_infeasible():
+    with pytest.raises(pontryagin.Infeasible, match=r"the bound went down to 0\.\d+, not to 0\.04"):
+        solve(problem(20, peak=0.04, duration=4.0))
