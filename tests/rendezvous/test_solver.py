@@ -102,7 +102,7 @@ def test_more_revolutions_are_other_extremals():
 def test_a_wrong_costate_is_found_out(taylor):
     setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0, taylor=taylor)
     root = newton(setting, cold_start(setting).unknowns)
-    moved = equations(setting, root.unknowns + [0, 0, 0, 1e-6, 0, 0])
+    moved = equations(setting, root.unknowns + 1e-6 * np.eye(6)[3])
     assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
     wrong = type(root)(root.unknowns, moved, 0.0)
     assert not certify(wrong, (0.0, 1.0), free=False).holds(1e-8)
