@@ -39,3 +39,44 @@ class Certificate:
     def holds(self, tol: float = 1e-10) -> bool:
         """Whether every residual and every gap of the stack is within `tol`; nan never is."""
         return bool(np.all(np.abs(self.primal_residual) <= tol) and np.all(np.abs(self.gap) <= tol))
+
+
+@dataclass(frozen=True)
+class MaximumPrinciple:
+    """How exactly an extremal satisfies the necessary conditions of the maximum principle.
+
+    The problems it belongs to are not convex: no bound on the cost of all controls follows, and none is
+    claimed. Every entry is (...), in the problem's own scaled units (dimensionless).
+
+    Parameters
+    ----------
+    boundary : (...) array
+        Largest violation of the equations of motion and of the conditions on the state at both ends.
+    transversality : (...) array
+        Largest violation of the conditions on the costate at the ends.
+    hamiltonian : (...) array
+        Largest modulus of the Hamiltonian, which must vanish throughout where the duration is free.
+    maximality : (...) array
+        Largest gap between the Hamiltonian's maximum over the controls and its value at the control used.
+
+    Examples
+    --------
+    >>> extremal = MaximumPrinciple(np.array(1e-15), np.array(3e-14), np.array(0.0), np.array(2e-15))
+    >>> float(extremal.residual), extremal.holds()
+    (3e-14, True)
+    """
+
+    boundary: NDArray[np.float64]
+    transversality: NDArray[np.float64]
+    hamiltonian: NDArray[np.float64]
+    maximality: NDArray[np.float64]
+
+    @cached_property
+    def residual(self) -> NDArray[np.float64]:
+        """The largest of the four, (...)."""
+        parts = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
+        return np.max(np.broadcast_arrays(*parts), axis=0)
+
+    def holds(self, tol: float = 1e-10) -> bool:
+        """Whether every residual of the stack is within `tol`; nan never is."""
+        return bool(np.all(self.residual <= tol))

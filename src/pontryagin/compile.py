@@ -56,7 +56,8 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
         arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
         shape = arrays[0].shape if arrays else ()
         with np.errstate(divide="ignore", invalid="ignore"):
-            columns = [np.broadcast_to(_real(name, column), shape) for column in evaluate(*arrays)]
+            columns = [_real(name, column) for column in evaluate(*arrays)]
+        columns = [c if c.shape == shape else np.broadcast_to(c, shape) for c in columns]
         results, position = [], 0
         for matrix in matrices.values():
             if matrix is None:

@@ -1,0 +1,230 @@
+"""From Newton's equations to osculating elements (Akulenko 1977, section 3, example 2), in SymPy.
+
+Units in which the attracting centre has the parameter 1. The state is (r, phi, v_r, v_phi), the control the
+radial and transverse thrust (u_r, u_phi), multiplied by epsilon.
+
+    paper       here                  meaning
+    E, K        energy, momentum      energy < 0 and angular momentum > 0
+    e, gamma    e, gamma              eccentricity and direction of the pericentre
+    p           parameter()           focal parameter K^2
+    x, xi, psi  anomaly, eccentric,   true, eccentric and mean anomaly; psi is the rotating phase
+                mean_anomaly()
+"""
+
+import functools
+from typing import NamedTuple
+
+import sympy as sp
+
+t, phi, gamma, anomaly, eccentric = sp.symbols("t phi gamma x xi", real=True)
+r, e, epsilon = sp.symbols("r e epsilon", positive=True)
+v_radial, v_transverse = sp.symbols("v_r v_phi", real=True)
+u_radial, u_transverse = sp.symbols("u_r u_phi", real=True)
+energy = sp.Symbol("E", negative=True)
+momentum = sp.Symbol("K", positive=True)
+
+STATE = sp.ImmutableMatrix([r, phi, v_radial, v_transverse])
+CONTROL = sp.ImmutableMatrix([u_radial, u_transverse])
+
+
+@functools.cache
+def equations_of_motion() -> sp.ImmutableMatrix:
+    """(r', phi', v_r', v_phi') under gravity and thrust, (3.3), from Newton's law in the plane."""
+    radius, angle = sp.Function("r")(t), sp.Function("phi")(t)
+    along = sp.Matrix([sp.cos(angle), sp.sin(angle)])
+    across = sp.Matrix([-sp.sin(angle), sp.cos(angle)])
+    place = radius * along
+    velocity = place.diff(t)
+    force = -place / radius**3 + epsilon * (u_radial * along + u_transverse * across)
+    speeds = [sp.simplify(velocity.dot(direction)) for direction in (along, across)]
+    first = sp.solve(
+        [speeds[0] - v_radial, speeds[1] - v_transverse], [radius.diff(t), angle.diff(t)], dict=True
+    )[0]
+    balance = [sp.simplify((velocity.diff(t) - force).dot(direction)) for direction in (along, across)]
+    second = sp.solve(balance, [radius.diff(t, 2), angle.diff(t, 2)], dict=True)[0]
+    rates = [first[radius.diff(t)], first[angle.diff(t)]]
+    rates += [speed.diff(t).subs(second).subs(first) for speed in speeds]
+    return sp.ImmutableMatrix([sp.expand(sp.simplify(rate.subs({radius: r, angle: phi}))) for rate in rates])
+
+
+def along_the_motion(quantity: sp.Expr) -> sp.Expr:
+    """Rate of a function of the state."""
+    gradient = sp.Matrix([quantity]).jacobian(STATE)
+    return sp.simplify((gradient * equations_of_motion())[0])
+
+
+def energy_of_state() -> sp.Expr:
+    """E of (3.4): kinetic energy less 1/r."""
+    return (v_radial**2 + v_transverse**2) / 2 - 1 / r
+
+
+def momentum_of_state() -> sp.Expr:
+    """K of (3.4): r times the transverse speed."""
+    return r * v_transverse
+
+
+def laplace_in_the_orbit() -> sp.Matrix:
+    """Laplace's vector v x K - r/|r| along and across the radius."""
+    speed, K = sp.Matrix([v_radial, v_transverse]), momentum_of_state()
+    return sp.Matrix([speed[1] * K - 1, -speed[0] * K])
+
+
+def laplace() -> sp.Matrix:
+    """Laplace's vector in the fixed plane; constant without thrust, it points at the pericentre."""
+    return sp.rot_ccw_axis3(phi)[:2, :2] * laplace_in_the_orbit()
+
+
+@functools.cache
+def conic() -> sp.Dict:
+    """Where the body is and how fast, as functions of K, e and x: the orbit of (3.4).
+
+    Laplace's vector has the length e and makes the angle -x with the radius: solved for r, v_r, v_phi.
+    """
+    vector = laplace_in_the_orbit()
+    conditions = [
+        vector[0] - e * sp.cos(anomaly),
+        vector[1] + e * sp.sin(anomaly),
+        momentum_of_state() - momentum,
+    ]
+    found = sp.solve(conditions, [r, v_radial, v_transverse], dict=True)
+    return sp.Dict({left: sp.simplify(right) for left, right in found[0].items()})
+
+
+def parameter() -> sp.Expr:
+    """The focal parameter p = K^2: the radius at a right angle from the pericentre."""
+    return conic()[r].subs(anomaly, sp.pi / 2)
+
+
+def on_the_orbit(quantity: sp.Expr) -> sp.Expr:
+    """A function of the state in terms of K, e, x and gamma."""
+    return sp.simplify(quantity.subs(phi, gamma + anomaly).subs(conic()))
+
+
+@functools.cache
+def eccentricity() -> sp.Expr:
+    """e in terms of E and K, from the energy on the orbit."""
+    solutions = sp.solve(on_the_orbit(energy_of_state()) - energy, e**2)
+    return sp.sqrt(sp.expand(solutions[0]))
+
+
+def in_slow_variables(expression: sp.Expr) -> sp.Expr:
+    """An expression in K, e and x with e written out in E and K, otherwise as it stands."""
+    return expression.subs(e, eccentricity())
+
+
+def affine(rate: sp.Expr) -> sp.Expr:
+    """A rate under thrust, its coefficients of the control factored, with cos^2 x for 1 - sin^2 x."""
+    coefficients = [sp.expand_trig(sp.expand(rate).coeff(u)) for u in CONTROL]
+    square = {sp.sin(anomaly) ** 2: 1 - sp.cos(anomaly) ** 2}
+    return sum(
+        (sp.factor(sp.expand(c).subs(square)) * u for c, u in zip(coefficients, CONTROL, strict=True)),
+        sp.S.Zero,
+    )
+
+
+@functools.cache
+def element_rates() -> sp.Dict:
+    """E', K', e', gamma' under thrust, (3.6) and below it; p' is 2 K K'. Keys: E, K, e, gamma.
+
+    The rate of Laplace's vector along itself is e', across itself e gamma'.
+    """
+    vector = laplace().applyfunc(on_the_orbit)
+    rate = laplace().applyfunc(along_the_motion).applyfunc(on_the_orbit)
+    rates = {
+        energy: on_the_orbit(along_the_motion(energy_of_state())),
+        momentum: on_the_orbit(along_the_motion(momentum_of_state())),
+        e: sp.simplify(vector.dot(rate) / e),
+        gamma: sp.simplify((vector[0] * rate[1] - vector[1] * rate[0]) / e**2),
+    }
+    return sp.Dict({element: affine(rate) for element, rate in rates.items()})
+
+
+@functools.cache
+def anomaly_rate() -> sp.Expr:
+    """x' = phi' - gamma' without thrust: K/r^2."""
+    return on_the_orbit(equations_of_motion()[1])
+
+
+@functools.cache
+def eccentric_anomaly() -> sp.Expr:
+    """cos xi as a function of e and x, from the two forms of r in (3.4)."""
+    xi_cosine = sp.Symbol("c")
+    ring = ellipse_radius().subs(sp.cos(eccentric), xi_cosine)
+    semi_major = (1 - e**2) / momentum**2
+    condition = ring.subs(energy, -semi_major / 2) - conic()[r]
+    return sp.factor(sp.solve(condition, xi_cosine)[0])
+
+
+@functools.cache
+def ellipse_radius() -> sp.Expr:
+    """r as a function of E, e and xi, (3.4): between the two radii at which v_r = 0, at cos xi = 1 and -1."""
+    turning = sp.solve((energy_of_state() - energy).subs({v_radial: 0, v_transverse: momentum / r}), r)
+    ends = [sp.simplify(root.subs(momentum, sp.sqrt((e**2 - 1) / (2 * energy)))) for root in turning]
+    near, far = sorted(ends, key=lambda end: end.subs({energy: -1, e: sp.Rational(1, 2)}))
+    return sp.simplify((near + far) / 2 - (far - near) / 2 * sp.cos(eccentric))
+
+
+@functools.cache
+def time_of_flight() -> sp.Expr:
+    """t + delta as a function of E, e and xi, (3.4): dt = dr/v_r from the pericentre on."""
+    square = 2 * (energy + 1 / r) - (momentum / r) ** 2
+    square = square.subs(momentum, sp.sqrt((e**2 - 1) / (2 * energy))).subs(r, ellipse_radius())
+    slope_squared = sp.simplify(ellipse_radius().diff(eccentric) ** 2 / sp.factor(sp.simplify(square)))
+    slope = ellipse_radius() / sp.sqrt(-2 * energy)
+    if sp.simplify(slope_squared - slope**2) != 0:
+        raise ArithmeticError("dt/dxi is not r (2|E|)^(-1/2)")
+    return sp.integrate(sp.expand(slope), (eccentric, 0, eccentric))
+
+
+def period() -> sp.Expr:
+    """T(E): the time in which xi, and with it x, grows by 2 pi."""
+    return sp.simplify(time_of_flight().subs(eccentric, 2 * sp.pi))
+
+
+def mean_motion() -> sp.Expr:
+    """omega(E) = 2 pi/T, the rate of psi without thrust."""
+    return sp.simplify(2 * sp.pi / period())
+
+
+@functools.cache
+def weight() -> sp.Expr:
+    """dpsi/dx at fixed elements, as a function of e and x: the mean motion over x'."""
+    motion = mean_motion().subs(energy, (e**2 - 1) / (2 * momentum**2))
+    return sp.powsimp(sp.simplify(motion / anomaly_rate()))
+
+
+class Model(NamedTuple):
+    """Example 2 as a system in (E, K) and the true anomaly x: what `model` returns."""
+
+    slow: tuple[sp.Symbol, ...]
+    control: tuple[sp.Symbol, ...]
+    anomaly: sp.Symbol
+    rates: sp.ImmutableMatrix
+    mean_motion: sp.Expr
+    weight: sp.Expr
+    anomaly_rate: sp.Expr
+    phase_rate: sp.Expr
+
+
+@functools.cache
+def model() -> Model:
+    """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as the engine takes it.
+
+    The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
+    anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps
+    are affine in the control; `anomaly_rate` is x' without thrust, the same as mean_motion/weight. The
+    eccentricity is written out as sqrt(1 + 2 E K^2); on the circle, where it vanishes, `phase_rate` has no
+    value.
+    """
+    rates = element_rates()
+    slow = sp.Matrix([affine(rates[energy] / epsilon), affine(rates[momentum] / epsilon)])
+    return Model(
+        slow=(energy, momentum),
+        control=(u_radial, u_transverse),
+        anomaly=anomaly,
+        rates=sp.ImmutableMatrix(slow.applyfunc(in_slow_variables)),
+        mean_motion=mean_motion(),
+        weight=in_slow_variables(weight()),
+        anomaly_rate=in_slow_variables(anomaly_rate()),
+        phase_rate=in_slow_variables(affine(-rates[gamma] / epsilon)),
+    )

@@ -1,0 +1,145 @@
+"""The averaged problem of example 2 solved in closed form (Akulenko 1977, (3.9)), and what follows from it.
+
+paper       here                              meaning
+E0, K0, E1  energy0, momentum0, energy1       where it starts, where it ends
+tau, tau1   tau, duration                     slow time epsilon t and its last value
+rho         rho                               -p_E(tau1)
+"""
+
+import functools
+
+import sympy as sp
+
+from pontryagin.averaging.derivation.kepler import (
+    CONTROL,
+    conic,
+    e,
+    eccentric,
+    energy,
+    mean_motion,
+    momentum,
+)
+from pontryagin.averaging.derivation.kepler_phase import mean_anomaly, true_from_eccentric
+from pontryagin.averaging.derivation.kepler_principle import (
+    averaged_hamiltonian,
+    averaged_rates,
+    costate_energy,
+    costate_momentum,
+    kappa,
+    maximised,
+    maximiser,
+    over_a_turn,
+    running_cost,
+)
+
+tau = sp.Symbol("tau", real=True)
+duration = sp.Symbol("tau_1", positive=True)
+rho = sp.Symbol("rho", real=True, nonzero=True)
+energy0, energy1 = sp.symbols("E_0 E_1", negative=True)
+momentum0 = sp.Symbol("K_0", positive=True)
+direction = sp.Symbol("sigma", real=True, nonzero=True)
+
+OPTIMUM = {costate_momentum: 0, kappa: 0}
+"""p_K is 0 at the end, where K is free, and dp_K/dtau has the factor p_K; kappa = 0 is the best ending."""
+
+
+def optimal_rates() -> dict[sp.Symbol, sp.Expr]:
+    """dE, dK, dp_E over dtau on the optimum."""
+    rates = averaged_rates()
+    return {s: rates[s].subs(OPTIMUM) for s in (energy, momentum, costate_energy)}
+
+
+@functools.cache
+def solution() -> sp.Dict:
+    """p_E, E, K as functions of tau, tau1, rho: the rates integrated one after the other, (3.9)."""
+    rates = optimal_rates()
+    p, E, K = (sp.Function(name)(tau) for name in ("p_E", "E", "K"))
+    riccati = sp.Eq(p.diff(tau), rates[costate_energy].subs(costate_energy, p))
+    costate = sp.factor(sp.dsolve(riccati, p, ics={p.subs(tau, duration): -rho}).rhs)
+    found = {costate_energy: costate}
+    for slow, path, start in ((energy, E, energy0), (momentum, K, momentum0)):
+        rate = rates[slow].subs({slow: path, costate_energy: costate})
+        linear = sp.dsolve(sp.Eq(path.diff(tau), rate), path, ics={path.subs(tau, 0): start})
+        found[slow] = sp.factor(sp.simplify(linear.rhs))
+    return sp.Dict(found)
+
+
+@functools.cache
+def shrinkage() -> sp.Expr:
+    """1 - rho tau1/2 in terms of E0 and E1, from E(tau1) = E1.
+
+    The denominator of p_E runs from it to 1 and must not vanish on the way: it is positive.
+    """
+    left = sp.Symbol("z", positive=True)
+    end = solution()[energy].subs(tau, duration).subs(rho, 2 * (1 - left) / duration)
+    return sp.solve(sp.factor(end) - energy1, left)[0]
+
+
+@functools.cache
+def costate_size() -> sp.Expr:
+    """|rho|, from h0 = 0 at the end."""
+    level = averaged_hamiltonian().subs(OPTIMUM).subs({costate_energy: -rho, energy: energy1})
+    return sp.sqrt(sp.solve(level, rho**2)[0])
+
+
+def terminal_costate() -> sp.Expr:
+    """rho: it has the sign of rho tau1/2 = 1 - (E0/E1)^(1/2)."""
+    return costate_size() * sp.sign(1 - shrinkage())
+
+
+def optimal_duration() -> sp.Expr:
+    """tau1 = 2 |1 - (E0/E1)^(1/2)|/|rho|, the factor |E1|^(1/2) taken into the modulus."""
+    root = sp.sqrt(-energy1)
+    return sp.simplify(2 / (costate_size() * root)) * sp.Abs(sp.expand(root * (1 - shrinkage())))
+
+
+def optimal_cost() -> sp.Expr:
+    """J0: the mean of l + u^2 over a turn is constant on the optimum, where h0 = 0."""
+    squared = {costate_energy**2: sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0]}
+    mean = over_a_turn(running_cost().subs(maximiser()).subs(OPTIMUM).subs(conic()))
+    return sp.simplify(mean.subs(squared)) * optimal_duration()
+
+
+@functools.cache
+def thrust_on_the_way() -> sp.ImmutableMatrix:
+    """(u_r, u_phi) on the optimum in l, e, x and sigma = sign(E1 - E0): its size does not change with tau."""
+    costate = direction * sp.sqrt(sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0])
+    control = [maximiser()[u].subs(OPTIMUM).subs(conic()).subs(costate_energy, costate) for u in CONTROL]
+    level = {energy: (e**2 - 1) / (2 * momentum**2)}
+    return sp.ImmutableMatrix([sp.simplify(u.subs(level)) for u in control])
+
+
+def ending_slope() -> sp.Expr:
+    """d/dkappa at 0 of the phase turned, per unit of |E|^(1/2), (2.15): positive, so kappa = 0 is a minimum.
+
+    With s = |E|^(1/2), h0 + omega kappa = 0 and p_K = 0: the phase turned is the integral of omega ds/|s'|.
+    """
+    root = sp.Symbol("s", positive=True)
+    motion = mean_motion().subs(energy, -(root**2))
+    whole = averaged_hamiltonian().subs(costate_momentum, 0) + mean_motion() * kappa
+    squared = sp.solve(whole.subs(energy, -(root**2)), costate_energy**2)[0]
+    speed = sp.sqrt(squared) * sp.Abs(averaged_rates()[energy].subs(OPTIMUM).coeff(costate_energy))
+    speed = sp.simplify(speed.subs(energy, -(root**2)) / (2 * root))
+    return sp.simplify((motion / speed).diff(kappa).subs(kappa, 0))
+
+
+@functools.cache
+def ripple() -> sp.Expr:
+    """The primitive in psi of h* - h0, of mean zero, on the optimum, as a function of l, e and xi."""
+    squared = sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0]
+    level = {energy: (e**2 - 1) / (2 * momentum**2)}
+    excess = (maximised() - averaged_hamiltonian()).subs(OPTIMUM).subs(costate_energy**2, squared).subs(level)
+    integrand = sp.simplify(excess.subs(true_from_eccentric()) * mean_anomaly().diff(eccentric))
+    primitive = sp.integrate(sp.expand(integrand), eccentric)
+    mean = sp.integrate(sp.expand(primitive * mean_anomaly().diff(eccentric)), (eccentric, 0, 2 * sp.pi))
+    return sp.factor(primitive - mean / (2 * sp.pi))
+
+
+def first_correction() -> sp.Expr:
+    """J1 with J = J0 + epsilon J1 + O(epsilon^2), for a start at the eccentric anomaly xi.
+
+    J1 is the ripple over omega at the start less the largest at the end, where the ending phase is free.
+    """
+    at_the_end = ripple().subs(eccentric, sp.pi / 2) / mean_motion().subs(energy, energy1)
+    at_the_start = ripple() / mean_motion().subs(energy, energy0)
+    return sp.simplify(at_the_start) - sp.simplify(at_the_end)

@@ -1,0 +1,130 @@
+"""Example 1, the rotor (3.1): from Lagrange's equation to the averaged system (Akulenko 1977, section 3).
+
+here            meaning
+--------------  ----------------------------------------------------------------------------
+x, v            generalised coordinate and rate of turning v = x' > 0; x is the anomaly
+a               energy m v^2/2 + V, the one slow variable
+m(x), V(x)      mass and potential; undefined functions unless the caller names them
+u, f(x, v)      control and perturbing force, per epsilon
+psi             rotating phase: psi' = omega(a) at epsilon = 0
+
+Rates are per epsilon unless they are of x or psi. With x as the anomaly x' = speed(a, x) exactly: no
+perturbation of its rate. Averages over psi are taken over x with the weight dpsi/dx = omega/speed.
+"""
+
+import sympy as sp
+
+t = sp.Symbol("t", real=True)
+x = sp.Symbol("x", real=True)
+a = sp.Symbol("a", positive=True)
+v = sp.Symbol("v", positive=True)
+u, x0, p, p_x = sp.symbols("u x_0 p p_x", real=True)
+second = sp.Symbol("x''", real=True)
+epsilon = sp.Symbol("epsilon", positive=True)
+
+MASS: sp.Expr = sp.Function("m", positive=True)(x)
+POTENTIAL: sp.Expr = sp.Function("V", real=True)(x)
+FORCE: sp.Expr = sp.Function("f", real=True)(x, v)
+
+
+def equation_of_motion(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """d/dt dL/dx' - dL/dx for L = m x'^2/2 - V, in x, v = x' and the symbol for x'': left side of (3.1)."""
+    place = sp.Function("x")(t)
+    rate = place.diff(t)
+    lagrangian = (mass * v**2 / 2 - potential).subs(x, place)
+    momentum = lagrangian.diff(v).subs(v, rate)
+    left = momentum.diff(t) - lagrangian.diff(place).subs(v, rate)
+    return sp.expand(left.doit().subs(rate.diff(t), second).subs(rate, v).subs(place, x))
+
+
+def acceleration(
+    mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
+) -> sp.Expr:
+    """x'' in terms of x and v, from (3.1)."""
+    balance = equation_of_motion(mass, potential) - epsilon * (control + force)
+    return sp.solve(balance, second)[0]
+
+
+def energy(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """Kinetic plus potential energy in terms of x and v."""
+    return mass * v**2 / 2 + potential
+
+
+def speed(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """x' in terms of a and x: the anomaly's rate, positive while the rotor turns."""
+    square = sp.Symbol("w", positive=True)
+    return sp.sqrt(sp.solve(energy(mass, potential).subs(v, sp.sqrt(square)) - a, square)[0])
+
+
+def energy_rate(
+    mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
+) -> sp.Expr:
+    """da/dt along the motion, in terms of x and v."""
+    whole = energy(mass, potential)
+    rate = whole.diff(x) * v + whole.diff(v) * acceleration(mass, potential, force, control)
+    return sp.factor(sp.expand(rate))
+
+
+def slow_rate(
+    mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
+) -> sp.Expr:
+    """a' per epsilon in terms of a, x and the control: the f of (1.1)."""
+    return (energy_rate(mass, potential, force, control) / epsilon).subs(v, speed(mass, potential))
+
+
+def frequency(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """omega(a) = 2 pi over the time of a turn."""
+    return 2 * sp.pi / over_a_turn(1 / speed(mass, potential))
+
+
+def phase_weight(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """dpsi/dx at a fixed energy, psi being 2 pi times the share of the turn's time that has passed."""
+    return frequency(mass, potential) / speed(mass, potential)
+
+
+def phase_rate(
+    mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
+) -> sp.Expr:
+    """F = psi' - omega per epsilon: the phase at a fixed place changes with the energy."""
+    share = sp.Symbol("y", real=True)
+    phase = sp.Integral(phase_weight(mass, potential).subs(x, share), (share, x0, x))
+    return phase.diff(a) * slow_rate(mass, potential, force, control)
+
+
+def over_a_turn(integrand: sp.Expr) -> sp.Expr:
+    """Integral over x from 0 to 2 pi, left as it stands where x is in radicals or undefined functions."""
+    turn = sp.Integral(integrand, (x, 0, 2 * sp.pi))
+    radicals = [part for part in integrand.atoms(sp.Pow) if not part.exp.is_nonnegative and part.has(x)]
+    radicals += [part for part in integrand.atoms(sp.Pow) if not part.exp.is_integer and part.has(x)]
+    return turn if radicals or integrand.has(sp.core.function.AppliedUndef) else turn.doit()
+
+
+def mean(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """Average over the phase at a fixed energy, by dpsi = omega dx/x'."""
+    inverse = sp.simplify(quantity.subs(v, speed(mass, potential)) / speed(mass, potential))
+    return frequency(mass, potential) / (2 * sp.pi) * over_a_turn(inverse)
+
+
+def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """Average over the angle x at a fixed energy."""
+    return over_a_turn(quantity.subs(v, speed(mass, potential))) / (2 * sp.pi)
+
+
+def averaged_rate(
+    mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
+) -> sp.Expr:
+    """d xi/d tau for a control that does not depend on the phase: the average of `slow_rate`, term by term."""
+    return sum((mean(v * term, mass, potential) for term in (control, force)), sp.S.Zero)
+
+
+def rate_by_angle(force: sp.Expr = FORCE, control: sp.Expr = u) -> sp.Expr:
+    """da/dx = epsilon (u + f) of the exact motion: what the comparison of controls rests on."""
+    return sp.simplify(energy_rate(force=force, control=control) / v)
+
+
+def costate_rate(force: sp.Expr = FORCE) -> sp.Expr:
+    """p' on an exact least-time extremal (cost epsilon t), p_x removed by H = 0; in x and v, linear in p."""
+    hamiltonian = epsilon * p * slow_rate(force=force) + p_x * speed() - epsilon
+    along = sp.solve(hamiltonian, p_x)[0]
+    rate = -hamiltonian.diff(a).subs(p_x, along)
+    return sp.simplify(rate.subs(a, energy()).doit())

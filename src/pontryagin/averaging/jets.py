@@ -1,0 +1,97 @@
+"""A function with its gradient and Hessian, as columns that a kernel returns and as arrays."""
+
+import functools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Kernel = Callable[..., tuple]
+"""Numbers or arrays to a tuple of them, written in arithmetic and NumPy's elementary functions."""
+
+
+@dataclass(frozen=True)
+class Jet:
+    """Value (...), gradient (..., k) and Hessian (..., k, k) of one function."""
+
+    value: NDArray[np.float64]
+    gradient: NDArray[np.float64]
+    hessian: NDArray[np.float64]
+
+    def __getitem__(self, members) -> "Jet":
+        return Jet(self.value[members], self.gradient[members], self.hessian[members])
+
+    def replaced(self, members: NDArray[np.intp], by: "Jet") -> "Jet":
+        """The same with other jets for some members."""
+        parts = [self.value.copy(), self.gradient.copy(), self.hessian.copy()]
+        for part, other in zip(parts, (by.value, by.gradient, by.hessian), strict=True):
+            part[members] = other
+        return Jet(*parts)
+
+    def padded(self, size: int) -> "Jet":
+        """The same function among `size` variables, independent of the further ones."""
+        count, shape = self.gradient.shape[-1], self.value.shape
+        gradient, hessian = np.zeros((*shape, size)), np.zeros((*shape, size, size))
+        gradient[..., :count], hessian[..., :count, :count] = self.gradient, self.hessian
+        return Jet(self.value, gradient, hessian)
+
+    def __add__(self, other: "Jet") -> "Jet":
+        return Jet(self.value + other.value, self.gradient + other.gradient, self.hessian + other.hessian)
+
+    def times(self, factor: NDArray[np.float64]) -> "Jet":
+        """The function times a constant (...)."""
+        return Jet(
+            factor * self.value, factor[..., None] * self.gradient, factor[..., None, None] * self.hessian
+        )
+
+    def __truediv__(self, other: "Jet") -> "Jet":
+        value = self.value / other.value
+        gradient = (self.gradient - value[..., None] * other.gradient) / other.value[..., None]
+        cross = gradient[..., :, None] * other.gradient[..., None, :]
+        hessian = self.hessian - value[..., None, None] * other.hessian - cross - np.swapaxes(cross, -1, -2)
+        return Jet(value, gradient, hessian / other.value[..., None, None])
+
+
+def width(variables: int) -> int:
+    """How many columns a jet in that many variables takes."""
+    return 1 + variables + variables * (variables + 1) // 2
+
+
+def expressions(function, variables: Sequence) -> list:
+    """The columns of a SymPy expression: value, gradient, upper triangle of the Hessian by rows.
+
+    Where the function has a kink its second derivative is taken on either side, without the delta function.
+    """
+    from sympy import DiracDelta
+
+    gradient = [function.diff(variable) for variable in variables]
+    count = len(variables)
+    hessian = [gradient[i].diff(variables[j]) for i in range(count) for j in range(i, count)]
+    hessian = [entry.replace(DiracDelta, lambda *_: 0) for entry in hessian]
+    return [function, *gradient, *hessian]
+
+
+@functools.cache
+def _triangle(variables: int) -> NDArray[np.intp]:
+    place = np.zeros((variables, variables), dtype=np.intp)
+    rows, columns = np.triu_indices(variables)
+    place[rows, columns] = place[columns, rows] = np.arange(len(rows))
+    return place + 1 + variables
+
+
+def jet(columns: NDArray[np.float64], variables: int) -> Jet:
+    """The jet whose columns (..., width) these are."""
+    return Jet(columns[..., 0], columns[..., 1 : 1 + variables], columns[..., _triangle(variables)])
+
+
+def evaluate(kernel: Kernel, *arguments: NDArray[np.float64]) -> NDArray[np.float64]:
+    """All columns of a kernel at arrays of arguments, (..., columns); nan where it is not defined."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        columns = kernel(*arguments)
+    columns = columns if isinstance(columns, tuple) else (columns,)
+    shape = np.broadcast_shapes(*(np.shape(argument) for argument in arguments))
+    result = np.empty((*shape, len(columns)))
+    for i, column in enumerate(columns):
+        result[..., i] = column
+    return result

@@ -1,0 +1,149 @@
+"""The numeric side of a phase system: its kernels, and the averaged Hamiltonian by quadrature of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.averaging.jets import Jet, Kernel, evaluate, jet, width
+from pontryagin.averaging.quadrature import SOLVING, Rule, find_switches, mean, smooth_mean
+
+Array = NDArray[np.float64]
+BESIDE = 1e-9
+"""How far beside a switch its one-sided derivatives are taken; they enter Newton's matrix only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Kernels of a `PhaseSystem`; each takes the system's numbers as its last arguments.
+
+    Attributes
+    ----------
+    slow, target : int
+        n and r.
+    mean : kernel of (a, p), or None
+        Columns of the jet of h0 in (a, p), where the average is known in closed form.
+    density : kernel of (a, p, x), or None
+        Columns of the jet of h* dpsi/dx at p_x = 0, and its derivative in x; of h* / r where the frequency
+        is an integral. None where `mean` is given.
+    turn : kernel of (a, x), or None
+        Columns of the jet of 1 / r in a, where the frequency is an integral.
+    frequency : kernel of a, or None
+        Columns of the jet of omega in a, where it is known.
+    switching : kernel of (a, p, x), or None
+        Functions at whose zeros the density is not smooth, and their derivatives in x.
+    boundary : kernel of a
+        Columns of the jets in a of M_1, ..., M_r and g.
+    control : kernel of (a, p, x, p_x)
+        u*.
+    rates : kernel of (a, x, u)
+        f and the whole running cost.
+    pace : kernel of (a, x)
+        1 / r, proportional to dpsi/dx.
+    """
+
+    slow: int
+    target: int
+    mean: Kernel | None
+    density: Kernel | None
+    turn: Kernel | None
+    frequency: Kernel | None
+    switching: Kernel | None
+    boundary: Kernel
+    control: Kernel
+    rates: Kernel
+    pace: Kernel
+
+    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: Rule = SOLVING) -> tuple[Jet, Jet]:
+        """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
+        shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
+        flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
+        held = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
+        turn = self._turn(flat, held, rule)
+        if self.frequency is not None:
+            columns = evaluate(self.frequency, *flat[:, : self.slow].T, *held)
+            omega = jet(columns, self.slow).padded(2 * self.slow)
+        else:
+            assert turn is not None
+            omega = jet(_one(len(flat), 2 * self.slow), 2 * self.slow) / turn
+        if self.mean is not None:
+            h = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow)
+        else:
+            h = self._quadrature(flat, held, rule)
+            h = h if turn is None else h / turn
+        return _shaped(h, shape), _shaped(omega, shape)
+
+    def _turn(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet | None:
+        if self.turn is None:
+            return None
+        density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
+        return jet(smooth_mean(density, len(z), rule[0], 1 + self.slow), self.slow).padded(2 * self.slow)
+
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
+        assert self.density is not None
+        density = _over(self.density, tuple(z.T), numbers)
+        switches = self.switches(z, numbers)
+        columns = mean(lambda x, i: density(x, i)[..., :-1], switches, rule, 1 + 2 * self.slow)
+        h = jet(columns, 2 * self.slow)
+        if np.isnan(switches).all():
+            return h
+        return Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+
+    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
+        """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
+        a = tuple(z[:, : self.slow].T)
+        control = _over(self.control, tuple(z.T), (np.zeros(len(z)), *numbers))
+
+        def density(x: Array, index: NDArray[np.intp]) -> Array:
+            u = np.moveaxis(control(x, index), -1, 0)
+            here, held = [c[index, None] for c in a], [v[index, None] for v in numbers]
+            pace = evaluate(self.pace, *here, x, *held)
+            return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *held), pace], axis=-1)
+
+        means = mean(density, self.switches(z, numbers), rule)
+        means = means[:, :-1] / means[:, -1:]
+        return means[:, :-1], means[:, -1]
+
+    def switches(self, z: Array, numbers: tuple[Array, ...]) -> Array:
+        """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), filled up by nan."""
+        if self.switching is None:
+            return np.full((len(z), 0), np.nan)
+        return find_switches(_over(self.switching, tuple(z.T), numbers), len(z))
+
+    def _jumps(self, density, switches: Array) -> Array:
+        """What moving switches add to the Hessian: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
+        count = 2 * self.slow
+        point, which = np.nonzero(~np.isnan(switches))
+        at = switches[point, which][:, None]
+        jump = (density(at + BESIDE, point) - density(at - BESIDE, point))[:, 0]
+        gradient, slope = jump[:, 1 : 1 + count], jump[:, -1]
+        kinks = np.divide(1, slope, out=np.zeros_like(slope), where=slope != 0) / (2 * np.pi)
+        result = np.zeros((len(switches), count, count))
+        np.add.at(result, point, kinks[:, None, None] * gradient[:, :, None] * gradient[:, None, :])
+        return result
+
+    def ends(self, a: Array, numbers: tuple[Array, ...]) -> tuple[Jet, Jet]:
+        """Jets in a of M, stacked along the axis before the derivatives' (..., r), and of g (...)."""
+        columns = evaluate(self.boundary, *np.moveaxis(a, -1, 0), *numbers)
+        each = columns.reshape(*columns.shape[:-1], self.target + 1, -1)
+        return jet(each[..., :-1, :], self.slow), jet(each[..., -1, :], self.slow)
+
+
+def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]):
+    """The kernel as a density: `point`'s coordinates, then x, then the numbers."""
+
+    def density(x: Array, index: NDArray[np.intp]) -> Array:
+        return evaluate(kernel, *(c[index, None] for c in point), x, *(v[index, None] for v in numbers))
+
+    return density
+
+
+def _one(points: int, variables: int) -> Array:
+    return np.broadcast_to(np.eye(1, width(variables)), (points, width(variables)))
+
+
+def _shaped(flat: Jet, shape: tuple[int, ...]) -> Jet:
+    k = flat.gradient.shape[-1]
+    return Jet(
+        flat.value.reshape(shape), flat.gradient.reshape(*shape, k), flat.hessian.reshape(*shape, k, k)
+    )

@@ -1,0 +1,163 @@
+"""Means over a turn of the anomaly: the trapezoid where smooth, Gauss's rule between switches."""
+
+import functools
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
+"""Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
+
+Rule = tuple[int, int]
+SOLVING: Rule = (32, 24)
+"""Nodes to begin with, of the trapezoid and of Gauss's rule."""
+CHECKING: Rule = (45, 31)
+"""Others, that share none of the former's chances."""
+LAST, GAUSS_LAST = 2**15, 384
+HALF_DIGITS = 1e-8
+"""The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
+ROUNDING = 1e-14
+"""A column that cancels to nothing is not asked for more than this share of the largest."""
+LOOK = 128
+"""How finely a turn is searched for switches."""
+
+
+def mean(
+    density: Density, switches: NDArray[np.float64], rule: Rule, judged: int | None = None
+) -> NDArray[np.float64]:
+    """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
+
+    Only the first `judged` columns say when a rule is fine enough: the others are their derivatives.
+    """
+    plain = np.isnan(switches).all(axis=1)
+    if plain.all():
+        return smooth_mean(density, len(switches), rule[0], judged)
+    split = np.nonzero(~plain)[0]
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
+    result = np.empty((len(switches), columns.shape[-1]))
+    result[split] = columns
+    if plain.any():
+        smooth = np.nonzero(plain)[0]
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
+    return result
+
+
+def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
+    """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
+
+    Returns (points, columns); nan where the density is not defined or the rule does not settle.
+    """
+    active = np.arange(points)
+    size = first
+    grid = 2 * np.pi * np.arange(size)[None] / size
+    values = density(grid, active)
+    total, scale = values.mean(axis=-2), np.abs(values).mean(axis=-2)
+    result = np.full(total.shape, np.nan)
+    while True:
+        halfway = density(grid + np.pi / size, active).mean(axis=-2)
+        finer = (total + halfway) / 2
+        settled = _settled(finer - total, scale, judged)
+        result[active[settled]] = finer[settled]
+        size *= 2
+        more = ~settled & np.isfinite(finer).all(axis=-1)
+        if size >= LAST or not more.any():
+            return result
+        active, total, scale = active[more], finer[more], scale[more]
+        grid = 2 * np.pi * np.arange(size)[None] / size
+
+
+def split_mean(
+    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+) -> NDArray[np.float64]:
+    """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
+    active = np.arange(len(switches))
+    size = first
+    coarse = _panels(density, switches, active, size)
+    result = np.full((len(switches), coarse.shape[-1]), np.nan)
+    while True:
+        size *= 2
+        fine = _panels(density, switches, active, size)
+        value, scale = fine[:, 0], fine[:, 1]
+        settled = _settled(value - coarse[:, 0], scale, judged)
+        result[active[settled]] = value[settled]
+        more = ~settled & np.isfinite(value).all(axis=-1)
+        if size >= GAUSS_LAST or not more.any():
+            return result
+        active, coarse = active[more], fine[more]
+
+
+def _settled(change: NDArray, scale: NDArray, judged: int | None) -> NDArray[np.bool_]:
+    change, scale = np.abs(change[:, :judged]), scale[:, :judged]
+    noise = ROUNDING * scale.max(axis=-1, keepdims=True)
+    return (change <= np.maximum(HALF_DIGITS * scale, noise)).all(axis=-1)
+
+
+def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
+    """Nodes and weights (points, panels * size) of Gauss's rule from switch to switch over one turn."""
+    nodes, weights = _gauss(size)
+    last = switches[:, :1] + 2 * np.pi
+    edges = np.concatenate([np.where(np.isnan(switches), last, switches), last], axis=1)
+    lengths = np.diff(edges, axis=1)[..., None]
+    flat = (len(switches), -1)
+    return (edges[:, :-1, None] + lengths * nodes).reshape(flat), (lengths * weights / (2 * np.pi)).reshape(
+        flat
+    )
+
+
+def _panels(density: Density, switches: NDArray, active: NDArray, size: int) -> NDArray[np.float64]:
+    """Mean and mean modulus (points, 2, columns)."""
+    x, weights = split_rule(switches[active], size)
+    values = density(x, active)
+    return np.stack(
+        [(weights[..., None] * values).sum(axis=1), (weights[..., None] * np.abs(values)).sum(axis=1)], axis=1
+    )
+
+
+@functools.cache
+def _gauss(size: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    nodes, weights = np.polynomial.legendre.leggauss(size)
+    return (nodes + 1) / 2, weights / 2
+
+
+def find_switches(switching: Density, points: int) -> NDArray[np.float64]:
+    """Where the switching functions change sign over a turn, (points, s), ascending, filled up by nan.
+
+    `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
+    """
+    grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
+    everywhere = np.arange(points)
+    values = switching(grid[None], everywhere)
+    count = values.shape[-1] // 2
+    positive = values[..., :count] > 0
+    point, cell, which = np.nonzero(positive[:, 1:] != positive[:, :-1])
+    if not len(point):
+        return np.full((points, 0), np.nan)
+    root = _refine(switching, grid[cell], grid[cell + 1], point, which, positive[point, cell, which])
+    order = np.lexsort((root, point))
+    point, root = point[order], root[order]
+    place = np.arange(len(point)) - np.searchsorted(point, point)
+    result = np.full((points, place.max() + 1), np.nan)
+    result[point, place] = root
+    return result
+
+
+def _refine(
+    switching: Density, low: NDArray, high: NDArray, point: NDArray, which: NDArray, falling: NDArray
+) -> NDArray[np.float64]:
+    """Newton's method, bisecting wherever it leaves the bracket."""
+    x = (low + high) / 2
+    rows = np.arange(len(point))
+    for _ in range(60):
+        columns = switching(x[:, None], point)[:, 0]
+        value, slope = columns[rows, which], columns[rows, which + columns.shape[-1] // 2]
+        before = (value > 0) == falling
+        low, high = np.where(before, x, low), np.where(before, high, x)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            newton = x - value / slope
+        following = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
+        moved = np.abs(following - x)
+        x = following
+        if (moved <= 1e-15 * (1 + np.abs(x))).all():
+            break
+    return x
