@@ -128,14 +128,14 @@ def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     return result, closeness
 
 
-def _replaced(path: Path, members: Array, by: Path) -> Path:
+def _replaced(path: Path, members: NDArray[np.intp], by: Path) -> Path:
     z, duration, multipliers = path.z.copy(), path.duration.copy(), path.multipliers.copy()
     z[members], duration[members], multipliers[members] = by.z, by.duration, by.multipliers
     return Path(z, duration, multipliers)
 
 
 def _solve(matrix: Array, residual: Array) -> tuple[Array, NDArray[np.bool_]]:
-    finite = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+    finite = np.asarray(np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1))
     safe = np.where(finite[:, None, None], matrix, np.eye(matrix.shape[-1]))
     try:
         step = np.linalg.solve(safe, -np.where(finite[:, None], residual, 0.0)[..., None])[..., 0]

@@ -61,7 +61,7 @@ def straight(problem: Problem, degree: int) -> Guess:
     with np.errstate(divide="ignore", invalid="ignore"):
         pace = reach[:, None] / along
     pace = np.where(np.isfinite(pace) & (pace > 0), pace, np.nan)
-    usable = np.isfinite(pace).all(axis=1)
+    usable = np.asarray(np.isfinite(pace).all(axis=1))
     pace = np.where(usable[:, None], pace, 1.0)
     clock = pace @ chebyshev.integrals(degree).T
     clock = np.maximum.accumulate(clock, axis=1)
@@ -89,6 +89,8 @@ def _nearest(problem: Problem) -> tuple[Array, Array]:
         if (np.abs(step) <= 1e-12 * (np.abs(end) + np.abs(end - problem.start))).all():
             break
     assert direction is not None
+    away = -target.gradient.sum(axis=1)
+    direction = np.where((direction == 0).all(axis=1, keepdims=True), away, direction)
     size = np.linalg.norm(direction, axis=1, keepdims=True)
     return end, direction / np.where(size > 0, size, 1)
 

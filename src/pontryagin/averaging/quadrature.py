@@ -10,13 +10,12 @@ Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
 Rule = tuple[int, int]
-SOLVING: Rule = (32, 24)
-"""Nodes to begin with, of the trapezoid and of Gauss's rule."""
-CHECKING: Rule = (45, 31)
+SOLVING: Rule = (16, 12)
+"""Nodes to begin with, of the trapezoid and of Gauss's rule between switches."""
+CHECKING: Rule = (23, 17)
 """Others, that share none of the former's chances."""
-LAST, GAUSS_LAST = 2**15, 384
-HALF_DIGITS = 1e-8
-"""The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
+LAST, GAUSS_LAST = 2**13, 384
+HALF_DIGITS, FALL = 1e-8, 1e-2
 ROUNDING = 1e-14
 """A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
@@ -48,49 +47,64 @@ def smooth_mean(density: Density, points: int, first: int, judged: int | None = 
 
     Returns (points, columns); nan where the density is not defined or the rule does not settle.
     """
-    active = np.arange(points)
     size = first
-    grid = 2 * np.pi * np.arange(size)[None] / size
-    values = density(grid, active)
-    total, scale = values.mean(axis=-2), np.abs(values).mean(axis=-2)
-    result = np.full(total.shape, np.nan)
-    while True:
-        halfway = density(grid + np.pi / size, active).mean(axis=-2)
-        finer = (total + halfway) / 2
-        settled = _settled(finer - total, scale, judged)
-        result[active[settled]] = finer[settled]
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        values = density(2 * np.pi * np.arange(size)[None] / size, active)
+        return values.mean(axis=-2), np.abs(values).mean(axis=-2)
+
+    def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
+        nonlocal size
+        halfway = density(2 * np.pi * (np.arange(size)[None] + 0.5) / size, active).mean(axis=-2)
         size *= 2
-        more = ~settled & np.isfinite(finer).all(axis=-1)
-        if size >= LAST or not more.any():
-            return result
-        active, total, scale = active[more], finer[more], scale[more]
-        grid = 2 * np.pi * np.arange(size)[None] / size
+        return (total + halfway) / 2
+
+    return _refined(begin, doubled, points, (LAST // first).bit_length() - 1, judged)
 
 
 def split_mean(
     density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
-    active = np.arange(len(switches))
     size = first
-    coarse = _panels(density, switches, active, size)
-    result = np.full((len(switches), coarse.shape[-1]), np.nan)
-    while True:
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        x, weights = split_rule(switches[active], size)
+        values = density(x, active)
+        weights = weights[..., None]
+        return (weights * values).sum(axis=1), (weights * np.abs(values)).sum(axis=1)
+
+    def doubled(active: NDArray[np.intp], _: NDArray) -> NDArray:
+        nonlocal size
         size *= 2
-        fine = _panels(density, switches, active, size)
-        value, scale = fine[:, 0], fine[:, 1]
-        settled = _settled(value - coarse[:, 0], scale, judged)
-        result[active[settled]] = value[settled]
-        more = ~settled & np.isfinite(value).all(axis=-1)
-        if size >= GAUSS_LAST or not more.any():
-            return result
-        active, coarse = active[more], fine[more]
+        return begin(active)[0]
+
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
 
 
-def _settled(change: NDArray, scale: NDArray, judged: int | None) -> NDArray[np.bool_]:
-    change, scale = np.abs(change[:, :judged]), scale[:, :judged]
-    noise = ROUNDING * scale.max(axis=-1, keepdims=True)
-    return (change <= np.maximum(HALF_DIGITS * scale, noise)).all(axis=-1)
+def _refined(begin, doubled, points: int, doublings: int, judged: int | None) -> NDArray[np.float64]:
+    """Double a rule at the points where it has not settled.
+
+    The error of a rule that converges geometrically is squared by each doubling: a change below half of all
+    digits is the last to be seen, provided that it is much less than the change before.
+    """
+    active = np.arange(points)
+    value, scale = begin(active)
+    before = np.full((points, 1), np.inf)
+    result = np.full(value.shape, np.nan)
+    for _ in range(doublings):
+        finer = doubled(active, value)
+        size = scale[:, :judged]
+        noise = ROUNDING * size.max(axis=-1, keepdims=True)
+        change = np.abs(finer - value)[:, :judged]
+        least = np.maximum(ROUNDING * size, noise)
+        settled = (change <= np.where(change <= FALL * before, HALF_DIGITS * size, 0) + least).all(axis=-1)
+        result[active[settled]] = finer[settled]
+        more = ~settled & np.isfinite(finer).all(axis=-1)
+        if not more.any():
+            break
+        active, value, scale, before = active[more], finer[more], scale[more], change[more]
+    return result
 
 
 def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
@@ -102,15 +116,6 @@ def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArr
     flat = (len(switches), -1)
     return (edges[:, :-1, None] + lengths * nodes).reshape(flat), (lengths * weights / (2 * np.pi)).reshape(
         flat
-    )
-
-
-def _panels(density: Density, switches: NDArray, active: NDArray, size: int) -> NDArray[np.float64]:
-    """Mean and mean modulus (points, 2, columns)."""
-    x, weights = split_rule(switches[active], size)
-    values = density(x, active)
-    return np.stack(
-        [(weights[..., None] * values).sum(axis=1), (weights[..., None] * np.abs(values)).sum(axis=1)], axis=1
     )
 
 

@@ -203,7 +203,15 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
         raise TypeError(f"system must be a PhaseSystem, got {system!r}")
     begin = vectors("start", start, len(system.slow))
     names = tuple(str(symbol) for symbol in system.slow)
-    return solved(system.model, names, begin, tuple(system.numbers.values()), lambda: system, kappa=kappa)
+    numbers = tuple(np.asarray(value) for value in system.numbers.values())
+    return solved(
+        system.model,
+        names,
+        begin,
+        numbers,
+        lambda: system,
+        kappa=kappa,
+    )
 
 
 def solved(

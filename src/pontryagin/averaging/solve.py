@@ -83,7 +83,10 @@ def _stack(problem: Problem, names: Sequence[str], first: int) -> Extremals:
     guess = straight(problem, DEGREES[0])
     there = _already_there(problem)
     _require_sound(problem, guess, names, there, first)
-    path, closeness = newton(problem[~there], guess.path[~there])
+    if there.all():
+        path, closeness = guess.path[~there], np.zeros(0)
+    else:
+        path, closeness = newton(problem[~there], guess.path[~there])
     moving = np.nonzero(~there)[0]
     result = Path(guess.path.z.copy(), np.where(there, 0.0, guess.path.duration), guess.path.multipliers)
     result.z[there] = guess.path.z[there][:, :1]
