@@ -99,5 +99,5 @@ def along(quantity: sp.Expr) -> sp.Expr:
 
 
 def at_optimum(quantity: sp.Expr) -> sp.Expr:
-    """A quantity at kappa = 0, k expressed by T there: k = gap^2 / T^2."""
-    return sp.simplify(quantity.subs(kappa, 0).subs(k, gap**2 / T**2))
+    """A quantity at kappa = 0, where (2.12) reads gap^2 = k tau_1^2."""
+    return sp.simplify(sp.expand(sp.cancel(quantity.subs(kappa, 0))).subs(gap**2, k * T**2))
