@@ -149,7 +149,7 @@ def derivative_of_the_duration():
     key = r"d\tau_1/d\kappa|_{\kappa = 0}"
     return Equality(
         {key: T / (2 * k) * (v1 + gap / 2)},
-        lambda: {key: smooth.at_optimum(smooth.duration_slope())},
+        lambda: {key: smooth.optimal_slope()},
         display=r"\frac{d\tau_1}{d\kappa}\Big|_{\kappa = 0} = \frac{\tau_1(0)}{2k}\left(v_1 + \frac{\Delta "
         r"v}{2}\right)",
     )
@@ -183,7 +183,7 @@ def second_derivative():
 
     def derived():
         by_kappa = smooth.turned().diff(kappa) + smooth.turned().diff(T) * slope
-        return {key: by_kappa.subs(kappa, 0).subs(slope, smooth.at_optimum(smooth.duration_slope()))}
+        return {key: by_kappa.subs(kappa, 0).subs(slope, smooth.optimal_slope())}
 
     return Proof(argument, Equality({key: printed}, derived))
 
