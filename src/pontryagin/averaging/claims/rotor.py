@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.averaging.derivation import rotor
-from pontryagin.averaging.derivation.rotor import FORCE, MASS, POTENTIAL, a, epsilon, p, u, v, x
+from pontryagin.averaging.derivation.rotor import FORCE, MASS, POTENTIAL, a, epsilon, u, v, x
 from pontryagin.evidence import (
     Conditional,
     Consequence,
@@ -19,7 +19,7 @@ from pontryagin.ledger import Page
 claim = Page("Akulenko 1977")
 
 R = sp.Rational
-a0, a1, xi, u0, mu = sp.symbols("a_0 a_1 xi u_0 mu", positive=True)
+a0, a1, xi, u0, mu, y = sp.symbols("a_0 a_1 xi u_0 mu y", positive=True)
 tau, sense = sp.symbols("tau s", real=True)
 force = sp.Symbol("f_0", real=True)
 slow, fast = sp.symbols("x_1' x_2'", positive=True)
@@ -146,9 +146,9 @@ def averaging_over_the_angle():
     "example 1: mean force",
     "the case without mean force: ⟨f⟩ = 0 over a turn",
     verdict="conditional",
-    remark="True of the mean over the angle x, ⟨x'f⟩/ω. Read as the mean over the phase (over time), as ⟨ ⟩ "
-    "is in section 2, it does not do: for m = (1 + ½cos x)², V = 0, f = cos x − ¼ that mean is 0, and yet the "
-    "averaged rate is ω(u − ¼).",
+    remark="True of the mean over the angle x, ⟨x'f⟩/ω. Read as the mean over the phase (over time), as ⟨ "
+    "⟩ is in section 2, it does not do: for m = (1 + ½cos x)², V = 0, f = cos x − ¼ that mean is 0, and "
+    "yet the averaged rate is ω(u − ¼).",
 )
 def mean_of_the_force():
     def argument() -> Steps:
@@ -175,10 +175,10 @@ def mean_of_the_force():
     "example 1: solution",
     "without mean force: u* = u₀sign(a₁ − a₀), u₀τ sign(a₁ − a₀) = ∫dξ/ω, ω = ⟨x'⟩; it is the only one",
     verdict="holds",
-    remark="ξ and u do not depend on κ, so that (2.13) and (2.15) say nothing here: ∫ω dτ is the same for all "
-    "κ. When the energy is raised, full thrust is optimal exactly, for every ε. When it is lowered, the exact "
-    "optimum may start with an arc of acceleration, of an angle of order 1 (its costate falls through 0 once): "
-    "a change of τ₁ of order ε.",
+    remark="ξ and u do not depend on κ, so that (2.13) and (2.15) say nothing here: ∫ω dτ is the same for "
+    "all κ. When the energy is raised, full thrust is optimal exactly, for every ε. When it is lowered, "
+    "the exact optimum may start with an arc of acceleration, of an angle of order 1 (its costate falls "
+    "through 0 once): a change of τ₁ of order ε.",
 )
 def least_time_without_mean_force():
     keys = (r"u_0\tau\,\mathrm{sign}(a_1 - a_0)", r"\langle x'\rangle")
@@ -222,9 +222,6 @@ def least_time_without_mean_force():
     )
 
 
-y = sp.Symbol("y", positive=True)
-
-
 @claim(
     "example 1: special case",
     "if ψ' = const, √ξ runs linearly from √a₀ to √a₁",
@@ -235,7 +232,7 @@ y = sp.Symbol("y", positive=True)
     "V = const not be 0, ξ − V stands for ξ.",
 )
 def square_root_of_the_energy():
-    rate, root = sp.symbols("u_0* rho", positive=True)
+    rate = sp.Symbol("u_0*", positive=True)
     keys = (r"\xi^{1/2}", r"\tau_1")
     end = sp.Symbol("tau_1", positive=True)
     printed = (
@@ -281,11 +278,11 @@ def square_root_of_the_energy():
     "example 1: with mean force",
     "with a mean force: dξ/dτ = u₀ω sign(a₁ − a₀) + ⟨f⟩",
     verdict="misprint",
-    remark="Printed: ⟨f⟩. Right: ⟨x'f⟩, which is ω times the mean of f over the angle: the power of the force, "
-    "not the force. Neither reading of ⟨f⟩ saves the print, as a constant force shows: v' = ε(u + f₀) with "
-    "u₀ = 1, f₀ = ½ takes v from 1 to 2 in τ₁ = 2/3; the print makes it 1 − ½ln(5/3) = 0.745. For f₀ = −1, "
-    "u₀ = ½ it would let the energy rise above ξ = 2, where no control can raise it. That there need not be a "
-    "solution is not affected.",
+    remark="Printed: ⟨f⟩. Right: ⟨x'f⟩, which is ω times the mean of f over the angle: the power of the "
+    "force, not the force. Neither reading of ⟨f⟩ saves the print, as a constant force shows: v' = ε(u + "
+    "f₀) with u₀ = 1, f₀ = ½ takes v from 1 to 2 in τ₁ = 2/3; the print makes it 1 − ½ln(5/3) = 0.745. "
+    "For f₀ = −1, u₀ = ½ it would let the energy rise above ξ = 2, where no control can raise it. That "
+    "there need not be a solution is not affected.",
 )
 def least_time_with_mean_force():
     key = r"d\xi/d\tau"

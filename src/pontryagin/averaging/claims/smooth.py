@@ -39,8 +39,8 @@ def system_of_the_smooth_example():
     return Equality(
         printed,
         lambda: dict(zip(keys, (smooth.anomaly_rate(), *smooth.slow_rates()), strict=True)),
-        display=r"m(x) \equiv 1,\quad V = \mathrm{const},\quad \dot x(\tau_1) = v_1,\quad J = b(\tau_1),\quad "
-        r"db/d\tau = k + u^2",
+        display=r"m(x) \equiv 1,\quad V = \mathrm{const},\quad \dot x(\tau_1) = v_1,\quad J = "
+        r"b(\tau_1),\quad db/d\tau = k + u^2",
     )
 
 
@@ -73,9 +73,9 @@ def averaged_solution():
         lambda: dict(zip(keys, smooth.averaged_solution(), strict=True)),
         defect={keys[0]: kappa * (tau - T) ** 2 / 2},
         consequence=consequence,
-        display=r"\xi = (\kappa/4)(\tau - \tau_1)^2 - (\tau - \tau_1)\tau_1^{-1}(\Delta v + \kappa\tau_1^2/4) + "
-        r"v_1,\quad \eta = -\kappa(\tau - \tau_1) - 2\tau_1^{-1}(\Delta v + \kappa\tau_1^2/4),\quad \Delta v "
-        r"\equiv v_0 - v_1",
+        display=r"\xi = (\kappa/4)(\tau - \tau_1)^2 - (\tau - \tau_1)\tau_1^{-1}(\Delta v + "
+        r"\kappa\tau_1^2/4) + v_1,\quad \eta = -\kappa(\tau - \tau_1) - 2\tau_1^{-1}(\Delta v + "
+        r"\kappa\tau_1^2/4),\quad \Delta v \equiv v_0 - v_1",
     )
 
 
@@ -159,8 +159,8 @@ def derivative_of_the_duration():
     "after J0: second derivative",
     "the second derivative of J0 at κ = 0, by (2.15), is positive",
     verdict="holds",
-    remark="With ξ as printed in (3.2), (2.15) would give 5τ₁³/24 for τ₁³/24: the printed value comes from the "
-    "right sign.",
+    remark="With ξ as printed in (3.2), (2.15) would give 5τ₁³/24 for τ₁³/24: the printed value comes "
+    "from the right sign.",
 )
 def second_derivative():
     key = r"d^2J_0/d\kappa^2|_{\kappa = 0}"
@@ -222,6 +222,6 @@ def solution():
     return Proof(
         argument,
         Equality(dict(zip(keys, printed, strict=True)), derived),
-        display=r"u^* = -\Delta v\,\tau_1^{-1}(0),\quad J_0^* = 2k^{1/2}|\Delta v|,\quad \tau_1(0) = |\Delta v|"
-        r"k^{-1/2},\quad \xi = v_0 - \Delta v\,\tau_1^{-1}(0)\tau",
+        display=r"u^* = -\Delta v\,\tau_1^{-1}(0),\quad J_0^* = 2k^{1/2}|\Delta v|,\quad \tau_1(0) = "
+        r"|\Delta v|k^{-1/2},\quad \xi = v_0 - \Delta v\,\tau_1^{-1}(0)\tau",
     )
