@@ -101,8 +101,8 @@ def over_a_turn(integrand: sp.Expr) -> sp.Expr:
 
 def mean(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
     """Average over the phase at a fixed energy, by dpsi = omega dx/x'."""
-    inverse = sp.simplify(quantity.subs(v, speed(mass, potential)) / speed(mass, potential))
-    return frequency(mass, potential) / (2 * sp.pi) * over_a_turn(inverse)
+    over_speed = sp.expand(quantity / v).subs(v, speed(mass, potential))
+    return frequency(mass, potential) / (2 * sp.pi) * over_a_turn(over_speed)
 
 
 def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
@@ -110,10 +110,16 @@ def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr 
     return over_a_turn(quantity.subs(v, speed(mass, potential))) / (2 * sp.pi)
 
 
+def frequency_slope(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """omega'(a) over omega^2/(2 pi): the integral of 1/(m x'^3) over a turn, positive for every rotor."""
+    turn = frequency(mass, potential)
+    return sp.simplify(turn.diff(a) * 2 * sp.pi / turn**2)
+
+
 def averaged_rate(
     mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
 ) -> sp.Expr:
-    """d xi/d tau for a control that does not depend on the phase: the average of `slow_rate`, term by term."""
+    """d xi/d tau for a control that does not depend on the phase: `slow_rate` averaged, term by term."""
     return sum((mean(v * term, mass, potential) for term in (control, force)), sp.S.Zero)
 
 
