@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.collocation import Path, Problem
+from pontryagin.averaging.mesh import Mesh, derivative, evaluate
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,6 @@ class Guess:
     Attributes
     ----------
     path : Path
-        Of the given degree.
     slow : (s, k, n) array
         Points of the straight way.
     frequency : (s, k) array
@@ -43,13 +42,12 @@ class Guess:
     stuck: NDArray[np.bool_]
 
 
-def straight(problem: Problem, degree: int) -> Guess:
-    """The way along the straight line to the target's nearest point, at Chebyshev's points of slow time."""
+def straight(problem: Problem, mesh: Mesh) -> Guess:
+    """The way along the straight line to the target's nearest point, at the mesh's points of slow time."""
     model = problem.model
     start = problem.start
     end, direction = _nearest(problem)
-    share = chebyshev.points(degree)
-    slow = start[:, None] + share[:, None] * (end - start)[:, None]
+    slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
     length, stuck = _level(problem, slow, direction, _level(problem, slow[:, :1], direction)[0])
     eta = length[..., None] * direction[:, None]
     h, omega = problem.averaged(np.concatenate([slow, IDLE * eta], axis=-1))
@@ -57,22 +55,24 @@ def straight(problem: Problem, degree: int) -> Guess:
     z = np.concatenate([slow, eta], axis=-1)
     speed = problem.hamiltonian(z).gradient[..., model.slow :]
     along = np.einsum("ski,si->sk", speed, direction)
-    reach = np.einsum("si,si->s", end - start, direction)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        pace = reach[:, None] / along
-    pace = np.where(np.isfinite(pace) & (pace > 0), pace, np.nan)
-    usable = np.asarray(np.isfinite(pace).all(axis=1))
-    pace = np.where(usable[:, None], pace, 1.0)
-    clock = pace @ chebyshev.integrals(degree).T
-    clock = np.maximum.accumulate(clock, axis=1)
-    duration = clock[:, -1]
-    z = np.stack([_at_times(c / c[-1], share, path) for c, path in zip(clock, z, strict=True)])
+    reach = np.einsum("si,si->s", end - start, direction)[:, None]
+    pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
+    clock = pace @ mesh.integrals.T
+    z = _at_even_times(mesh, clock / clock[:, -1:], z)
     alpha = _multipliers(problem, z[:, -1])
-    return Guess(Path(z, duration, alpha), slow, omega.value, idle, stuck)
+    return Guess(Path(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
-def _at_times(clock: Array, times: Array, values: Array) -> Array:
-    return np.stack([np.interp(times, clock, column) for column in values.T], axis=-1)
+def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
+    """Values (s, k, 2n) at even shares of time of what is known at even shares of the way."""
+    edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
+    share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
+    for _ in range(3):
+        late = evaluate(edges, series, share)[..., 0] - mesh.points
+        inside = np.clip(share, 1e-9, 1 - 1e-9)
+        pace = derivative(edges, series, inside)[..., 0]
+        share = np.clip(share - np.divide(late, pace, out=np.zeros_like(late), where=pace > 0), 0, 1)
+    return evaluate(edges, mesh.series(z), share)
 
 
 def _nearest(problem: Problem) -> tuple[Array, Array]:
