@@ -26,6 +26,8 @@ def certify(
     ValueError
         If the frequency is not positive all the way.
     """
+    if not path.duration.any():
+        return _at_rest(problem, path)
     model, mesh, duration = problem.model, path.mesh, path.duration
     n = model.slow
     edges, series = np.array(mesh.edges), mesh.series(path.z)
@@ -66,6 +68,15 @@ def certify(
         hamiltonian=largest(h.value + kappa * omega.value) / price,
         maximality=largest(np.einsum("pi,pi->p", flat[:, n:], rate) - cost - h.value) / price,
     )
+
+
+def _at_rest(problem: Problem, path: Path) -> MaximumPrinciple:
+    """Residuals where the start is the end: nothing moves and no control acts."""
+    start = path.z[:, 0, : problem.model.slow]
+    target, _ = problem.model.ends(start, problem.numbers)
+    none = np.zeros(len(start))
+    away = np.abs(target.value - problem.level).max(axis=1)
+    return MaximumPrinciple(np.maximum(away, np.abs(start - problem.start).max(axis=1)), none, none, none)
 
 
 def _require_turning(omega: Array, slow: Array, names: Sequence[str], members: NDArray[np.intp]) -> None:

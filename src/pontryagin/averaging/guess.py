@@ -14,6 +14,7 @@ GROWTHS = 40
 NEAR = 1e-5
 """Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
 
+SHARES = 96
 IDLE = 1e-9
 """The share of a costate that is as good as none, and has derivatives where none has not."""
 
@@ -61,6 +62,53 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
     z = _at_even_times(mesh, clock / clock[:, -1:], z)
     alpha = _multipliers(problem, z[:, -1])
     return Guess(Path(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+
+
+def shot(problem: Problem, mesh: Mesh) -> Path | None:
+    """The averaged extremal that leaves the start as `straight` does, up to the target's level.
+
+    Runge and Kutta's method with steps that bring the target nearer by equal shares; None where it turns away.
+    """
+    model, n = problem.model, problem.model.slow
+    _, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    if stuck.any():
+        return None
+
+    def flow(z: Array) -> Array:
+        gradient = problem.hamiltonian(z[:, None]).gradient[:, 0]
+        return np.concatenate([gradient[:, n:], -gradient[:, :n]], axis=-1)
+
+    def missing(z: Array) -> tuple[Array, Array]:
+        target, _ = model.ends(z[:, :n], problem.numbers)
+        return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
+
+    z = np.concatenate([problem.start, length * direction], axis=-1)
+    far, _ = missing(z)
+    path, times = [z], [np.zeros(len(z))]
+    for _ in range(SHARES):
+        left, pace = missing(z)
+        nearing = (pace * far).sum(axis=1)
+        if not (nearing > 0).all():
+            return None
+        step = np.minimum((far * far).sum(axis=1) / SHARES, (left * far).sum(axis=1)) / nearing
+        h = step[:, None]
+        k1 = flow(z)
+        k2 = flow(z + h / 2 * k1)
+        k3 = flow(z + h / 2 * k2)
+        k4 = flow(z + h * k3)
+        z = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        path.append(z)
+        times.append(times[-1] + step)
+    values, clock = np.stack(path, axis=1), np.stack(times, axis=1)
+    duration = clock[:, -1]
+    if not (np.isfinite(values).all() and (duration > 0).all()):
+        return None
+    at = [
+        np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
+        for c, own in zip(clock, values, strict=True)
+    ]
+    return Path(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
 
 
 def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:

@@ -14,8 +14,9 @@ SOLVING: Rule = (16, 12)
 """Nodes to begin with, of the trapezoid and of Gauss's rule between switches."""
 CHECKING: Rule = (23, 17)
 """Others, that share none of the former's chances."""
-LAST, GAUSS_LAST = 2**13, 384
+LAST, GAUSS_LAST = 2**9, 384
 HALF_DIGITS, FALL = 1e-8, 1e-2
+PARTS, HALVINGS = 8, 40
 ROUNDING = 1e-14
 """A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
@@ -45,7 +46,8 @@ def mean(
 def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
     """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
 
-    Returns (points, columns); nan where the density is not defined or the rule does not settle.
+    Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
+    (points, columns); nan where the density is not defined.
     """
     size = first
 
@@ -59,7 +61,50 @@ def smooth_mean(density: Density, points: int, first: int, judged: int | None = 
         size *= 2
         return (total + halfway) / 2
 
-    return _refined(begin, doubled, points, (LAST // first).bit_length() - 1, judged)
+    result = _refined(begin, doubled, points, (LAST // first).bit_length() - 1, judged)
+    rest = np.nonzero(np.isnan(result).any(axis=1))[0]
+    if len(rest):
+        result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
+    return result
+
+
+def halved_mean(density: Density, points: int, judged: int | None = None) -> NDArray[np.float64]:
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns)."""
+    nodes, weights = _gauss(16)
+    point = np.repeat(np.arange(points), PARTS)
+    low = np.tile(np.arange(PARTS) / PARTS, points)
+    length = np.full(len(low), 1 / PARTS)
+
+    def integral(point: NDArray, low: NDArray, length: NDArray) -> tuple[NDArray, NDArray]:
+        values = density(2 * np.pi * (low[:, None] + length[:, None] * nodes), point)
+        scaled = (length[:, None] * weights)[..., None]
+        return (scaled * values).sum(axis=1), (scaled * np.abs(values)).sum(axis=1)
+
+    value, size = integral(point, low, length)
+    scale = np.zeros((points, size.shape[1]))
+    np.add.at(scale, point, size)
+    result = np.zeros_like(scale)
+    for _ in range(HALVINGS):
+        first, _ = integral(point, low, length / 2)
+        second, _ = integral(point, low + length / 2, length / 2)
+        change = np.abs(first + second - value)[:, :judged]
+        own = scale[point, :judged]
+        allowed = np.maximum(HALF_DIGITS * own, ROUNDING * own.max(axis=-1, keepdims=True))
+        settled = (change <= FALL * allowed).all(axis=-1)
+        np.add.at(result, point[settled], (first + second)[settled])
+        more = ~settled
+        if not more.any():
+            return result
+        if not np.isfinite(change[more]).all():
+            break
+        point, low, length = (
+            np.concatenate([point[more]] * 2),
+            np.concatenate([low[more], low[more] + length[more] / 2]),
+            np.concatenate([length[more] / 2] * 2),
+        )
+        value = np.concatenate([first[more], second[more]])
+    result[point] = np.nan
+    return result
 
 
 def split_mean(

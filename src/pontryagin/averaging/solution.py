@@ -90,10 +90,10 @@ class AveragedSolution:
         return np.asarray(begin)[..., None] + self.duration[..., None] * turned / small
 
     def control(self, tau: ArrayLike, anomaly: ArrayLike) -> Array:
-        """u*(xi, x, eta) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
+        """u*(xi, x, eta) of (2.17) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
         x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
         z = np.moveaxis(self._z(tau), -1, 0)
-        return evaluate(self.model.control, *z, x, np.zeros(()), *self._numbers)
+        return evaluate(self.model.control, *z, x, *self._numbers)
 
     def mean_rate(self, tau: ArrayLike) -> Array:
         """d xi / d tau, the mean of f under u*, as (..., k, n)."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pontryagin.averaging.certify import certify
 from pontryagin.averaging.collocation import CLOSE, Path, Problem, newton
-from pontryagin.averaging.guess import Guess, straight
+from pontryagin.averaging.guess import Guess, shot, straight
 from pontryagin.averaging.mesh import Mesh
 from pontryagin.averaging.model import Model
 from pontryagin.certificate import MaximumPrinciple
@@ -17,6 +17,7 @@ from pontryagin.errors import Infeasible, NotConverged
 Array = NDArray[np.float64]
 
 COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
+GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
 """What the last coefficients may be, in shares of the variable."""
 LAST_TAIL, MOST_PANELS = 1e-9, 40
@@ -110,11 +111,19 @@ def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDA
         paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
         for member in moving[failed]:
             one = problem[[member]]
-            again, close = newton(one, straight(one, FINE).path)
-            if close[0] > CLOSE:
-                again = _continued(one, names, first + int(member))
+            again = _tried_harder(one, names, first + int(member))
             paths += [(np.array([member]), p) for _, p in _resolved(one, again, np.array([first + member]))]
     return [(members, _extremals(problem[members], path, names, first + members)) for members, path in paths]
+
+
+def _tried_harder(problem: Problem, names: Sequence[str], member: int) -> Path:
+    """Solve one problem (1) that Newton's method did not solve from the first guess."""
+    for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
+        if guess is not None:
+            path, closeness = newton(problem, guess)
+            if closeness[0] <= CLOSE:
+                return path
+    return _continued(problem, names, member)
 
 
 def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]) -> Extremals:
@@ -162,11 +171,16 @@ def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[t
             )
         coarse = path.mesh == COARSE
         finer = FINE if coarse else path.mesh.bisected(np.asarray((tails > TAIL).any(axis=0)))
-        path, closeness = newton(problem[active], path.on(finer))
-        if (closeness > CLOSE).any():
-            lost = members[active[np.argmax(closeness)]]
+        found, closeness = newton(problem[active], path.on(finer))
+        lost = closeness > CLOSE
+        good = lost & (tails <= LAST_TAIL).all(axis=1)
+        if good.any():
+            groups.append((active[good], path[good]))
+        path, active, lost = found[~good], active[~good], lost[~good]
+        if lost.any():
+            member = members[active[np.argmax(lost)]]
             raise NotConverged(
-                f"Newton's method lost the averaged extremal on {finer.panels} panels{_which(problem, lost)}",
+                f"Newton's method lost the averaged extremal on {finer.panels} panels{_which(problem, member)}",
                 float(tails.max()),
             )
     return groups
