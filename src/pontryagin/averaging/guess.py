@@ -67,7 +67,7 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
 def shot(problem: Problem, mesh: Mesh) -> Path | None:
     """The averaged extremal that leaves the start as `straight` does, up to the target's level.
 
-    Runge and Kutta's method with steps that bring the target nearer by equal shares; None where it turns away.
+    Runge and Kutta's method in steps that bring the target nearer by equal shares; None where it turns away.
     """
     model, n = problem.model, problem.model.slow
     _, direction = _nearest(problem)

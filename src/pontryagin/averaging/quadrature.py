@@ -10,9 +10,9 @@ Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
 Rule = tuple[int, int]
-SOLVING: Rule = (16, 12)
+SOLVING: Rule = (8, 6)
 """Nodes to begin with, of the trapezoid and of Gauss's rule between switches."""
-CHECKING: Rule = (23, 17)
+CHECKING: Rule = (12, 9)
 """Others, that share none of the former's chances."""
 LAST, GAUSS_LAST = 2**9, 384
 HALF_DIGITS, FALL = 1e-8, 1e-2
@@ -131,11 +131,12 @@ def _refined(begin, doubled, points: int, doublings: int, judged: int | None) ->
     """Double a rule at the points where it has not settled.
 
     The error of a rule that converges geometrically is squared by each doubling: a change below half of all
-    digits is the last to be seen, provided that it is much less than the change before.
+    digits is the last to be seen, provided that the change before was either much larger, which shows that
+    the rule does converge so, or nothing; one change alone says nothing of a density with symmetries.
     """
     active = np.arange(points)
     value, scale = begin(active)
-    before = np.full((points, 1), np.inf)
+    before = np.full((points, 1), np.nan)
     result = np.full(value.shape, np.nan)
     for _ in range(doublings):
         finer = doubled(active, value)
@@ -143,7 +144,8 @@ def _refined(begin, doubled, points: int, doublings: int, judged: int | None) ->
         noise = ROUNDING * size.max(axis=-1, keepdims=True)
         change = np.abs(finer - value)[:, :judged]
         least = np.maximum(ROUNDING * size, noise)
-        settled = (change <= np.where(change <= FALL * before, HALF_DIGITS * size, 0) + least).all(axis=-1)
+        convergent = (change <= FALL * before) | (before <= least)
+        settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
         result[active[settled]] = finer[settled]
         more = ~settled & np.isfinite(finer).all(axis=-1)
         if not more.any():

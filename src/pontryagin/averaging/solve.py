@@ -180,7 +180,7 @@ def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[t
         if lost.any():
             member = members[active[np.argmax(lost)]]
             raise NotConverged(
-                f"Newton's method lost the averaged extremal on {finer.panels} panels{_which(problem, member)}",
+                f"Newton's method lost the extremal on {finer.panels} panels{_which(problem, member)}",
                 float(tails.max()),
             )
     return groups
