@@ -77,7 +77,7 @@ class Model:
         if self.turn is None:
             return None
         density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
-        return jet(smooth_mean(density, len(z), rule[0], 1 + self.slow), self.slow).padded(2 * self.slow)
+        return jet(smooth_mean(density, len(z), rule, 1 + self.slow), self.slow).padded(2 * self.slow)
 
     def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
         assert self.density is not None

@@ -2,6 +2,7 @@
 
 import functools
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +10,18 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
-Rule = tuple[int, int]
-SOLVING: Rule = (8, 6)
-"""Nodes to begin with, of the trapezoid and of Gauss's rule between switches."""
-CHECKING: Rule = (12, 9)
-"""Others, that share none of the former's chances."""
+
+class Rule(NamedTuple):
+    """Nodes to begin with, of the trapezoid and of Gauss's rule between switches, and the trapezoid's first."""
+
+    trapezoid: int
+    gauss: int
+    start: float
+
+
+SOLVING = Rule(8, 6, 0.0)
+CHECKING = Rule(12, 9, 1.0)
+"""Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
 LAST, GAUSS_LAST = 2**9, 384
 HALF_DIGITS, FALL = 1e-8, 1e-2
 PARTS, HALVINGS = 8, 40
@@ -32,14 +40,14 @@ def mean(
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
-        return smooth_mean(density, len(switches), rule[0], judged)
+        return smooth_mean(density, len(switches), rule, judged)
     split = np.nonzero(~plain)[0]
-    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule.gauss, judged)
     result = np.empty((len(switches), columns.shape[-1]))
     result[split] = columns
     if plain.any():
         smooth = np.nonzero(plain)[0]
-        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule, judged)
     return result
 
 
@@ -49,19 +57,20 @@ def smooth_mean(density: Density, points: int, first: int, judged: int | None = 
     Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
     (points, columns); nan where the density is not defined.
     """
-    size = first
+    size = rule.trapezoid
 
     def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
-        values = density(2 * np.pi * np.arange(size)[None] / size, active)
+        values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
         return values.mean(axis=-2), np.abs(values).mean(axis=-2)
 
     def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
         nonlocal size
-        halfway = density(2 * np.pi * (np.arange(size)[None] + 0.5) / size, active).mean(axis=-2)
+        x = rule.start + 2 * np.pi * (np.arange(size)[None] + 0.5) / size
+        halfway = density(x, active).mean(axis=-2)
         size *= 2
         return (total + halfway) / 2
 
-    result = _refined(begin, doubled, points, (LAST // first).bit_length() - 1, judged)
+    result = _refined(begin, doubled, points, (LAST // size).bit_length() - 1, judged)
     rest = np.nonzero(np.isnan(result).any(axis=1))[0]
     if len(rest):
         result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
@@ -108,7 +117,7 @@ def halved_mean(density: Density, points: int, judged: int | None = None) -> NDA
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: int | None = None
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     size = first
@@ -124,7 +133,7 @@ def split_mean(
         size *= 2
         return begin(active)[0]
 
-    return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
 
 
 def _refined(begin, doubled, points: int, doublings: int, judged: int | None) -> NDArray[np.float64]:
