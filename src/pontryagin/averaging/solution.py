@@ -158,7 +158,8 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
     The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
     target along its straight line, or that continues the extremals to nearer levels of the target. It
     satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17).
+    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
+    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
 
     Parameters
     ----------
