@@ -131,11 +131,18 @@ class AveragedSolution:
             Positive.
         phase : float, optional
             psi_0; `initial_phase` by default.
-        """
-        from pontryagin.averaging.roots import extremals
 
-        begin = float(self.initial_phase) if phase is None and not self.duration.shape else phase
-        return extremals(self, _positive_epsilon(epsilon), begin)
+        Raises
+        ------
+        ValueError
+            If epsilon is not positive, or the solution is a stack.
+        """
+        small = _positive_epsilon(epsilon)
+        if self.duration.shape:
+            raise ValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
+        from pontryagin.averaging import roots
+
+        return roots.extremals(self, small, float(self.initial_phase) if phase is None else phase)
 
     @property
     def _numbers(self) -> tuple[Array, ...]:
