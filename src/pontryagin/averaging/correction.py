@@ -104,9 +104,7 @@ def _integral(held, equations: Canonical, size: int) -> Array:
     return _settled(values, "the integral along the averaged solution", NODES)
 
 
-def _settled(
-    values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS
-) -> Array:
+def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS) -> Array:
     """Values at the first size that the next one confirms."""
     before = values(sizes[0])
     for size in sizes[1:]:

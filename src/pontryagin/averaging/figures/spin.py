@@ -25,7 +25,13 @@ def braking(omega0, semiaxes, ratio: float, epsilon: float) -> Figure:
     _rates(axes[0], flight)
     _controls(axes[1], flight, np.asarray(semiaxes, dtype=float))
     axes[2].plot(flight.tau, flight.transverse, color=EXACT, linewidth=1.0, label="flown")
-    axes[2].plot([0, mean.duration], mean.slow([0.0, float(mean.duration)])[:, 0], color=MEAN, linestyle="--", label="averaged")
+    axes[2].plot(
+        [0, mean.duration],
+        mean.slow([0.0, float(mean.duration)])[:, 0],
+        color=MEAN,
+        linestyle="--",
+        label="averaged",
+    )
     axes[2].set(xlabel=SLOW_TIME, ylabel="transverse rate $a$", ylim=(0, None), xlim=(0, None))
     axes[2].legend()
     return figure

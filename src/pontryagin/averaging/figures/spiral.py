@@ -53,9 +53,7 @@ def _plane(ax, extremal: Extremal) -> None:
     ax.plot(*ends[1].T, "-.", color=GREEN, linewidth=1.3, label="last osculating orbit")
     ax.plot(*flown.position.T, color=EXACT, linewidth=0.9, label="flown")
     some = slice(0, None, 12)
-    ax.quiver(
-        *flown.position[some].T, *flown.thrust[some].T, color=MEAN, width=0.005, scale=6, zorder=3
-    )
+    ax.quiver(*flown.position[some].T, *flown.thrust[some].T, color=MEAN, width=0.005, scale=6, zorder=3)
     ax.plot(0, 0, "o", color=INK, markersize=5)
     ax.set(aspect="equal", xlabel="$r\\cos\\varphi$", ylabel="$r\\sin\\varphi$")
     ax.set_title(rf"$\varepsilon = {extremal.epsilon:g}$, thrust as arrows", loc="left")

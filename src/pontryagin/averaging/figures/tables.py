@@ -1,12 +1,9 @@
 """Tables of this paper: columns for `plotting.show_table`."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.special import ellipe
 
@@ -53,7 +50,11 @@ def closed_forms() -> Columns:
     rows: list[tuple[str, AveragedSolution, float]] = [
         ("smooth, from 1 to 2", smooth_example(1, 2, k=1), 1.0),
         ("smooth, from 3 to 1, $k = \\frac14$", smooth_example(3, 1, k=0.25), 4.0),
-        ("rotor, $V = \\cos x$, least time", rotor(3, 6, mass=1, potential=WELL, force=0, peak=1), _fall(3, 6)),
+        (
+            "rotor, $V = \\cos x$, least time",
+            rotor(3, 6, mass=1, potential=WELL, force=0, peak=1),
+            _fall(3, 6),
+        ),
         ("orbit raised", kepler(-0.5, 0.95, -0.35, 0.1), _orbit(-0.5, -0.35, 0.1)),
         ("orbit lowered", kepler(-0.2, 1.2, -0.6, 0.3), _orbit(-0.2, -0.6, 0.3)),
         ("spin-down, $l_y = l_x/2$", spin_down([3, 4, 2], [1, 0.5, 1], 0.5), _stop(5, 1, 0.5)),
