@@ -140,8 +140,7 @@ class Thrust:
         transitions = np.stack([self.step_transition(k) for k in range(2)])
         inputs = self.peak * np.stack([self.step_input(k) for k in range(2)])
         results = np.empty(len(z0))
-        small = len(z0) * controls.shape[1] <= COMPILE_FROM
-        run = misses_of if small else compiled(misses_of, MISS_SIGNATURE)
+        run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
         run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
         return results
 
@@ -161,8 +160,7 @@ class Thrust:
         targets = -z0 / np.where(size > 0, size, 1.0)[:, None]
         costates, results = np.zeros_like(targets), np.zeros((len(targets), 2))
         controls = np.zeros((len(targets), most, factors.shape[2]))
-        small = len(targets) * most <= COMPILE_FROM
-        run = gauges_of if small else compiled(gauges_of, SIGNATURE)
+        run = compiled(gauges_of, SIGNATURE, len(targets) * most > COMPILE_FROM)
         run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
         return Gauges(results[:, 0] * size, results[:, 1] * size, costates, controls * size[:, None, None])
 
