@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
-from benchmarks.fixed_time import Peer, Solver
+from benchmarks.triple_integrator.fixed_time import Peer, Solver
 from benchmarks.peers import absent
 
 NODES = 100

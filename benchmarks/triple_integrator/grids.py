@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.optimize import Bounds, LinearConstraint, milp
 
-from benchmarks.fixed_time import Peer, Solver
+from benchmarks.triple_integrator.fixed_time import Peer, Solver
 from benchmarks.peers import absent
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from benchmarks import problems
+from benchmarks.triple_integrator import problems
 from benchmarks.clock import repeated, take_turns
 from pontryagin.triple_integrator import (
     Maneuver,
