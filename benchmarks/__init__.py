@@ -1,4 +1,4 @@
-"""The solvers side by side with the peers a reader would otherwise use; run ``python -m benchmarks [PAPER ...]``.
+"""The solvers side by side with the peers a reader would otherwise use: ``python -m benchmarks [PAPER ...]``.
 
 papers             which papers are measured, and what measuring one gives
 triple_integrator  the first paper

@@ -51,4 +51,3 @@ def accuracy_and_time(rows: Sequence[Row]) -> Figure:
     figure.supxlabel(r"processor time per problem, $\mu$s", fontsize="medium")
     figure.supylabel("worst relative error of the cost", fontsize="medium")
     return figure
-

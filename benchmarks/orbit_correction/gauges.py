@@ -116,7 +116,7 @@ def _search_entrant(name: str, peer: Peer, exact: Plan) -> Contestant:
 
 
 def search(made: Callable[[int], Solver], state: NDArray, least: int) -> tuple[int, float]:
-    """N_min and the gauge there by a peer's gauges, in the steps of our own search; (0, nan) where it fails."""
+    """N_min and the gauge there by a peer's gauges, searched as we search; (0, nan) where it fails."""
     too_few, enough, best, guess = least - 1, None, float("nan"), least
     while enough is None or enough - too_few > 1:
         alpha = made(guess)(state)

@@ -14,7 +14,7 @@ from scipy.optimize import root
 
 from benchmarks.clock import take_turns
 from benchmarks.contest import CALL, worst
-from benchmarks.orbit_correction.states import INTERVAL, PEAK, SEED, states, unit_factors
+from benchmarks.orbit_correction.states import INTERVAL, PEAK, SEED, states, thrust, unit_factors
 from pontryagin.orbit_correction import correct
 
 FINDERS: dict[str, dict] = {
@@ -29,7 +29,7 @@ FINDERS: dict[str, dict] = {
 }
 """Methods of `scipy.optimize.root` and what they are given; tolerances are their own.
 
-Where they converge at all, they need fewer than the 100 iterations of those that would go on for thousands.
+Those that would go on for thousands of iterations get 100; ten times as many let few more starts end.
 """
 
 SAME = 1e-4
@@ -153,8 +153,6 @@ def _runs(work: Sequence[Task], method: str) -> Callable[[], int]:
 
 def _ours(work: Sequence[Task]) -> Callable[[], int]:
     """The gauge, costate and controls of the same states for the same numbers of steps."""
-    from benchmarks.orbit_correction.states import thrust
-
     engine = thrust("ball")
     counts = [np.array([len(task.factors)]) for task in work]
 

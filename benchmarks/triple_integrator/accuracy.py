@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from benchmarks.triple_integrator import problems, propagation
 from benchmarks.contest import worst
+from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import MOMENT_CLASSES, TRANSFER_CLASSES
 from benchmarks.triple_integrator.transfers import by_pontryagin
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
