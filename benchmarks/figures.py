@@ -19,7 +19,8 @@ MARKS = {
 }
 """Marker and colour of each contestant."""
 
-OURS = {CALL: "one call", STACK: "stack"}
+OURS = {CALL: ("one call", 5, "bottom"), STACK: ("stack", -5, "top")}
+"""Label of our points, how far above they stand, and which side of the label that is."""
 
 FLOOR = 1e-16
 """Errors below this are drawn here."""
@@ -27,14 +28,15 @@ FLOOR = 1e-16
 
 @styled
 def accuracy_and_time(rows: Sequence[Row]) -> Figure:
-    """Worst relative error against time per problem, one panel a problem, and a panel for the legend."""
+    """Worst relative error against time per problem, one panel a problem; the legend fills what is left."""
     problems = list(dict.fromkeys(row.problem for row in rows))
-    lines = len(problems) // 2 + 1
+    lines = (len(problems) + 1) // 2
     figure, axes = subplots(lines, 2, height=2.1 * lines, sharex=True, sharey=True, squeeze=False)
     handles: dict[str, Line2D] = {}
     for axis, problem in zip(axes.flat, problems, strict=False):
         axis.set(title=problem[0].upper() + problem[1:], xscale="log", yscale="log")
         axis.tick_params(labelbottom=True)
+        axis.margins(0.12, 0.22)
         for row in rows:
             if row.problem != problem or not row.error >= 0:
                 continue
@@ -44,10 +46,14 @@ def accuracy_and_time(rows: Sequence[Row]) -> Figure:
             (handle,) = axis.plot(*place, marker, color=colour, linestyle="none")
             handles.setdefault(name, handle)
             if row.method in OURS:
-                axis.annotate(OURS[row.method], place, (0, 5), textcoords="offset points", ha="center")
-    for axis in axes.flat[len(problems) :]:
-        axis.set_axis_off()
-    axes.flat[-1].legend(handles.values(), handles.keys(), loc="center", ncols=2)
+                label, height, side = OURS[row.method]
+                offset = {"xytext": (0, height), "textcoords": "offset points"}
+                axis.annotate(label, place, **offset, ha="center", va=side)
+    if len(problems) % 2:
+        axes.flat[-1].set_axis_off()
+        axes.flat[-1].legend(handles.values(), handles.keys(), loc="center", ncols=2)
+    else:
+        figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
     figure.supxlabel(r"processor time per problem, $\mu$s", fontsize="medium")
     figure.supylabel("worst relative error of the cost", fontsize="medium")
     return figure
