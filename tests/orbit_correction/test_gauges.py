@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
-from pontryagin import compile as compiler
+from pontryagin import jit
 from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
 from pontryagin.orbit_correction.zonotope import turning_place
 
@@ -90,9 +90,9 @@ def test_compiled_and_plain_kernels_agree(name, monkeypatch):
     together = thrust.gauges(rows, np.full(40, 7))
     served = [thrust.gauges(row[None], np.array([7])).upper[0] for row in rows]
     assert served == together.upper.tolist()
-    monkeypatch.setattr(compiler, "_COMPILED", {})
+    monkeypatch.setattr(jit, "_COMPILED", {})
     alone = [thrust.gauges(row[None], np.array([7])).upper[0] for row in rows]
-    assert not compiler._COMPILED
+    assert not jit._COMPILED
     assert_allclose(together.upper, alone, rtol=1e-12)
 
 
