@@ -159,7 +159,7 @@ def gauge_of_factors(factors: NDArray[np.float64], x0: NDArray[np.float64]) -> G
         raise Infeasible("the controls do not span the state space: some states cannot be reached at all")
     targets = np.ascontiguousarray(-x0.reshape(-1, n))
     costates, bounds = np.empty_like(targets), np.empty((len(targets), 2))
-    run = compiled(gauge_stack, SIGNATURE) if len(targets) * len(factors) > COMPILE_FROM else gauge_stack
+    run = compiled(gauge_stack, SIGNATURE, len(targets) * len(factors) > COMPILE_FROM)
     run(
         np.ascontiguousarray(factors),
         np.ascontiguousarray(np.linalg.cholesky(gram)),

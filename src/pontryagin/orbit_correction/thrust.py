@@ -6,6 +6,7 @@ box     each component within the peak: two engines, and the paper's own constra
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import fabs
 
 import numpy as np
@@ -28,6 +29,9 @@ MISS_SIGNATURE = (
 )
 COMPILE_FROM = 60
 """States times steps from which loading the compiled kernel pays."""
+
+KEPT = 1024
+"""Up to this many steps the factors are kept for the next call: they are most of what one state costs."""
 
 
 def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, results):
@@ -137,11 +141,9 @@ class Thrust:
 
     def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> NDArray[np.float64]:
         """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
-        transitions = np.stack([self.step_transition(k) for k in range(2)])
-        inputs = self.peak * np.stack([self.step_input(k) for k in range(2)])
+        transitions, inputs = _motion(self)
         results = np.empty(len(z0))
-        small = len(z0) * controls.shape[1] <= COMPILE_FROM
-        run = misses_of if small else compiled(misses_of, MISS_SIGNATURE)
+        run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
         run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
         return results
 
@@ -149,20 +151,20 @@ class Thrust:
         """Gauges of the states (rows, 3) for their numbers of steps (rows,)."""
         if self.whole_revolutions:
             return self._gauges_of_speeds(z0, counts)
-        return self._gauges(z0, counts, self.factors(max(int(counts.max(initial=0)), self.fewest)))
+        most = max(int(counts.max(initial=0)), self.fewest)
+        if most > KEPT:
+            factors, gram_factors = _with_grams(self.factors(most), self.fewest)
+        else:
+            factors, gram_factors = _kept(self, max(16, 1 << (most - 1).bit_length()))
+        return self._gauges(z0, counts, factors[:most], gram_factors[:most])
 
-    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], factors: NDArray) -> Gauges:
+    def _gauges(self, z0: NDArray, counts: NDArray, factors: NDArray, gram_factors: NDArray) -> Gauges:
         most = len(factors)
-        factors = np.ascontiguousarray(factors)
-        gram = np.cumsum(np.einsum("kij,klj->kil", factors, factors), axis=0)
-        gram_factors = np.zeros_like(gram)
-        gram_factors[self.fewest - 1 :] = np.linalg.cholesky(gram[self.fewest - 1 :])
         size = np.abs(z0).max(axis=1, initial=0.0)
         targets = -z0 / np.where(size > 0, size, 1.0)[:, None]
         costates, results = np.zeros_like(targets), np.zeros((len(targets), 2))
         controls = np.zeros((len(targets), most, factors.shape[2]))
-        small = len(targets) * most <= COMPILE_FROM
-        run = gauges_of if small else compiled(gauges_of, SIGNATURE)
+        run = compiled(gauges_of, SIGNATURE, len(targets) * most > COMPILE_FROM)
         run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
         return Gauges(results[:, 0] * size, results[:, 1] * size, costates, controls * size[:, None, None])
 
@@ -176,7 +178,7 @@ class Thrust:
             )
         speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), 1)
         if self.name == "ball":
-            found = self._gauges(speeds, counts, self.factors(most)[:, 1:])
+            found = self._gauges(speeds, counts, *_with_grams(self.factors(most)[:, 1:], self.fewest))
             costates = np.pad(found.costates, ((0, 0), (1, 0)))
             return Gauges(found.lower, found.upper, costates, found.controls)
         share = -speeds / (self.peak * np.maximum(counts, 1)[:, None])
@@ -188,3 +190,24 @@ class Thrust:
             costates = np.where(np.abs(share) == alpha[:, None], share, 0.0)
         controls = share[:, None] * acting[..., None]
         return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)
+
+
+@lru_cache(maxsize=32)
+def _kept(thrust: Thrust, steps: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    return _with_grams(thrust.factors(steps), thrust.fewest)
+
+
+def _with_grams(factors: NDArray, fewest: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """G_k, and the Cholesky factors of the sums of G G' up to each step (zeros below the fewest)."""
+    factors = np.ascontiguousarray(factors)
+    gram = np.cumsum(np.einsum("kij,klj->kil", factors, factors), axis=0)
+    gram_factors = np.zeros_like(gram)
+    gram_factors[fewest - 1 :] = np.linalg.cholesky(gram[fewest - 1 :])
+    return factors, gram_factors
+
+
+@lru_cache(maxsize=32)
+def _motion(thrust: Thrust) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A(k) and B(k) times the peak of an even and an odd step."""
+    transitions = np.stack([thrust.step_transition(k) for k in range(2)])
+    return transitions, thrust.peak * np.stack([thrust.step_input(k) for k in range(2)])
