@@ -192,20 +192,55 @@ def find_switches(switching: Density, points: int) -> NDArray[np.float64]:
     `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
     """
     grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
-    everywhere = np.arange(points)
-    values = switching(grid[None], everywhere)
-    count = values.shape[-1] // 2
-    positive = values[..., :count] > 0
+    columns = switching(grid[None], np.arange(points))
+    columns = np.broadcast_to(columns, (points, *columns.shape[1:]))
+    count = columns.shape[-1] // 2
+    positive = columns[..., :count] > 0
     point, cell, which = np.nonzero(positive[:, 1:] != positive[:, :-1])
+    low, high, falling = grid[cell], grid[cell + 1], positive[point, cell, which]
+    pairs = _close_pairs(switching, grid, columns)
+    if pairs is not None:
+        low, high = np.concatenate([low, pairs[0]]), np.concatenate([high, pairs[1]])
+        point, which = np.concatenate([point, pairs[2]]), np.concatenate([which, pairs[3]])
+        falling = np.concatenate([falling, pairs[4]])
     if not len(point):
         return np.full((points, 0), np.nan)
-    root = _refine(switching, grid[cell], grid[cell + 1], point, which, positive[point, cell, which])
+    root = _refine(switching, low, high, point, which, falling)
     order = np.lexsort((root, point))
     point, root = point[order], root[order]
     place = np.arange(len(point)) - np.searchsorted(point, point)
     result = np.full((points, place.max() + 1), np.nan)
     result[point, place] = root
     return result
+
+
+def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[NDArray, ...] | None:
+    """Brackets of two switches between neighbouring nodes: an extremum there that has the other sign."""
+    count = columns.shape[-1] // 2
+    value, slope = columns[..., :count], columns[..., count:]
+    towards = value * slope
+    near = np.abs(value) < 2 * np.abs(slope) * (grid[1] - grid[0])
+    turning = (towards[:, :-1] < 0) & (towards[:, 1:] > 0) & (value[:, :-1] * value[:, 1:] > 0)
+    point, cell, which = np.nonzero(turning & (near[:, :-1] | near[:, 1:]))
+    if not len(point):
+        return None
+    rows = np.arange(len(point))
+    low, high = grid[cell], grid[cell + 1]
+    rising, above = slope[point, cell, which] > 0, value[point, cell, which] > 0
+    for _ in range(50):
+        middle = (low + high) / 2
+        before = (switching(middle[:, None], point)[rows, 0, which + count] > 0) == rising
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    crossed = (switching(low[:, None], point)[rows, 0, which] > 0) != above
+    point, which, at, above = point[crossed], which[crossed], low[crossed], above[crossed]
+    left, right = grid[cell[crossed]], grid[cell[crossed] + 1]
+    return (
+        np.concatenate([left, at]),
+        np.concatenate([at, right]),
+        np.concatenate([point, point]),
+        np.concatenate([which, which]),
+        np.concatenate([above, ~above]),
+    )
 
 
 def _refine(
