@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import sympy as sp
+from numpy.typing import NDArray
 
 from pontryagin.averaging.control_sets import Ball, Ellipsoid, Quadratic
 from pontryagin.averaging.derivation import kepler as orbit
@@ -120,12 +121,13 @@ EXAMPLES: dict[str, Callable[[], Example]] = {"smooth": smooth, "kepler": kepler
 
 
 def rotor(
-    mass: sp.Expr, potential: sp.Expr, force: sp.Expr, a1: float, peak: float | None, k: float | None
+    mass: sp.Expr, potential: sp.Expr, force: sp.Expr, a1: NDArray, peak: NDArray | None, k: NDArray | None
 ) -> PhaseSystem:
     """(3.1) in the energy a and the angle x: |u| <= peak in the least time, or at the cost k + u^2."""
     a = sp.Symbol("a", real=True)
     slow_rate, speed = (rate.subs(turning.a, a) for rate in _rotor_rates(mass, potential, force))
     least_time = peak is not None
+    priced = {name: value for name, value in ((PEAK, peak), (PRICE, k)) if value is not None}
     return PhaseSystem(
         f=[slow_rate],
         anomaly_rate=speed,
@@ -135,7 +137,7 @@ def rotor(
         phase=turning.x,
         target=[a - level("a1")],
         running_cost=1 if least_time else PRICE,
-        numbers={level("a1"): a1, **({PEAK: peak} if peak is not None else {PRICE: k})},
+        numbers={level("a1"): a1, **priced},
     )
 
 

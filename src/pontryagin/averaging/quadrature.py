@@ -2,6 +2,7 @@
 
 import functools
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,14 +10,21 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
-Rule = tuple[int, int]
-SOLVING: Rule = (32, 24)
-"""Nodes to begin with, of the trapezoid and of Gauss's rule."""
-CHECKING: Rule = (45, 31)
-"""Others, that share none of the former's chances."""
-LAST, GAUSS_LAST = 2**15, 384
-HALF_DIGITS = 1e-8
-"""The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
+
+class Rule(NamedTuple):
+    """Nodes to begin with: of the trapezoid, which start somewhere, and of Gauss's rule between switches."""
+
+    trapezoid: int
+    gauss: int
+    start: float
+
+
+SOLVING = Rule(8, 6, 0.0)
+CHECKING = Rule(12, 9, 1.0)
+"""Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
+LAST, GAUSS_LAST = 2**9, 384
+HALF_DIGITS, FALL = 1e-8, 1e-2
+PARTS, HALVINGS = 8, 40
 ROUNDING = 1e-14
 """A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
@@ -32,65 +40,129 @@ def mean(
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
-        return smooth_mean(density, len(switches), rule[0], judged)
+        return smooth_mean(density, len(switches), rule, judged)
     split = np.nonzero(~plain)[0]
-    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule.gauss, judged)
     result = np.empty((len(switches), columns.shape[-1]))
     result[split] = columns
     if plain.any():
         smooth = np.nonzero(plain)[0]
-        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule, judged)
     return result
 
 
-def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
-    """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
+def smooth_mean(
+    density: Density, points: int, rule: Rule = SOLVING, judged: int | None = None
+) -> NDArray[np.float64]:
+    """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
-    Returns (points, columns); nan where the density is not defined or the rule does not settle.
+    Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
+    (points, columns); nan where the density is not defined.
     """
-    active = np.arange(points)
-    size = first
-    grid = 2 * np.pi * np.arange(size)[None] / size
-    values = density(grid, active)
-    total, scale = values.mean(axis=-2), np.abs(values).mean(axis=-2)
-    result = np.full(total.shape, np.nan)
-    while True:
-        halfway = density(grid + np.pi / size, active).mean(axis=-2)
-        finer = (total + halfway) / 2
-        settled = _settled(finer - total, scale, judged)
-        result[active[settled]] = finer[settled]
+    size = rule.trapezoid
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
+        return values.mean(axis=-2), np.abs(values).mean(axis=-2)
+
+    def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
+        nonlocal size
+        x = rule.start + 2 * np.pi * (np.arange(size)[None] + 0.5) / size
+        halfway = density(x, active).mean(axis=-2)
         size *= 2
-        more = ~settled & np.isfinite(finer).all(axis=-1)
-        if size >= LAST or not more.any():
+        return (total + halfway) / 2
+
+    result = _refined(begin, doubled, points, (LAST // size).bit_length() - 1, judged)
+    rest = np.nonzero(np.isnan(result).any(axis=1))[0]
+    if len(rest):
+        result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
+    return result
+
+
+def halved_mean(density: Density, points: int, judged: int | None = None) -> NDArray[np.float64]:
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns)."""
+    nodes, weights = _gauss(16)
+    point = np.repeat(np.arange(points), PARTS)
+    low = np.tile(np.arange(PARTS) / PARTS, points)
+    length = np.full(len(low), 1 / PARTS)
+
+    def integral(point: NDArray, low: NDArray, length: NDArray) -> tuple[NDArray, NDArray]:
+        values = density(2 * np.pi * (low[:, None] + length[:, None] * nodes), point)
+        scaled = (length[:, None] * weights)[..., None]
+        return (scaled * values).sum(axis=1), (scaled * np.abs(values)).sum(axis=1)
+
+    value, size = integral(point, low, length)
+    scale = np.zeros((points, size.shape[1]))
+    np.add.at(scale, point, size)
+    result = np.zeros_like(scale)
+    for _ in range(HALVINGS):
+        first, _ = integral(point, low, length / 2)
+        second, _ = integral(point, low + length / 2, length / 2)
+        change = np.abs(first + second - value)[:, :judged]
+        own = scale[point, :judged]
+        allowed = np.maximum(HALF_DIGITS * own, ROUNDING * own.max(axis=-1, keepdims=True))
+        settled = (change <= FALL * allowed).all(axis=-1)
+        np.add.at(result, point[settled], (first + second)[settled])
+        more = ~settled
+        if not more.any():
             return result
-        active, total, scale = active[more], finer[more], scale[more]
-        grid = 2 * np.pi * np.arange(size)[None] / size
+        if not np.isfinite(change[more]).all():
+            break
+        point, low, length = (
+            np.concatenate([point[more]] * 2),
+            np.concatenate([low[more], low[more] + length[more] / 2]),
+            np.concatenate([length[more] / 2] * 2),
+        )
+        value = np.concatenate([first[more], second[more]])
+    result[point] = np.nan
+    return result
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: int | None = None
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
-    active = np.arange(len(switches))
     size = first
-    coarse = _panels(density, switches, active, size)
-    result = np.full((len(switches), coarse.shape[-1]), np.nan)
-    while True:
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        x, weights = split_rule(switches[active], size)
+        values = density(x, active)
+        weights = weights[..., None]
+        return (weights * values).sum(axis=1), (weights * np.abs(values)).sum(axis=1)
+
+    def doubled(active: NDArray[np.intp], _: NDArray) -> NDArray:
+        nonlocal size
         size *= 2
-        fine = _panels(density, switches, active, size)
-        value, scale = fine[:, 0], fine[:, 1]
-        settled = _settled(value - coarse[:, 0], scale, judged)
-        result[active[settled]] = value[settled]
-        more = ~settled & np.isfinite(value).all(axis=-1)
-        if size >= GAUSS_LAST or not more.any():
-            return result
-        active, coarse = active[more], fine[more]
+        return begin(active)[0]
+
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
 
 
-def _settled(change: NDArray, scale: NDArray, judged: int | None) -> NDArray[np.bool_]:
-    change, scale = np.abs(change[:, :judged]), scale[:, :judged]
-    noise = ROUNDING * scale.max(axis=-1, keepdims=True)
-    return (change <= np.maximum(HALF_DIGITS * scale, noise)).all(axis=-1)
+def _refined(begin, doubled, points: int, doublings: int, judged: int | None) -> NDArray[np.float64]:
+    """Double a rule at the points where it has not settled.
+
+    The error of a rule that converges geometrically is squared by each doubling: a change below half of all
+    digits is the last to be seen, provided that the change before was either much larger, which shows that
+    the rule does converge so, or nothing; one change alone says nothing of a density with symmetries.
+    """
+    active = np.arange(points)
+    value, scale = begin(active)
+    before = np.full((points, 1), np.nan)
+    result = np.full(value.shape, np.nan)
+    for _ in range(doublings):
+        finer = doubled(active, value)
+        size = scale[:, :judged]
+        noise = ROUNDING * size.max(axis=-1, keepdims=True)
+        change = np.abs(finer - value)[:, :judged]
+        least = np.maximum(ROUNDING * size, noise)
+        convergent = (change <= FALL * before) | (before <= least)
+        settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
+        result[active[settled]] = finer[settled]
+        more = ~settled & np.isfinite(finer).all(axis=-1)
+        if not more.any():
+            break
+        active, value, scale, before = active[more], finer[more], scale[more], change[more]
+    return result
 
 
 def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
@@ -102,15 +174,6 @@ def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArr
     flat = (len(switches), -1)
     return (edges[:, :-1, None] + lengths * nodes).reshape(flat), (lengths * weights / (2 * np.pi)).reshape(
         flat
-    )
-
-
-def _panels(density: Density, switches: NDArray, active: NDArray, size: int) -> NDArray[np.float64]:
-    """Mean and mean modulus (points, 2, columns)."""
-    x, weights = split_rule(switches[active], size)
-    values = density(x, active)
-    return np.stack(
-        [(weights[..., None] * values).sum(axis=1), (weights[..., None] * np.abs(values)).sum(axis=1)], axis=1
     )
 
 

@@ -46,7 +46,7 @@ def checked(system) -> dict[str, object]:
     periodic = {f"f[{i}]": e for i, e in enumerate(f)} | scalars | frequencies
     for name, expression in periodic.items():
         if expression is not None:
-            _require_periodic(name, expression, phase, numbers)
+            require_periodic(name, expression, phase, numbers)
     system.control_set.require_convex(len(control), numbers)
     return {
         "f": f,
@@ -135,7 +135,7 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
             raise ValueError(f"{name} must be affine in the control, its derivative in {first} is {slope}")
 
 
-def _require_periodic(
+def require_periodic(
     name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Mapping[sp.Symbol, NDArray]
 ) -> None:
     """2 pi-periodic in the phase: by structure, or at random points where structure does not tell."""
