@@ -1,0 +1,163 @@
+"""The exact canonical system (1.1), (1.6) of a phase system, with the anomaly or slow time as the clock.
+
+States are (a, p, y, tau, J): slow variables, costates, y = p_x/epsilon, slow time and cost. Rates come from
+p f + p_x F - L - (cost of u) at the maximising u*, differentiated at fixed u (envelope theorem). With the
+anomaly as the clock an end at a given anomaly is an end at a given time.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import sympy as sp
+
+from pontryagin.averaging.modes import modal
+
+epsilon = sp.Symbol("epsilon", positive=True)
+y, tau, cost = sp.symbols("y tau J", real=True)
+
+
+@dataclass(frozen=True)
+class Canonical:
+    """The equations of a phase system's exact extremals, in SymPy.
+
+    Attributes
+    ----------
+    slow, costates : tuple of n symbols
+        a and p.
+    anomaly : symbol
+        x.
+    parameters : tuple of symbols
+        epsilon, then the system's numbers.
+    rates : tuple of 2n + 3 expressions
+        d(a, p, y, tau, J)/dx; they may hold the modes.
+    time_rates : tuple of 2n + 4 expressions
+        d(a, p, y, tau, J, x)/dtau.
+    modes : tuple of (symbol, expression)
+        Signs that stand in the rates, each with the function whose sign it is.
+    control : tuple of m expressions
+        u*, without modes.
+    hamiltonian : expression
+        h* + y r, which vanishes on extremals.
+    gap : expression
+        h* less p f + p_x F - L - (cost of u) at u*: no less than zero, and zero where u* maximises.
+    rate : expression
+        r.
+    motion : tuple of n + 1 expressions
+        f and dx/dt = r + epsilon F at u*, without modes: the derivatives of `hamiltonian` in p and y.
+    boundary : tuple of r expressions
+        M.
+    terminal_cost : expression
+        g.
+    """
+
+    slow: tuple[sp.Symbol, ...]
+    costates: tuple[sp.Symbol, ...]
+    anomaly: sp.Symbol
+    parameters: tuple[sp.Symbol, ...]
+    rates: tuple[sp.Expr, ...]
+    time_rates: tuple[sp.Expr, ...]
+    modes: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    control: tuple[sp.Expr, ...]
+    hamiltonian: sp.Expr
+    gap: sp.Expr
+    rate: sp.Expr
+    motion: tuple[sp.Expr, ...]
+    boundary: tuple[sp.Expr, ...]
+    terminal_cost: sp.Expr
+
+    def unswitched(self, expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
+        """The expressions with every mode written as the sign it is."""
+        table: dict[sp.Expr, sp.Expr] = {}
+        for mode, switching in self.modes:
+            table[mode] = sp.sign(switching.xreplace(table))
+        return tuple(e.xreplace(table) for e in expressions)
+
+    @property
+    def states(self) -> tuple[sp.Symbol, ...]:
+        """(a, p, y, tau, J)."""
+        return (*self.slow, *self.costates, y, tau, cost)
+
+
+def canonical(system) -> Canonical:
+    """Derive the exact equations of a `PhaseSystem`; the same expressions are derived once.
+
+    Examples
+    --------
+    >>> from pontryagin.averaging import PhaseSystem, Quadratic
+    >>> v, x, u = sp.symbols("v x u", real=True)
+    >>> pushed = PhaseSystem(f=[u], omega=v, control_set=Quadratic(), slow=[v], control=[u], phase=x,
+    ...                      target=[v - 2])
+    >>> equations = canonical(pushed)
+    >>> equations.time_rates[:3]
+    (p_v/2, -y, 0)
+    """
+    s = system
+    return _derived(
+        s.slow,
+        s.costates,
+        s.phase,
+        s.phase_costate,
+        tuple(s.control),
+        s.f,
+        s.rate,
+        s.phase_rate,
+        s.running_cost,
+        s.control_set.cost(s.control),
+        tuple(s.maximiser),
+        s.hamiltonian,
+        s.target,
+        s.terminal_cost,
+        tuple(s.numbers),
+    )
+
+
+@lru_cache(maxsize=32)
+def _derived(
+    slow: Sequence,
+    costates: Sequence,
+    anomaly: sp.Symbol,
+    phase_costate: sp.Symbol,
+    control: Sequence,
+    f: Sequence,
+    rate: sp.Expr,
+    phase_rate: sp.Expr,
+    running_cost: sp.Expr,
+    control_cost: sp.Expr,
+    maximiser: Sequence,
+    hamiltonian: sp.Expr,
+    target: Sequence,
+    terminal_cost: sp.Expr,
+    numbers: Sequence,
+) -> Canonical:
+    scaled = {phase_costate: epsilon * y}
+    spent = running_cost + control_cost
+    free = sum((p * g for p, g in zip(costates, f, strict=True)), phase_costate * phase_rate) - spent
+    optimal = tuple(u.subs(scaled) for u in maximiser)
+    switched, modes = modal(optimal)
+
+    def at(expression: sp.Expr, controls: Sequence) -> sp.Expr:
+        return expression.subs(scaled).xreplace(dict(zip(control, controls, strict=True)))
+
+    def drop(variable: sp.Symbol) -> sp.Expr:
+        return -(y * rate.diff(variable) + free.diff(variable))
+
+    per_time = [*f, *(drop(a) for a in slow), drop(anomaly) / epsilon, sp.Integer(1), spent]
+    turning = at(rate + epsilon * phase_rate, switched)
+    in_time = [at(g, switched) for g in per_time]
+    return Canonical(
+        slow=tuple(slow),
+        costates=tuple(costates),
+        anomaly=anomaly,
+        parameters=(epsilon, *numbers),
+        rates=tuple(epsilon * g / turning for g in in_time),
+        time_rates=(*in_time, turning / epsilon),
+        modes=modes,
+        control=optimal,
+        hamiltonian=hamiltonian.subs(scaled) + y * rate,
+        gap=hamiltonian.subs(scaled) - at(free, optimal),
+        rate=rate,
+        motion=tuple(at(g, optimal) for g in [*f, rate + epsilon * phase_rate]),
+        boundary=tuple(target),
+        terminal_cost=terminal_cost,
+    )
