@@ -98,7 +98,7 @@ def kernel_expressions(
         "frequency": ((*a, *numbers), None if frequency is None else expressions(frequency, a)),
         "switching": ((*z, x, *numbers), switching),
         "boundary": ((*a, *numbers), ends),
-        "control": ((*z, x, system.phase_costate, *numbers), list(system.maximiser)),
+        "control": ((*z, x, *numbers), list(system.maximiser.subs(system.phase_costate, 0))),
         "rates": ((*a, x, *system.control, *numbers), [*system.f, cost]),
         "pace": ((*a, x, *numbers), [1 / system.rate]),
     }

@@ -36,8 +36,8 @@ def smooth_boundary(v, v1, k, ripple):
     return c0, c1, c2, c3, c4, c5
 
 
-def smooth_control(v, p_v, x, p_x, v1, k, ripple):
-    """Section 3, smooth example: u*(a, x, p, q), (1.5)."""
+def smooth_control(v, p_v, x, v1, k, ripple):
+    """Section 3, smooth example: u*(a, x, p) at q = 0, (1.5)."""
     c0 = (1 / 2) * p_v
     return c0
 
@@ -138,21 +138,13 @@ def kepler_boundary(E, K, E1, l):
     return c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11
 
 
-def kepler_control(E, K, p_E, p_K, xi, p_xi, E1, l):
-    """Example 2: u*(a, x, p, q), (1.5)."""
-    x0 = 2 * E * (K * K) + 1
-    x1 = sqrt(x0)
-    x2 = sqrt(2)
-    x3 = sqrt(-E)
-    x4 = cos(xi)
-    x5 = x1 * x4
-    x6 = x5 - 1
-    x7 = 1 / x6
-    x8 = p_E * x7
-    x9 = (1 / 2) * sin(xi)
-    x10 = p_xi * x7 / x1
-    c0 = -x1 * x2 * x3 * x8 * x9 - 1 / 4 * x10 * x2 * (x0 * x4 - 2 * x1 + x4) / x3
-    c1 = E * K * x8 - K * x10 * x9 * (x5 - 2) + (1 / 4) * p_K * x6 / E
+def kepler_control(E, K, p_E, p_K, xi, E1, l):
+    """Example 2: u*(a, x, p) at q = 0, (1.5)."""
+    x0 = sqrt(2 * E * (K * K) + 1)
+    x1 = x0 * cos(xi) - 1
+    x2 = p_E / x1
+    c0 = -1 / 2 * sqrt(2) * x0 * x2 * sqrt(-E) * sin(xi)
+    c1 = E * K * x2 + (1 / 4) * p_K * x1 / E
     return c0, c1
 
 
@@ -268,20 +260,19 @@ def spin_down_boundary(a, c, l_x, l_y, l_z, d, sense):
     return c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11
 
 
-def spin_down_control(a, c, p_a, p_c, psi, p_psi, l_x, l_y, l_z, d, sense):
-    """Example 3: u*(a, x, p, q), (1.5)."""
+def spin_down_control(a, c, p_a, p_c, psi, l_x, l_y, l_z, d, sense):
+    """Example 3: u*(a, x, p) at q = 0, (1.5)."""
     x0 = l_x * l_x
     x1 = cos(psi)
-    x2 = sin(psi)
-    x3 = p_psi / a
-    x4 = p_a * x1 - x2 * x3
-    x5 = l_z * l_z
-    x6 = l_y * l_y
-    x7 = p_a * sense * x2 + sense * x1 * x3
-    x8 = 1 / sqrt((p_c * p_c) * x5 + x0 * (x4 * x4) + x6 * (x7 * x7))
-    c0 = x0 * x4 * x8
-    c1 = x6 * x7 * x8
-    c2 = p_c * x5 * x8
+    x2 = l_z * l_z
+    x3 = p_a * p_a
+    x4 = l_y * l_y
+    x5 = sin(psi)
+    x6 = 1 / sqrt((p_c * p_c) * x2 + (sense * sense) * x3 * x4 * (x5 * x5) + x0 * (x1 * x1) * x3)
+    x7 = p_a * x6
+    c0 = x0 * x1 * x7
+    c1 = sense * x4 * x5 * x7
+    c2 = p_c * x2 * x6
     return c0, c1, c2
 
 

@@ -34,8 +34,8 @@ class Model:
         Functions at whose zeros the density is not smooth, and their derivatives in x.
     boundary : kernel of a
         Columns of the jets in a of M_1, ..., M_r and g.
-    control : kernel of (a, p, x, p_x)
-        u*.
+    control : kernel of (a, p, x)
+        u* at p_x = 0.
     rates : kernel of (a, x, u)
         f and the whole running cost.
     pace : kernel of (a, x)
@@ -77,7 +77,7 @@ class Model:
         if self.turn is None:
             return None
         density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
-        return jet(smooth_mean(density, len(z), rule[0], 1 + self.slow), self.slow).padded(2 * self.slow)
+        return jet(smooth_mean(density, len(z), rule, 1 + self.slow), self.slow).padded(2 * self.slow)
 
     def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
         assert self.density is not None
@@ -92,7 +92,7 @@ class Model:
     def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
         """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
         a = tuple(z[:, : self.slow].T)
-        control = _over(self.control, tuple(z.T), (np.zeros(len(z)), *numbers))
+        control = _over(self.control, tuple(z.T), numbers)
 
         def density(x: Array, index: NDArray[np.intp]) -> Array:
             u = np.moveaxis(control(x, index), -1, 0)

@@ -2,6 +2,7 @@
 
 import functools
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,13 +10,21 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
-Rule = tuple[int, int]
-SOLVING: Rule = (16, 12)
-"""Nodes to begin with, of the trapezoid and of Gauss's rule between switches."""
-CHECKING: Rule = (23, 17)
-"""Others, that share none of the former's chances."""
-LAST, GAUSS_LAST = 2**13, 384
+
+class Rule(NamedTuple):
+    """Nodes to begin with, of the trapezoid and of Gauss's rule between switches, and the trapezoid's first."""
+
+    trapezoid: int
+    gauss: int
+    start: float
+
+
+SOLVING = Rule(8, 6, 0.0)
+CHECKING = Rule(12, 9, 1.0)
+"""Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
+LAST, GAUSS_LAST = 2**9, 384
 HALF_DIGITS, FALL = 1e-8, 1e-2
+PARTS, HALVINGS = 8, 40
 ROUNDING = 1e-14
 """A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
@@ -31,39 +40,84 @@ def mean(
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
-        return smooth_mean(density, len(switches), rule[0], judged)
+        return smooth_mean(density, len(switches), rule, judged)
     split = np.nonzero(~plain)[0]
-    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule.gauss, judged)
     result = np.empty((len(switches), columns.shape[-1]))
     result[split] = columns
     if plain.any():
         smooth = np.nonzero(plain)[0]
-        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule, judged)
     return result
 
 
 def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
     """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
 
-    Returns (points, columns); nan where the density is not defined or the rule does not settle.
+    Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
+    (points, columns); nan where the density is not defined.
     """
-    size = first
+    size = rule.trapezoid
 
     def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
-        values = density(2 * np.pi * np.arange(size)[None] / size, active)
+        values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
         return values.mean(axis=-2), np.abs(values).mean(axis=-2)
 
     def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
         nonlocal size
-        halfway = density(2 * np.pi * (np.arange(size)[None] + 0.5) / size, active).mean(axis=-2)
+        x = rule.start + 2 * np.pi * (np.arange(size)[None] + 0.5) / size
+        halfway = density(x, active).mean(axis=-2)
         size *= 2
         return (total + halfway) / 2
 
-    return _refined(begin, doubled, points, (LAST // first).bit_length() - 1, judged)
+    result = _refined(begin, doubled, points, (LAST // size).bit_length() - 1, judged)
+    rest = np.nonzero(np.isnan(result).any(axis=1))[0]
+    if len(rest):
+        result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
+    return result
+
+
+def halved_mean(density: Density, points: int, judged: int | None = None) -> NDArray[np.float64]:
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns)."""
+    nodes, weights = _gauss(16)
+    point = np.repeat(np.arange(points), PARTS)
+    low = np.tile(np.arange(PARTS) / PARTS, points)
+    length = np.full(len(low), 1 / PARTS)
+
+    def integral(point: NDArray, low: NDArray, length: NDArray) -> tuple[NDArray, NDArray]:
+        values = density(2 * np.pi * (low[:, None] + length[:, None] * nodes), point)
+        scaled = (length[:, None] * weights)[..., None]
+        return (scaled * values).sum(axis=1), (scaled * np.abs(values)).sum(axis=1)
+
+    value, size = integral(point, low, length)
+    scale = np.zeros((points, size.shape[1]))
+    np.add.at(scale, point, size)
+    result = np.zeros_like(scale)
+    for _ in range(HALVINGS):
+        first, _ = integral(point, low, length / 2)
+        second, _ = integral(point, low + length / 2, length / 2)
+        change = np.abs(first + second - value)[:, :judged]
+        own = scale[point, :judged]
+        allowed = np.maximum(HALF_DIGITS * own, ROUNDING * own.max(axis=-1, keepdims=True))
+        settled = (change <= FALL * allowed).all(axis=-1)
+        np.add.at(result, point[settled], (first + second)[settled])
+        more = ~settled
+        if not more.any():
+            return result
+        if not np.isfinite(change[more]).all():
+            break
+        point, low, length = (
+            np.concatenate([point[more]] * 2),
+            np.concatenate([low[more], low[more] + length[more] / 2]),
+            np.concatenate([length[more] / 2] * 2),
+        )
+        value = np.concatenate([first[more], second[more]])
+    result[point] = np.nan
+    return result
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: int | None = None
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     size = first
@@ -79,18 +133,19 @@ def split_mean(
         size *= 2
         return begin(active)[0]
 
-    return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
 
 
 def _refined(begin, doubled, points: int, doublings: int, judged: int | None) -> NDArray[np.float64]:
     """Double a rule at the points where it has not settled.
 
     The error of a rule that converges geometrically is squared by each doubling: a change below half of all
-    digits is the last to be seen, provided that it is much less than the change before.
+    digits is the last to be seen, provided that the change before was either much larger, which shows that
+    the rule does converge so, or nothing; one change alone says nothing of a density with symmetries.
     """
     active = np.arange(points)
     value, scale = begin(active)
-    before = np.full((points, 1), np.inf)
+    before = np.full((points, 1), np.nan)
     result = np.full(value.shape, np.nan)
     for _ in range(doublings):
         finer = doubled(active, value)
@@ -98,7 +153,8 @@ def _refined(begin, doubled, points: int, doublings: int, judged: int | None) ->
         noise = ROUNDING * size.max(axis=-1, keepdims=True)
         change = np.abs(finer - value)[:, :judged]
         least = np.maximum(ROUNDING * size, noise)
-        settled = (change <= np.where(change <= FALL * before, HALF_DIGITS * size, 0) + least).all(axis=-1)
+        convergent = (change <= FALL * before) | (before <= least)
+        settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
         result[active[settled]] = finer[settled]
         more = ~settled & np.isfinite(finer).all(axis=-1)
         if not more.any():

@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.jets import evaluate
+from pontryagin.averaging.mesh import evaluate as evaluate_series
 from pontryagin.averaging.model import Model
 from pontryagin.averaging.solve import extremals
 from pontryagin.averaging.turn import anomaly_at, phase_at
@@ -55,6 +55,7 @@ class AveragedSolution:
     initial_phase: Array
     numbers: tuple[Array, ...]
     model: Model
+    edges: Array
     series: Array
     make_system: Callable[[], object]
 
@@ -69,11 +70,11 @@ class AveragedSolution:
 
     def costate(self, tau: ArrayLike) -> Array:
         """eta at slow times tau (k,) or (..., k), as (..., k, n)."""
-        return self._at(tau)[..., len(self.names) :]
+        return self._z(tau)[..., len(self.names) :]
 
     def frequency(self, tau: ArrayLike) -> Array:
         """omega(xi) at slow times tau (k,) or (..., k), as (..., k)."""
-        return self.model.averaged(self._at(tau), self._numbers)[1].value
+        return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
         """psi_0 + integral of omega d tau / epsilon, right to O(1), as (..., k).
@@ -85,24 +86,18 @@ class AveragedSolution:
         """
         small = _positive_epsilon(epsilon)
         begin = self.initial_phase if phase is None else finite("phase", phase, "a number or an array (...)")
-        s = self._share(tau)
-        degree = self.series.shape[-2] - 1
-        knots = self._at(self.duration[..., None] * chebyshev.points(degree))
-        omega = self.model.averaged(knots, self._numbers)[1].value
-        turned = chebyshev.integrals(degree) @ omega[..., None]
-        series = chebyshev.to_coefficients(degree) @ turned
-        angle = (chebyshev.polynomials(s, degree) @ series)[..., 0]
-        return np.asarray(begin)[..., None] + self.duration[..., None] * angle / small
+        turned = self._at(tau)[..., -1]
+        return np.asarray(begin)[..., None] + self.duration[..., None] * turned / small
 
     def control(self, tau: ArrayLike, anomaly: ArrayLike) -> Array:
-        """u*(xi, x, eta) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
+        """u*(xi, x, eta) of (2.17) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
         x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
-        z = np.moveaxis(self._at(tau), -1, 0)
-        return evaluate(self.model.control, *z, x, np.zeros(()), *self._numbers)
+        z = np.moveaxis(self._z(tau), -1, 0)
+        return evaluate(self.model.control, *z, x, *self._numbers)
 
     def mean_rate(self, tau: ArrayLike) -> Array:
         """d xi / d tau, the mean of f under u*, as (..., k, n)."""
-        z = self._at(tau)
+        z = self._z(tau)
         return self.model.averaged(z, self._numbers)[0].gradient[..., len(self.names) :]
 
     def anomaly(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
@@ -146,14 +141,15 @@ class AveragedSolution:
     def _numbers(self) -> tuple[Array, ...]:
         return tuple(number[..., None] for number in self.numbers)
 
-    def _share(self, tau: ArrayLike) -> Array:
-        inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
-        whole = self.duration[..., None]
-        return np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+    def _z(self, tau: ArrayLike) -> Array:
+        return self._at(tau)[..., :-1]
 
     def _at(self, tau: ArrayLike) -> Array:
-        s = self._share(tau)
-        return chebyshev.polynomials(s, self.series.shape[-2] - 1) @ self.series
+        """(xi, eta, integral of omega) at slow times, (..., k, 2n + 1)."""
+        inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
+        whole = self.duration[..., None]
+        share = np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+        return evaluate_series(self.edges, self.series, share)
 
 
 def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
@@ -255,6 +251,7 @@ def solved(
         initial_phase=np.broadcast_to(phase, shape),
         numbers=tuple(each[:-1]),
         model=model,
+        edges=found.edges.reshape(*shape, -1),
         series=found.series.reshape(*shape, *found.series.shape[1:]),
         make_system=make_system,
     )
