@@ -88,6 +88,7 @@ def ends(
     clock: object = None,
     wrt: Sequence = (),
     taylor: bool | None = None,
+    tolerance: float = TOLERANCE,
 ) -> Ends:
     """Compile x' = rates(x, p) into a function that carries many trajectories to their ends.
 
@@ -97,6 +98,8 @@ def ends(
         As for `flow`.
     wrt : sequence of sympy.Symbol
         States in whose initial values the ends are differentiated, by the variational equations.
+    tolerance : float
+        Error allowed per step, relative; a rougher one is faster where only derivatives are wanted.
 
     Returns
     -------
@@ -119,7 +122,7 @@ def ends(
     require_known(states, rates, parameters, clock)
     use_taylor = has_heyoka() if taylor is None else taylor
     make = _taylor_ends if use_taylor else _runge_kutta_ends
-    run = make(tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt))
+    run = make(tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt), tolerance)
 
     def carry(starts: ArrayLike, begin: ArrayLike, end: ArrayLike, values: ArrayLike = ()):
         start = np.asarray(starts, dtype=float)
@@ -196,7 +199,9 @@ def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Fl
 
 
 @functools.lru_cache(maxsize=64)
-def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple):
+def _taylor_ends(
+    states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float
+):
     import heyoka as hy
 
     system, table = heyoka_system(states, rates, parameters, clock)
@@ -206,7 +211,7 @@ def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, 
     integrator = hy.taylor_adaptive_batch(
         system,
         np.zeros((n, lanes)),
-        tol=TOLERANCE,
+        tol=tolerance,
         pars=np.zeros((len(parameters), lanes)),
         compact_mode=bool(wrt) or compact(rates),
     )
@@ -266,7 +271,9 @@ def _runge_kutta(states: tuple, rates: tuple, parameters: tuple, clock: object) 
 
 
 @functools.lru_cache(maxsize=64)
-def _runge_kutta_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple):
+def _runge_kutta_ends(
+    states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float
+):
     import sympy as sp
     from scipy.integrate import solve_ivp
 
@@ -274,6 +281,7 @@ def _runge_kutta_ends(states: tuple, rates: tuple, parameters: tuple, clock: obj
     outputs = _named(rates) | ({"jacobian": sp.Matrix(rates).jacobian(list(states))} if wrt else {})
     evaluate = compiler.function("rates", [time, *states, *parameters], outputs)
     identity = np.array([[float(x == y) for y in wrt] for x in states])
+    rtol = max(tolerance, 1e-13)
 
     def run(start: NDArray, begin: NDArray, end: NDArray, values: NDArray):
         count, span = len(start), end - begin
@@ -287,7 +295,7 @@ def _runge_kutta_ends(states: tuple, rates: tuple, parameters: tuple, clock: obj
             return (slope * span[:, None, None]).ravel()
 
         first = np.concatenate([start[..., None], np.broadcast_to(identity, (count, n, m))], axis=-1)
-        result = solve_ivp(rate, (0.0, 1.0), first.ravel(), method="DOP853", rtol=1e-13, atol=1e-14)
+        result = solve_ivp(rate, (0.0, 1.0), first.ravel(), method="DOP853", rtol=rtol, atol=rtol / 10)
         if not result.success or not np.isfinite(result.y[:, -1]).all():
             raise NotConverged(
                 f"the Runge-Kutta integrator stopped: {result.message}", float(1.0 - result.t[-1])

@@ -41,6 +41,8 @@ class Canonical:
         h* + y r, which vanishes on extremals.
     gap : expression
         h* less p f + p_x F - L - (cost of u) at u*: no less than zero, and zero where u* maximises.
+    rate : expression
+        r.
     motion : tuple of n + 1 expressions
         f and dx/dt = r + epsilon F at u*, without modes: the derivatives of `hamiltonian` in p and y.
     boundary : tuple of r expressions
@@ -59,6 +61,7 @@ class Canonical:
     control: tuple[sp.Expr, ...]
     hamiltonian: sp.Expr
     gap: sp.Expr
+    rate: sp.Expr
     motion: tuple[sp.Expr, ...]
     boundary: tuple[sp.Expr, ...]
     terminal_cost: sp.Expr
@@ -153,6 +156,7 @@ def _derived(
         control=optimal,
         hamiltonian=hamiltonian.subs(scaled) + y * rate,
         gap=hamiltonian.subs(scaled) - at(free, optimal),
+        rate=rate,
         motion=tuple(at(g, optimal) for g in [*f, rate + epsilon * phase_rate]),
         boundary=tuple(target),
         terminal_cost=terminal_cost,

@@ -25,9 +25,14 @@ CLOSE = 1e-7
 """Residual of a member; the roots are polished."""
 SWEEPS, QUICK = 20, 6
 """Newton steps allowed from a rough guess, and from a neighbour."""
+BETWEEN = 0.06
+"""How far, in shares of its range, y1 may reach beyond its members: (1 - cos(pi/8))/2 is 0.04."""
+BROKEN = 0.25
+"""Error of dJ = p_x dtheta between neighbours, in shares of y1's range, that tells they are not kin."""
 QUIET_TURNS = 2
 """Turns without a root after which the search ends."""
 TURNS = 100_000
+VALUES = ("y", "hamiltonian", "duration", "cost")
 
 
 @dataclass(frozen=True)
@@ -40,8 +45,10 @@ class Family:
         Anomaly at the end.
     unknowns : (s, n + r) array
         Initial costates and multipliers.
-    y, duration, cost : (s,) array
-        p_x/epsilon at the end, slow time and J.
+    y, hamiltonian, duration, cost : (s,) array
+        p_x/epsilon and h* at the end, slow time and J.
+    centre : float
+        Where the search began.
     limits : tuple of two str
         Why the search ended below and above: "no further root" (y1 keeps off zero for whole turns), "turning
         point" (the mean of y1 moves back towards zero), "start" (the duration would vanish) or
@@ -51,9 +58,19 @@ class Family:
     theta: Array
     unknowns: Array
     y: Array
+    hamiltonian: Array
     duration: Array
     cost: Array
+    centre: float
     limits: tuple[str, str]
+
+    def cut(self, low: float, high: float) -> "Family":
+        """The part between two anomalies; where it loses members, no solution was found beyond."""
+        keep = (self.theta >= low) & (self.theta <= high)
+        lower, upper = self.limits
+        limits = (lower if keep[0] else "no solution", upper if keep[-1] else "no solution")
+        columns = (getattr(self, name)[keep] for name in ("theta", "unknowns", *VALUES))
+        return Family(*columns, self.centre, limits)
 
 
 @dataclass(frozen=True)
@@ -83,17 +100,35 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, 1)
     turns = [*reversed(below), first, *above]
     shots = [turn.shot for turn in turns]
-    return Family(
+    traced = Family(
         np.concatenate([turn.theta for turn in turns]),
         np.concatenate([turn.unknowns for turn in turns]),
-        *(np.concatenate([getattr(shot, name) for shot in shots]) for name in ("y", "duration", "cost")),
+        *(np.concatenate([getattr(shot, name) for shot in shots]) for name in VALUES),
+        theta,
         (lower, upper),
     )
+    return _unbroken(traced, float(problem.parameters[0]))
 
 
-def members(
-    problem: Shooting, theta: Array, guess: Array, sweeps: int = SWEEPS
-) -> tuple[Array, Shot, Array]:
+def local_range(theta: Array, y: Array) -> Array:
+    """Range of y within a turn of each member."""
+    low, high = np.searchsorted(theta, theta - 2 * np.pi), np.searchsorted(theta, theta + 2 * np.pi)
+    return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
+
+
+def _unbroken(traced: Family, small: float) -> Family:
+    """The part about the centre along which the cost changes as y1 says."""
+    step = np.diff(traced.theta)
+    expected = small * step * (traced.y[:-1] + traced.y[1:]) / 2
+    size = local_range(traced.theta, traced.y)
+    size = np.maximum(size[:-1], size[1:]) + 1e-3 * np.abs(traced.y[:-1])
+    broken = np.abs(np.diff(traced.cost) - expected) > BROKEN * small * step * size
+    below = traced.theta[1:][broken & (traced.theta[:-1] < traced.centre)]
+    above = traced.theta[:-1][broken & (traced.theta[:-1] >= traced.centre)]
+    return traced.cut(below.max(initial=-np.inf), above.min(initial=np.inf))
+
+
+def members(problem: Shooting, theta: Array, guess: Array, sweeps: int = SWEEPS) -> tuple[Array, Shot, Array]:
     """Unknowns, shots and Jacobians of the members that end at theta (k,), by damped Newton.
 
     Raises
@@ -138,7 +173,7 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> _Turn:
         between = (-y[:-6:2] + 9 * y[2:-4:2] + 9 * y[4:-2:2] - y[6::2]) / 16
         missed = np.abs(between - y[3:-3:2][: len(between)]).max()
         if missed <= RESOLVED * np.ptp(y) or np.ptp(y) <= 1e-6 * np.abs(y).max() or 2 * size > MOST:
-            return _Turn(turn.theta[::2], turn.unknowns[::2], _every_second(turn.shot), turn.jacobians[::2])
+            return _Turn(turn.theta[::2], turn.unknowns[::2], turn.shot[::2], turn.jacobians[::2])
         size *= 2
 
 
@@ -151,8 +186,8 @@ def _turn_about(problem: Shooting, theta: float, unknowns: Array, size: int) -> 
     except NotConverged:
         centre = int(np.argmin(np.abs(angles - theta)))
         middle = members(problem, angles[[centre]], unknowns[None])
-        up = list(_march(problem, angles[centre], middle, angles[centre + 1 :]))
-        down = list(_march(problem, angles[centre], middle, angles[:centre][::-1]))
+        up = list(march(problem, angles[centre], middle, angles[centre + 1 :]))
+        down = list(march(problem, angles[centre], middle, angles[:centre][::-1]))
         return _joined([*reversed(down), (angles[[centre]], *middle), *up])
 
 
@@ -201,8 +236,8 @@ def _next_turn(
     except NotConverged:
         last = history[-1]
         end = -1 if sense > 0 else 0
-        edge = (last.unknowns[[end]], _pick(last.shot, [end]), last.jacobians[[end]])
-        marched = list(_march(problem, float(last.theta[end]), edge, angles[::sense]))
+        edge = (last.unknowns[[end]], last.shot[[end]], last.jacobians[[end]])
+        marched = list(march(problem, float(last.theta[end]), edge, angles[::sense]))
         if not marched:
             return None, False
         return _joined(marched[::sense]), len(marched) == size
@@ -223,41 +258,38 @@ def _chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple
         unexplained = following.residual / length[:, None]
         jacobians += unexplained[:, :, None] * step[:, None, :]
         w, shot = w + step, following
-    return members(problem, theta, w)
+    return members(problem, theta, w, QUICK)
 
 
-def _march(
+def march(
     problem: Shooting, theta: float, edge: tuple[Array, Shot, Array], angles: Iterable[float]
 ) -> Iterable[tuple[Array, Array, Shot, Array]]:
-    """Member after member from the edge, each guessed from the one before; ends where none is found."""
-    w = edge[0]
+    """Member after member from the edge, each guessed from the ones before; ends where none is found."""
+    w, _, jacobians = edge
+    _, slopes = problem.slopes(np.array([theta]), w)
+    tangent = slopes.along[0]
     for angle in angles:
-        try:
-            while theta != angle:
-                theta, w, found = _advance(problem, theta, w, angle)
-        except NotConverged:
-            return
+        while theta != angle:
+            for halvings in range(6):
+                target = angle if halvings == 0 else theta + (angle - theta) / 2**halvings
+                try:
+                    found = _chord(problem, np.array([target]), w + (target - theta) * tangent, jacobians)
+                    break
+                except NotConverged:
+                    continue
+            else:
+                return
+            tangent = (found[0] - w) / (target - theta)
+            theta, (w, _, jacobians) = target, found
         yield (np.array([angle]), *found)
 
 
-def _advance(problem: Shooting, theta: float, w: Array, angle: float):
-    """One step towards the angle, as long as Newton's method follows."""
-    _, slopes = problem.slopes(np.array([theta]), w)
-    reach = angle - theta
-    for _ in range(5):
-        try:
-            guess = w + reach * slopes.along[0]
-            found = members(problem, np.array([theta + reach]), guess, QUICK)
-            return (angle if reach == angle - theta else theta + reach), found[0], found
-        except NotConverged:
-            reach /= 2
-    raise NotConverged("the family of solutions ends", abs(reach))
-
-
 def _has_root(last: _Turn, following: _Turn, sense: int) -> bool:
-    edge = last.shot.y[-1:] if sense > 0 else last.shot.y[:1]
-    y = np.concatenate([edge, following.shot.y])
-    return bool(y.min() <= 0 <= y.max())
+    """Whether y1 vanishes in the turn, between its members too."""
+    y = np.concatenate([last.shot.y, following.shot.y][::sense])
+    seen = y[-len(following.theta) - 1 :] if sense > 0 else y[: len(following.theta) + 1]
+    reach = BETWEEN * np.ptp(y)
+    return bool(seen.min() <= reach and seen.max() >= -reach)
 
 
 def _near_start(problem: Shooting, found: list[_Turn], first: _Turn) -> bool:
@@ -267,13 +299,4 @@ def _near_start(problem: Shooting, found: list[_Turn], first: _Turn) -> bool:
 
 def _joined(parts: list[tuple[Array, Array, Shot, Array]]) -> _Turn:
     theta, w, shots, jacobians = zip(*parts, strict=True)
-    merged = Shot(*(np.concatenate([getattr(s, name) for s in shots]) for name in Shot.__dataclass_fields__))
-    return _Turn(np.concatenate(theta), np.concatenate(w), merged, np.concatenate(jacobians))
-
-
-def _pick(shot: Shot, index) -> Shot:
-    return Shot(*(getattr(shot, name)[index] for name in Shot.__dataclass_fields__))
-
-
-def _every_second(shot: Shot) -> Shot:
-    return _pick(shot, slice(None, None, 2))
+    return _Turn(np.concatenate(theta), np.concatenate(w), Shot.joined(shots), np.concatenate(jacobians))

@@ -5,7 +5,8 @@ is left there is M(a1) and p1 + g' + alpha M', in units of the problem's own siz
 extremals, is what the family of solutions over theta is searched for.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
@@ -16,9 +17,12 @@ from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_ends
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
-from pontryagin.flow import Ends, ends
+from pontryagin.flow import TOLERANCE, Ends, ends
 
 Array = NDArray[np.float64]
+
+ROUGH = 1e-9
+"""Tolerance of the flow with derivatives, which direct Newton's method; residuals come from the other."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +35,8 @@ class Shot:
         Anomaly at the end, (p0, alpha), and y0.
     residual : (k, n + r) array
         What is missing, scaled.
-    y, duration, cost : (k,) array
-        p_x/epsilon, slow time and J at the end.
+    y, hamiltonian, duration, cost : (k,) array
+        p_x/epsilon, h* = -y r, slow time and J at the end.
     ends : (k, 2n + 3) array
         States there.
     """
@@ -42,6 +46,7 @@ class Shot:
     initial: Array
     residual: Array
     y: Array
+    hamiltonian: Array
     duration: Array
     cost: Array
     ends: Array
@@ -50,6 +55,20 @@ class Shot:
     def error(self) -> Array:
         """Largest entry of the residual, (k,)."""
         return np.abs(self.residual).max(axis=-1)
+
+    def __getitem__(self, index) -> "Shot":
+        """Those of the guesses."""
+        return Shot(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    def put(self, index, shot: "Shot") -> None:
+        """Overwrite some of the guesses."""
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(shot, f.name)
+
+    @staticmethod
+    def joined(shots: Sequence["Shot"]) -> "Shot":
+        """One after the other."""
+        return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
 
 
 @dataclass(frozen=True)
@@ -95,14 +114,14 @@ class Shooting:
 
     def shoot(self, theta: Array, w: Array) -> Shot:
         """Follow the extremals that leave with p0 to the anomalies theta."""
-        starts = self._starts(w)
+        starts = self.starts(w)
         reached, _ = _carry(self.equations, False)(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> tuple[Shot, Slopes]:
         """The same with derivatives, by the variational equations."""
         n = len(self.start)
-        starts = self._starts(w)
+        starts = self.starts(w)
         reached, through = _carry(self.equations, True)(starts, self.anomaly, theta, self.parameters)
         rates = _rates(self.equations)(*reached.T, theta, *self.parameters)[0][..., 0]
         _, *motion = _start(self.equations)(*starts[:, : 2 * n + 1].T, self.anomaly, *self.parameters)
@@ -125,7 +144,7 @@ class Shooting:
             rates[:, 2 * n],
         )
 
-    def _starts(self, w: Array) -> Array:
+    def starts(self, w: Array) -> Array:
         """Initial states (k, 2n + 3): y0 from H = 0 by Newton, starting where F is left out."""
         n, count = len(self.start), len(w)
         p = w[:, :n]
@@ -145,21 +164,21 @@ class Shooting:
         n = len(self.start)
         return _boundary(self.equations)(*reached[:, :n].T, *w[:, n:].T, *self.parameters)
 
-    def _shot(self, theta: Array, w: Array, starts: Array, reached: Array) -> Shot:
+    def missing(self, reached: Array, theta: Array, w: Array) -> tuple[Array, Array, Array]:
+        """Scaled residual (k, n + r), J with the terminal cost, and r, at states reached (k, 2n + 3)."""
         n = len(self.start)
         target, gradient, _, _ = self._boundary(reached, w)
         missed = target[..., 0] / self.scale_m
         left = (reached[:, n : 2 * n] + gradient[..., 0]) / self.scale_p
-        terminal = _terminal(self.equations)(*reached[:, :n].T, *self.parameters)[0]
+        terminal, rate = _terminal(self.equations)(*reached[:, :n].T, theta, *self.parameters)
+        return np.concatenate([missed, left], axis=1), reached[:, 2 * n + 2] + terminal, rate
+
+    def _shot(self, theta: Array, w: Array, starts: Array, reached: Array) -> Shot:
+        n = len(self.start)
+        residual, cost, rate = self.missing(reached, theta, w)
+        y1 = reached[:, 2 * n]
         return Shot(
-            np.asarray(theta, dtype=float),
-            w,
-            starts[:, 2 * n],
-            np.concatenate([missed, left], axis=1),
-            reached[:, 2 * n],
-            reached[:, 2 * n + 1],
-            reached[:, 2 * n + 2] + terminal,
-            reached,
+            theta, w, starts[:, 2 * n], residual, y1, -y1 * rate, reached[:, 2 * n + 1], cost, reached
         )
 
 
@@ -193,7 +212,9 @@ def shooting(solution, small: float, anomaly: float) -> Shooting:
 def _carry(equations: Canonical, derivatives: bool) -> Ends:
     wrt = (*equations.costates, y) if derivatives else ()
     arguments = (equations.states, equations.rates, equations.parameters, equations.anomaly, wrt)
-    return switched_ends(equations.modes, *arguments) if equations.modes else ends(*arguments)
+    if equations.modes:
+        return switched_ends(equations.modes, *arguments)
+    return ends(*arguments, tolerance=ROUGH if derivatives else TOLERANCE)
 
 
 @lru_cache(maxsize=32)
@@ -230,5 +251,5 @@ def _boundary(equations: Canonical):
 
 @lru_cache(maxsize=32)
 def _terminal(equations: Canonical):
-    arguments = [*equations.slow, *equations.parameters]
-    return compiler.function("terminal", arguments, {"g": equations.terminal_cost})
+    arguments = [*equations.slow, equations.anomaly, *equations.parameters]
+    return compiler.function("terminal", arguments, {"g": equations.terminal_cost, "r": equations.rate})

@@ -1,0 +1,162 @@
+"""All extremals of the unaveraged problem: the roots of y1 over the family, bracketed and polished."""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.averaging.extremal import Extremal, Extremals
+from pontryagin.averaging.family import Family, family
+from pontryagin.averaging.proof import Proof
+from pontryagin.averaging.refinement import crossings, turns_resolved, with_members
+from pontryagin.averaging.shooting import Shooting, Shot, shooting
+from pontryagin.averaging.turn import anomaly_at, phase_at
+from pontryagin.errors import NotConverged
+from pontryagin.validation import finite, positive
+
+Array = NDArray[np.float64]
+
+POLISHED = 1e-11
+"""Residual of an extremal in the problem's own units."""
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Extremals (k) by rising theta.
+
+    Attributes
+    ----------
+    shot : Shot
+    slope : (k,) array
+        dy1/dtheta along the family: positive at minima of J.
+    """
+
+    shot: Shot
+    slope: Array
+
+
+def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
+    """All exact extremals about the averaged one, the least cost first; see `AveragedSolution.exact`.
+
+    Raises
+    ------
+    ValueError
+        If epsilon is not positive, phase is not a finite number, or the solution is a stack.
+    NotConverged
+        If no extremal is found; at a large epsilon the averaged one may be too far from any.
+    """
+    small, begin = positive("epsilon", epsilon), finite("phase", phase, "a number")
+    for name, value in (("epsilon", small), ("phase", begin)):
+        if value.ndim:
+            raise ValueError(f"{name} must be one number, got an array of shape {value.shape}")
+    if solution.duration.shape:
+        raise ValueError(f"exact takes one problem, got a stack of shape {solution.duration.shape}")
+    if not solution.duration > 0:
+        raise ValueError("exact takes a problem that is not solved at the start: the target holds there")
+    start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
+    problem = shooting(solution, float(small), float(start))
+    centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
+    guess = np.concatenate([solution.costate([0.0])[0], np.atleast_1d(solution.multipliers)])
+    traced, found = roots(problem, family(problem, centre, guess))
+    proof = Proof(problem, found.shot)
+
+    def phase_of(slow: Array, anomaly: Array) -> Array:
+        return phase_at(solution.model, slow, anomaly, solution.numbers)
+
+    starts = problem.starts(found.shot.unknowns)
+    items = [
+        Extremal(
+            cost=float(found.shot.cost[i]),
+            duration=float(found.shot.duration[i]),
+            kind="minimum" if found.slope[i] > 0 else "maximum",
+            epsilon=float(small),
+            starting_anomaly=float(start),
+            ending_anomaly=float(found.shot.theta[i]),
+            curvature=float(small * found.slope[i]),
+            initial=starts[i],
+            equations=problem.equations,
+            parameters=problem.parameters,
+            certify=partial(proof.one, i),
+            turn_to_phase=phase_of,
+        )
+        for i in np.argsort(found.shot.cost)
+    ]
+    return Extremals(tuple(items), float(small), float(begin), traced)
+
+
+def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
+    """Bracket and polish every root of y1; returns the family with the members added on the way.
+
+    Raises
+    ------
+    NotConverged
+        If y1 does not vanish in the window, or a bracketed root is not found.
+    """
+    current = turns_resolved(problem, traced)
+    if not (current.y[:-1] * current.y[1:] <= 0).any():
+        raise NotConverged("the phase's costate does not vanish in the window", float(np.abs(traced.y).min()))
+    found: list[Roots] = []
+    for _ in range(10):
+        at = _open_brackets(current, found)
+        if len(at) == 0:
+            return current, _sorted(found)
+        theta, unknowns = crossings(current, at)
+        reached, good = _polished(
+            problem, theta, unknowns, current.theta[at], current.theta[at + 1], current.y
+        )
+        found.append(reached)
+        if not good.all():
+            current = with_members(problem, current, theta[~good])
+    raise NotConverged("an extremal was bracketed but not found", float(np.abs(current.y[at]).max()))
+
+
+def _open_brackets(current: Family, found: list[Roots]) -> NDArray[np.intp]:
+    """Members after which y1 changes sign with no root found there."""
+    at = np.nonzero(current.y[:-1] * current.y[1:] <= 0)[0]
+    if not found:
+        return at
+    known = np.sort(np.concatenate([each.shot.theta for each in found]))
+    inside = np.searchsorted(known, current.theta[at + 1]) - np.searchsorted(known, current.theta[at])
+    return at[inside == 0]
+
+
+def _polished(
+    problem: Shooting, theta: Array, w: Array, low: Array, high: Array, y: Array
+) -> tuple[Roots, NDArray[np.bool_]]:
+    """Newton's method for w and theta together from k guesses: the roots found, and which were."""
+    n, size = w.shape[1], float(np.ptp(y))
+    theta, w = theta.copy(), w.copy()
+    good, slope, open_ = np.zeros(len(theta), bool), np.zeros(len(theta)), np.ones(len(theta), bool)
+    shots = problem.shoot(theta, w)
+    for _ in range(6):
+        i = np.nonzero(open_)[0]
+        if len(i) == 0:
+            break
+        shot, slopes = problem.slopes(theta[i], w[i])
+        whole = np.empty((len(i), n + 1, n + 1))
+        whole[:, :n, :n], whole[:, :n, n] = slopes.residual_w, slopes.residual_theta
+        whole[:, n, :n], whole[:, n, n] = slopes.y_w / size, slopes.y_theta / size
+        slope[i] = slopes.along[1]
+        left = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+        for _ in range(4):
+            step = -np.linalg.solve(whole, left[..., None])[..., 0]
+            w[i] += step[:, :n]
+            theta[i] = np.clip(theta[i] + step[:, n], low[i], high[i])
+            shot = problem.shoot(theta[i], w[i])
+            before, left = left, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+            error = np.abs(left).max(axis=1)
+            shots.put(i, shot)
+            done = error <= POLISHED
+            good[i[done]], open_[i[done]] = True, False
+            keep = ~done & (error <= 0.2 * np.abs(before).max(axis=1))
+            i, whole, left = i[keep], whole[keep], left[keep]
+            if len(i) == 0:
+                break
+    return Roots(shots[good], slope[good]), good
+
+
+def _sorted(found: list[Roots]) -> Roots:
+    shot = Shot.joined([each.shot for each in found])
+    order = np.argsort(shot.theta)
+    return Roots(shot[order], np.concatenate([each.slope for each in found])[order])
