@@ -160,7 +160,11 @@ class Recording:
 
 @contextmanager
 def record(
-    path: Path, name: str, columns: Sequence[Sequence[View]], speed: float = 1.0
+    path: Path,
+    name: str,
+    columns: Sequence[Sequence[View]],
+    speed: float = 1.0,
+    shares: Sequence[float] | None = None,
 ) -> Iterator[Recording]:
     """Write a recording to `path`; the file appears when the block ends, whole, and not when it raises.
 
@@ -174,6 +178,8 @@ def record(
         The layout: columns from left to right, in each its panels from top to bottom.
     speed : float
         Units of time that a second of the replay shows.
+    shares : sequence of float, optional
+        Widths of the columns beside each other; equal by default.
 
     Yields
     ------
@@ -196,7 +202,7 @@ def record(
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
         with rr.RecordingStream("pontryagin", recording_id=name) as stream:
-            stream.save(str(draft), default_blueprint=blueprint(columns, speed))
+            stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
             yield Recording(stream)
         stream.disconnect()
 
