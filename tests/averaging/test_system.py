@@ -7,8 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pontryagin.averaging import Box, PhaseSystem, Quadratic, kepler, smooth_example, spin_down
-from pontryagin.averaging.derivation import kepler as orbit
-from pontryagin.averaging.derivation import kepler_phase, rigid_body
 
 a, b, x, u, v, k = sp.symbols("a b x u v k", real=True)
 GOOD = {
@@ -96,46 +94,59 @@ def test_rates_that_only_look_nonlinear_are_taken():
     assert list(system.gain) == [2, 1] and list(system.drift) == [1, 0]
 
 
-def test_kepler_in_the_eccentric_anomaly_is_kepler_in_the_true_one():
-    """The generated system against (3.6), at numbers."""
+def orbit_elements(state):
+    """(E, K, xi) of (r, v_r, v_phi)."""
+    r, v_r, v_phi = state
+    E = (v_r**2 + v_phi**2) / 2 - 1 / r
+    return np.array([E, r * v_phi, np.arctan2(r * v_r * np.sqrt(-2 * E), 1 + 2 * E * r)])
+
+
+@pytest.mark.parametrize("thrust", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+def test_keplers_rates_are_those_of_the_elements_along_the_flight(thrust):
+    """The generated system against Newton's equations in polar coordinates, differentiated numerically."""
     system = kepler(-0.5, 0.8, -0.35, 0.1).system
-    E, K = system.slow
-    at = {E: -0.43, K: 0.9, system.phase: 1.1}
-    plain = orbit.model()
-    e = orbit.eccentricity().subs({orbit.energy: -0.43, orbit.momentum: 0.9})
-    true = sp.Symbol("x", real=True)
-    forward = kepler_phase.eccentric_of_true().subs({orbit.e: e, orbit.anomaly: true})
-    true_value = sp.nsolve(forward - 1.1, true, 1.1)
-    there = {orbit.energy: -0.43, orbit.momentum: 0.9, orbit.anomaly: true_value}
-    for control, mine in zip(orbit.CONTROL, system.control, strict=True):
-        for ours, theirs in zip(system.f, plain.rates, strict=True):
-            assert float(ours.diff(mine).subs(at)) == pytest.approx(
-                float(theirs.diff(control).subs(there)), rel=1e-12
-            )
-        along = forward.diff(true).subs(true, true_value) * plain.phase_rate.diff(control).subs(there)
-        by_e = kepler_phase.eccentric_of_true().diff(orbit.e).subs({orbit.e: e, orbit.anomaly: true_value})
-        rate = orbit.element_rates()[orbit.e].diff(control) / orbit.epsilon
-        change = by_e * rate.subs({orbit.e: e, orbit.momentum: 0.9, orbit.anomaly: true_value})
-        assert float(system.phase_rate.diff(mine).subs(at)) == pytest.approx(float(along + change), rel=1e-11)
-    rate = forward.diff(true).subs(true, true_value) * plain.anomaly_rate.subs(there)
-    assert float(system.rate.subs(at)) == pytest.approx(float(rate), rel=1e-12)
+    state = np.array([1.3, 0.3, 0.7])
+    r, v_r, v_phi = state
+    free = np.array([v_r, v_phi**2 / r - 1 / r**2, -v_r * v_phi / r])
+    pushed = np.array([0.0, *thrust])
+    step = 1e-5
+
+    def change(direction):
+        ahead = [orbit_elements(state + i * step * direction) for i in (-2, -1, 1, 2)]
+        return np.dot([1, -8, 8, -1], ahead) / (12 * step)
+
+    E, K, xi = orbit_elements(state)
+    at = {**dict(zip(system.slow, (E, K), strict=True)), system.phase: xi}
+    at |= dict(zip(system.control, thrust, strict=True))
+    rates = [float(rate.subs(at)) for rate in (*system.f, system.phase_rate)]
+    np.testing.assert_allclose(rates, change(pushed), atol=1e-10)
+    np.testing.assert_allclose([0, 0, float(system.rate.subs(at))], change(free), atol=1e-10)
 
 
-def test_spin_down_turns_the_phase_forward_whatever_the_sense():
-    """A body with (d - 1) w_z < 0 in the mirrored phase against Euler's equations in the plain one."""
-    solution = spin_down([0.6, 0.5, 1.2], [1, 0.7, 0.4], 0.6)
+@pytest.mark.parametrize("w", [(0.6, 0.5, 1.2), (0.6, -0.5, -1.2)])
+@pytest.mark.parametrize("ratio", [0.6, 1.7])
+def test_spin_down_turns_the_phase_forward_whatever_the_sense(w, ratio):
+    """The rates against Euler's equations in the body's axes, the phase counted as the body turns."""
+    solution = spin_down(w, [1, 0.7, 0.4], ratio)
     system = solution.system
+    controls, sense = np.array([0.3, -0.2, 0.1]), np.sign((ratio - 1) * w[2])
+    free = np.array([(1 - ratio) * w[1] * w[2], (ratio - 1) * w[0] * w[2], 0.0])
+    psi = sense * np.arctan2(w[1], w[0])
+    assert float(solution.initial_phase) == pytest.approx(psi)
+
+    def seen(rate):
+        """(a', c', phase') of a rate of (w_x, w_y, w_z)."""
+        square = np.hypot(w[0], w[1])
+        along = (w[0] * rate[0] + w[1] * rate[1]) / square
+        return np.array([along, rate[2], sense * (w[0] * rate[1] - w[1] * rate[0]) / square**2])
+
     numbers = {symbol: float(value) for symbol, value in system.numbers.items()}
-    controls = (0.3, -0.2, 0.1)
-    at = {**numbers, **dict(zip(system.control, controls, strict=True)), system.phase: 0.8}
-    at |= dict(zip(system.slow, (0.7, 1.3), strict=True))
-    plain = {rigid_body.a: 0.7, rigid_body.c: 1.3, rigid_body.d: 0.6, rigid_body.psi: -0.8}
-    plain |= dict(zip(rigid_body.u, controls, strict=True))
-    for ours, theirs in zip(system.f, rigid_body.slow_rates(), strict=True):
-        assert float(ours.subs(at)) == pytest.approx(float(theirs.subs(plain)), rel=1e-13)
-    assert float(system.phase_rate.subs(at)) == pytest.approx(-float(rigid_body.phase_rate().subs(plain)))
-    assert float(system.omega.subs(at)) == pytest.approx(-float(rigid_body.anomaly_rate().subs(plain)))
-    assert float(solution.initial_phase) == pytest.approx(-np.arctan2(0.5, 0.6))
+    at = {**numbers, **dict(zip(system.control, controls, strict=True)), system.phase: psi}
+    at |= dict(zip(system.slow, (np.hypot(w[0], w[1]), w[2]), strict=True))
+    rates = [float(rate.subs(at)) for rate in (*system.f, system.phase_rate)]
+    np.testing.assert_allclose(rates, seen(controls), atol=1e-14)
+    np.testing.assert_allclose([0, 0, float(system.omega.subs(at))], seen(free), atol=1e-14)
+    assert float(system.omega.subs(at)) > 0
 
 
 def test_the_smooth_example_has_its_ripple():

@@ -113,6 +113,11 @@ def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     (s) array
         The last step in shares of the variables: at most `CLOSE` where it converged, inf where it failed.
     """
+    with np.errstate(all="ignore"):
+        return _newton(problem, path)
+
+
+def _newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     closeness = np.full(len(path.duration), np.inf)
     active = np.arange(len(closeness))
     result, h = path, problem.hamiltonian(path.z)

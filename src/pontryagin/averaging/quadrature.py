@@ -12,7 +12,7 @@ Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 
 
 class Rule(NamedTuple):
-    """Nodes to begin with, of the trapezoid and of Gauss's rule between switches, and the trapezoid's first."""
+    """Nodes to begin with: of the trapezoid, which start somewhere, and of Gauss's rule between switches."""
 
     trapezoid: int
     gauss: int
@@ -51,8 +51,10 @@ def mean(
     return result
 
 
-def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
-    """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
+def smooth_mean(
+    density: Density, points: int, rule: Rule = SOLVING, judged: int | None = None
+) -> NDArray[np.float64]:
+    """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
     Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
     (points, columns); nan where the density is not defined.

@@ -131,11 +131,18 @@ class AveragedSolution:
             Positive.
         phase : float, optional
             psi_0; `initial_phase` by default.
-        """
-        from pontryagin.averaging.roots import extremals
 
-        begin = float(self.initial_phase) if phase is None and not self.duration.shape else phase
-        return extremals(self, _positive_epsilon(epsilon), begin)
+        Raises
+        ------
+        ValueError
+            If epsilon is not positive, or the solution is a stack.
+        """
+        small = _positive_epsilon(epsilon)
+        if self.duration.shape:
+            raise ValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
+        from pontryagin.averaging import roots
+
+        return roots.extremals(self, small, float(self.initial_phase) if phase is None else phase)
 
     @property
     def _numbers(self) -> tuple[Array, ...]:
@@ -158,7 +165,8 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
     The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
     target along its straight line, or that continues the extremals to nearer levels of the target. It
     satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17).
+    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
+    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
 
     Parameters
     ----------

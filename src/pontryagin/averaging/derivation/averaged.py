@@ -3,11 +3,11 @@
 h0(xi, eta) is the mean over the phase of h*(xi, psi, eta) = (eta f0*). As h* is the largest of functions
 linear in eta it is homogeneous of degree one in eta, and so is h0; two components stand for all.
 
-here    meaning
-------  ------------------------------------------------------------------
-xi, eta averaged slow variables and costates
-h0      any homogeneous function: eta2 times an undefined one of xi and eta1/eta2
-kappa   mean of q per epsilon; H0 = omega kappa + h0
+here     meaning
+-------  -----------------------------------------------------
+xi, eta  averaged slow variables and costates
+h0       an undefined function; `homogeneous` says what it is
+kappa    mean of q per epsilon; H0 = omega kappa + h0
 """
 
 from functools import cache
@@ -19,20 +19,26 @@ from pontryagin.averaging.derivation import principle
 tau, kappa, psi = sp.Symbol("tau", real=True), sp.Symbol("kappa", real=True), principle.psi
 xi, eta = sp.symbols("xi1:3", real=True), sp.symbols("eta1:3", real=True)
 omega = sp.Function("omega", positive=True)(*xi)
-h0 = eta[1] * sp.Function("h", real=True)(*xi, eta[0] / eta[1])
+h0 = sp.Function("h_0", real=True)(*xi, *eta)
 M, g = (sp.Function(name, real=True)(*xi) for name in "Mg")
 alpha = principle.alpha
 
 
+def homogeneous(expression: sp.Expr) -> sp.Expr:
+    """An expression with h0 of degree one in eta: eta2 times an undefined function of xi and eta1/eta2."""
+    shape = sp.Function("k", real=True)
+    inserted = expression.replace(h0.func, lambda x1, x2, y1, y2: y2 * shape(x1, x2, y1 / y2))
+    return sp.simplify(inserted.doit())
+
+
 def homogeneity() -> sp.Expr:
     """eta dh0/deta - h0, Euler's relation: vanishes."""
-    return sp.simplify(sum(y * h0.diff(y).doit() for y in eta) - h0)
+    return homogeneous(sum(y * h0.diff(y) for y in eta) - h0)
 
 
-@cache
 def mean_rates() -> sp.Matrix:
     """f0 = dh0/deta: the mean of f under the maximising control, by the envelope."""
-    return sp.Matrix([sp.simplify(h0.diff(y).doit()) for y in eta])
+    return sp.Matrix([h0.diff(y) for y in eta])
 
 
 def mean_and_derivative_commute() -> list[sp.Expr]:
@@ -54,10 +60,7 @@ def averaged_hamiltonian() -> sp.Expr:
 def rates() -> tuple[sp.Matrix, sp.Matrix]:
     """(dxi/dtau, deta/dtau) of (2.11): Hamilton's equations of H0, kappa a constant."""
     H = averaged_hamiltonian()
-    return (
-        sp.Matrix([sp.simplify(H.diff(y).doit()) for y in eta]),
-        sp.Matrix([-H.diff(x) for x in xi]),
-    )
+    return sp.Matrix([H.diff(y) for y in eta]), sp.Matrix([-H.diff(x) for x in xi])
 
 
 def integral() -> sp.Expr:
@@ -75,7 +78,7 @@ def standard_rates() -> tuple[sp.Matrix, sp.Matrix]:
 def along(quantity: sp.Expr, motion: tuple[sp.Matrix, sp.Matrix]) -> sp.Expr:
     """Rate of a quantity of xi and eta along a motion, given as its rates."""
     pairs = zip((*xi, *eta), (*motion[0], *motion[1]), strict=True)
-    return sp.simplify(sum(quantity.diff(x).doit() * rate for x, rate in pairs))
+    return sp.simplify(sum(quantity.diff(x) * rate for x, rate in pairs))
 
 
 @cache

@@ -13,7 +13,7 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.averaging.derivation import averaged
+from pontryagin.averaging.derivation import averaged, principle
 from pontryagin.averaging.derivation.averaged import eta, kappa, omega, tau, xi
 
 varied = sp.Matrix(sp.symbols("Dxi1:3", real=True))
@@ -25,7 +25,7 @@ J = sp.Function("J", real=True)(kappa)
 def varied_by(quantity: sp.Expr) -> sp.Expr:
     """D of a function of xi and eta."""
     pairs = zip((*xi, *eta), (*varied, *varied_costate), strict=True)
-    return sum(quantity.diff(x).doit() * change for x, change in pairs)
+    return sum(quantity.diff(x) * change for x, change in pairs)
 
 
 @cache
@@ -34,14 +34,14 @@ def lagrange_identity() -> sp.Expr:
     forward, backward = averaged.rates()
     varied_rates = sp.Matrix([varied_by(rate) for rate in forward])
     rate = backward.dot(varied) + sp.Matrix(eta).dot(varied_rates)
-    return sp.simplify(rate + kappa * varied_by(omega))
+    return averaged.homogeneous(rate + kappa * varied_by(omega))
 
 
 def end_work() -> sp.Expr:
     """eta dxi/dtau on H0 = 0: it is h0, and so -kappa omega."""
     paired = sp.Matrix(eta).dot(averaged.rates()[0])
     level = sp.solve(averaged.averaged_hamiltonian(), kappa)[0]
-    return sp.simplify(paired + omega * level) - kappa * omega
+    return averaged.homogeneous(paired + omega * level) - kappa * omega
 
 
 def cost_by_the_end() -> sp.Expr:
@@ -50,6 +50,28 @@ def cost_by_the_end() -> sp.Expr:
     normal = sp.Matrix([averaged.M.diff(x) for x in xi])
     off = gradient.dot(varied) + averaged.end_costates().dot(varied)
     return sp.expand(off.subs(varied[1], sp.solve(normal.dot(varied), varied[1])[0]))
+
+
+def exact_identity() -> sp.Expr:
+    """d(p Da + q Dpsi)/dt along the unaveraged canonical equations: vanishes.
+
+    H* is of degree one in (p, q), and D is the derivative along any family of extremals with one start. On
+    H* = 0 the displacements of the end then have p da_1 + q dpsi_1 = H* dt_1 = 0, and with dJ = -p da_1 the
+    cost obeys dJ = q_1 dpsi_1: (2.14) before averaging.
+    """
+    states, costates = (principle.a[0], principle.psi), (principle.p[0], principle.q)
+    steps = sp.symbols("Da Dpsi Dp Dq", real=True)
+    H = sp.Function("H", real=True)(*states, costates[1] / costates[0]) * costates[0]
+
+    def change(quantity: sp.Expr) -> sp.Expr:
+        pairs = zip((*states, *costates), steps, strict=True)
+        return sum(quantity.diff(x).doit() * step for x, step in pairs)
+
+    rate = sum(
+        -H.diff(x).doit() * step + y * change(H.diff(y).doit())
+        for x, y, step in zip(states, costates, steps, strict=False)
+    )
+    return sp.simplify(rate)
 
 
 @cache

@@ -23,7 +23,7 @@ f = sp.Matrix([sp.Function(f"f{i}", real=True)(*a, psi, u, epsilon) for i in (1,
 F = sp.Function("F", real=True)(*a, psi, u, epsilon)
 M, g = (sp.Function(name, real=True)(*a) for name in "Mg")
 u_star = sp.Function("u", real=True)(*a, psi, *p, q, epsilon)
-h_star = sp.Function("h", real=True)(*a, psi, *p, q, epsilon)
+h_star = sp.Function("h^*", real=True)(*a, psi, *p, q, epsilon)
 
 
 # --- the canonical equations, from the first variation -------------------------------------------------

@@ -110,10 +110,9 @@ def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr 
     return over_a_turn(quantity.subs(v, speed(mass, potential))) / (2 * sp.pi)
 
 
-def frequency_slope(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
-    """omega'(a) over omega^2/(2 pi): the integral of 1/(m x'^3) over a turn, positive for every rotor."""
-    turn = frequency(mass, potential)
-    return sp.simplify(turn.diff(a) * 2 * sp.pi / turn**2)
+def period_slope(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """-d/da of the time of a turn 2 pi/omega: the integral of 1/(m x'^3), positive for every rotor."""
+    return over_a_turn(-(1 / speed(mass, potential)).diff(a))
 
 
 def averaged_rate(
