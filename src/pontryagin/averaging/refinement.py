@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging.family import VALUES, Family, local_range, march, members
+from pontryagin.averaging.family import VALUES, Family, local_range
+from pontryagin.averaging.members import march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
