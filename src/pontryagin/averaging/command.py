@@ -115,7 +115,7 @@ def solve(
     values = chosen.read(given)
     solution = asked.solve(chosen, values)
     exact = () if small is None else _exact(solution, small, start)
-    _files(chosen, solution, exact, small, plot, record)
+    _files(solution, exact, plot, record)
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
     told = transcript.transcript(problem, solution, small, start, exact)
@@ -140,21 +140,17 @@ def _exact(solution: Any, epsilon: float, phase: float | None) -> Any:
         return solution.exact(epsilon, phase)
 
 
-def _files(
-    chosen: Example, solution: Any, exact: Any, epsilon: float | None, plot: File, record: File
-) -> None:
+def _files(solution: Any, exact: Any, plot: File, record: File) -> None:
     if (plot or record) and not float(solution.duration) > 0:
         raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
     if plot:
         from pontryagin.averaging.figures.drift import drift
 
-        console.save_figure("--plot", plot, drift(solution, exact[0] if exact else None, epsilon))
+        console.save_figure("--plot", plot, drift(solution, exact[0] if exact else None))
     if record:
         from pontryagin.averaging.playback import record_solution
 
-        console.save_recording(
-            "--record", record, lambda path: record_solution(solution, exact[0], epsilon, path)
-        )
+        console.save_recording("--record", record, lambda path: record_solution(solution, exact[0], path))
 
 
 def _solve_batch(

@@ -13,7 +13,6 @@ from pontryagin.recording import Events, Recording, Scene, View, record
 POINTS = 97
 """Points of an ellipse as drawn."""
 GREY = "#b8b8b8"
-WORDS = {"E": "energy E", "K": "angular momentum K"}
 
 
 def record_orbit(pair: Pair, path: Path) -> None:
@@ -26,7 +25,7 @@ def record_orbit(pair: Pair, path: Path) -> None:
         Scene(
             f"the orbit at epsilon = {pair.epsilon:g}: exact blue, averaged orange",
             "orbit",
-            share=5.0,
+            share=3.5,
             trails=("orbit/flown",),
             eye=(middle, -0.5 * reach, 1.9 * reach),
             target=(middle, 0.0, 0.0),
@@ -35,8 +34,8 @@ def record_orbit(pair: Pair, path: Path) -> None:
         Events("events", "events"),
     ]
     plots: list[View] = [
-        *replay.slow_plots(pair, WORDS),
-        replay.panel("control u, the thrust being epsilon u", "thrust"),
+        *replay.slow_plots(pair),
+        replay.panel("control u, the thrust being epsilon u", "thrust", "LeftTop"),
     ]
     with record(path, "low-thrust spiral", [scenes, plots], pair.speed, (3, 2)) as recording:
         _scene(recording, pair, flight, reach)
