@@ -55,9 +55,10 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
     if not solution.duration > 0:
         raise ValueError("exact takes a problem that is not solved at the start: the target holds there")
     start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
-    problem = shooting(solution, float(small), float(start))
+    held = solution if solution.frame is None else solution.frame(solution)
+    problem = shooting(held, float(small), float(start))
     centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
-    guess = np.concatenate([solution.costate([0.0])[0], np.atleast_1d(solution.multipliers)])
+    guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
     traced, found = roots(problem, family(problem, centre, guess))
     proof = Proof(problem, found.shot)
 

@@ -43,6 +43,8 @@ class AveragedSolution:
         psi_0 where the problem says it (`spin_down`), else zero.
     numbers : tuple of (...) arrays
         Values of the system's numbers, in their order.
+    frame : callable or None
+        From this solution to the same one in variables that are regular at the target, if its own are not.
     """
 
     duration: Array
@@ -58,6 +60,7 @@ class AveragedSolution:
     edges: Array
     series: Array
     make_system: Callable[[], object]
+    frame: Callable | None = None
 
     @cached_property
     def system(self):
@@ -110,17 +113,25 @@ class AveragedSolution:
         x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
         return phase_at(self.model, self.slow(tau), x, self._numbers)
 
-    def correction(self, phase: ArrayLike | None = None) -> Array:
+    def correction(self, phase: ArrayLike | None = None, ending: ArrayLike | None = None) -> Array:
         """J_1, (...): the least cost is cost + epsilon J_1 + O(epsilon^2).
 
         Parameters
         ----------
         phase : (...) array, optional
             psi_0; `initial_phase` by default.
+        ending : (...) array, optional
+            Anomaly at the end; by default the optimum's. It must be given where the trajectory leaves no
+            choice of it (one slow variable in the least time), and J_1 varies with it.
+
+        Raises
+        ------
+        ValueError
+            If kappa is not zero, an argument is not finite, or `ending` must be given.
         """
         from pontryagin.averaging.correction import correction
 
-        return correction(self, self.initial_phase if phase is None else phase)
+        return correction(self, self.initial_phase if phase is None else phase, ending)
 
     def exact(self, epsilon: float, phase: float | None = None) -> Sequence:
         """All extremals of the unaveraged problem around the optimum, best first; one problem only.
@@ -227,6 +238,7 @@ def solved(
     *,
     kappa: ArrayLike = 0.0,
     initial_phase: ArrayLike = 0.0,
+    frame: Callable | None = None,
 ) -> AveragedSolution:
     """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
     family = finite("kappa", kappa, "a number or an array (...)")
@@ -262,6 +274,7 @@ def solved(
         edges=found.edges.reshape(*shape, -1),
         series=found.series.reshape(*shape, *found.series.shape[1:]),
         make_system=make_system,
+        frame=frame,
     )
 
 
