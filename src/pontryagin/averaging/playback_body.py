@@ -1,0 +1,104 @@
+"""Example 3 as a recording: two bodies in space, the averaged optimum as a synthesis beside the exact one."""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.averaging import replay, tumble
+from pontryagin.averaging.replay import AVERAGED, EXACT, Pair
+from pontryagin.averaging.tumble import Motion
+from pontryagin.plotting import GREEN, INK, PURPLE, RED
+from pontryagin.recording import Events, Plot, Recording, Scene, View, record
+
+LONG = 1.5
+"""Length of the axis and of the angular momentum as drawn; the body is scaled to it."""
+GREY = "#c4c4c4"
+COMPONENTS = ("x", "y", "z")
+
+
+def record_body(pair: Pair, path: Path) -> None:
+    """Record the motion under the averaged synthesis and that on the exact extremal."""
+    motions = {"synthesis": tumble.synthesised(pair), "exact": tumble.exact(pair)}
+    size = float(np.abs(motions["exact"].rate).max())
+    scenes: list[View] = [_scene("averaged synthesis", "synthesis"), _scene("exact optimum", "exact")]
+    semiaxes = motions["exact"].semiaxes
+    control: list[View] = [
+        Scene(
+            "body axes: both controls on the ellipsoid",
+            "ellipsoid",
+            share=2.0,
+            trails=("ellipsoid/synthesis/way", "ellipsoid/exact/way"),
+            eye=tuple(2.2 * semiaxes.max() * np.array([0.8, -0.9, 0.7])),  # type: ignore[arg-type]
+            grid=False,
+        ),
+        Events("events", "events"),
+    ]
+    plots: list[View] = [
+        *(
+            Plot(f"angular velocity about the body's {name} axis", f"rate-{name}", limits=limits, whole=True)
+            for name, limits in zip(COMPONENTS, _limits(motions["exact"]), strict=True)
+        ),
+        Plot("form of the ellipsoid: 1 on it", "form", limits=(0.0, 1.25), whole=True),
+    ]
+    layout = [scenes, control, plots]
+    with record(path, "spin-down", layout, pair.speed, (3, 3, 3)) as recording:
+        for (name, motion), colour in zip(motions.items(), (AVERAGED, EXACT), strict=True):
+            _space(recording, name, motion, size)
+            _control(recording, name, motion, colour)
+            _curves(recording, name, motion, colour)
+        _ellipsoid(recording, semiaxes)
+        _arrivals(recording, pair, motions["synthesis"])
+
+
+def _scene(title: str, entity: str) -> Scene:
+    words = f"{title}: angular velocity green, angular momentum purple, torque red"
+    return Scene(
+        words, entity, trails=(f"{entity}/way",), eye=(2.6, -2.6, 1.9), target=(0.0, 0.0, 0.5), grid=False
+    )
+
+
+def _limits(motion: Motion) -> list[tuple[float, float]]:
+    most = 1.15 * float(np.abs(motion.rate[:, :2]).max())
+    along = sorted((0.0, 1.25 * float(motion.rate[np.argmax(np.abs(motion.rate[:, 2])), 2])))
+    return [(-most, most), (-most, most), (along[0], along[1])]
+
+
+def _space(recording: Recording, name: str, motion: Motion, size: float) -> None:
+    t, d = motion.t, float(motion.moments[2])
+    edges = np.array([1.0, 1.0, np.sqrt(max(2 / d - 1, 0.01))])
+    recording.body(f"{name}/body", t, motion.attitude, 0.9 * edges / edges.max())
+    axis = motion.in_space(np.array([0.0, 0.0, LONG * np.sign(motion.rate[0, 2])]))
+    recording.arrow(f"{name}/axis", t, axis, INK)
+    recording.trail(f"{name}/way", t, axis, INK, 0.8)
+    recording.arrow(f"{name}/velocity", t, motion.in_space(motion.rate) * LONG / size, GREEN)
+    momentum = motion.angular_momentum
+    recording.arrow(f"{name}/momentum", t, momentum * LONG / np.linalg.norm(momentum[0]), PURPLE)
+    torque = motion.in_space(motion.moments * motion.control)
+    longest = float(np.linalg.norm(torque, axis=-1).max())
+    recording.arrow(f"{name}/torque", t, torque * 0.7 / longest, RED, axis * 0.0)
+
+
+def _control(recording: Recording, name: str, motion: Motion, colour: str) -> None:
+    recording.arrow(f"ellipsoid/{name}/control", motion.t, motion.control, colour, label=name)
+    recording.trail(f"ellipsoid/{name}/way", motion.t, motion.control, colour, 1.0)
+
+
+def _ellipsoid(recording: Recording, semiaxes: NDArray[np.float64]) -> None:
+    upright = [[1.0, 0.0, 0.0, 0.0]]
+    recording.ellipsoid("ellipsoid/bound", [0.0], semiaxes[None], np.zeros((1, 3)), upright, GREY)
+    for axis, name in zip(np.diag(1.25 * semiaxes), COMPONENTS, strict=True):
+        recording.arrow(f"ellipsoid/axis-{name}", [0.0], axis[None], GREY, label=name)
+
+
+def _curves(recording: Recording, name: str, motion: Motion, colour: str) -> None:
+    for i, component in enumerate(COMPONENTS):
+        recording.curve(f"rate-{component}/{name}", motion.t, motion.rate[:, i], name, colour)
+    recording.curve(f"form/{name}", motion.t, motion.form, name, colour)
+
+
+def _arrivals(recording: Recording, pair: Pair, synthesis: Motion) -> None:
+    replay.arrivals(recording, pair)
+    duration = float(synthesis.t[-1])
+    words = f"under the synthesis the precession is gone at t = {duration:.2f}"
+    recording.event("events", duration, f"{words}, slow time {pair.epsilon * duration:.6f}")
