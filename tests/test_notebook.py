@@ -71,17 +71,6 @@ def test_a_label_of_two_papers_needs_the_paper(published):
     assert published == []
 
 
-def test_entries_are_grouped_by_paper_and_section():
-    for paper, names in notebook.SECTIONS.items():
-        grouped = notebook.sections(ledger.entries(paper))
-        assert list(grouped) == list(names.values())
-        for number, name in names.items():
-            numbers = {found[1] for one in grouped[name] if (found := re.search(r"\((\d)\.", one.label))}
-            assert numbers <= {number}
-    whole = notebook.sections(ledger.entries())
-    assert list(whole) == [name for names in notebook.SECTIONS.values() for name in names.values()]
-
-
 def test_verdicts_show_every_step(published):
     notebook.verdicts("false")
     entries = ledger.entries(verdict="false")
