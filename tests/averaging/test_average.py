@@ -157,7 +157,7 @@ def test_keplers_closed_form_is_the_quadrature_of_its_own_system():
 
 def test_a_constant_speed_needs_no_quadrature():
     free = rotor(1.0, 4.0, mass=2, potential=-1, peak=1.0)
-    assert free.model.density is None and free.model.turn is None
+    assert free.model.density is None
     assert float(free.frequency(0.0)[0]) == pytest.approx(np.sqrt(2))
 
 

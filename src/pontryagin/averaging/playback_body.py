@@ -39,10 +39,10 @@ def record_body(pair: Pair, path: Path) -> None:
     ]
     plots: list[View] = [
         *(
-            Plot(f"angular velocity about the body's {name} axis", f"rate-{name}", limits=limits, whole=True)
-            for name, limits in zip(COMPONENTS, _limits(motions["exact"]), strict=True)
+            Plot(f"angular velocity about the body's {name} axis", f"rate-{name}", span=span, whole=True)
+            for name, span in zip(COMPONENTS, _spans(motions["exact"]), strict=True)
         ),
-        Plot("form of the ellipsoid: 1 on it", "form", limits=(0.0, 1.25), whole=True),
+        Plot("form of the ellipsoid: 1 on it", "form", span=(0.0, 1.25), whole=True),
     ]
     layout = [scenes, control, plots]
     with record(path, "spin-down", layout, pair.speed, (3, 3, 3)) as recording:
@@ -60,7 +60,7 @@ def _scene(title: str, entity: str) -> Scene:
     )
 
 
-def _limits(motion: Motion) -> list[tuple[float, float]]:
+def _spans(motion: Motion) -> list[tuple[float, float]]:
     most = 1.15 * float(np.abs(motion.rate[:, :2]).max())
     along = motion.rate[:, 2]
     margin = 0.1 * float(np.abs(along).max())
