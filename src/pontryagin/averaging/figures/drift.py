@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -69,14 +70,9 @@ def _averaged(
     over_a_turn = np.stack([solution.control(grid, np.full(len(grid), x)) for x in TURN])
     for i, ax in enumerate(controls):
         values = over_a_turn[..., i]
-        ax.fill_between(
-            grid,
-            values.min(axis=0),
-            values.max(axis=0),
-            color=ORANGE,
-            alpha=0.3,
-            label="averaged, over a turn",
-        )
+        low, high = values.min(axis=0), values.max(axis=0)
+        look = {"facecolor": to_rgba(ORANGE, 0.3), "edgecolor": ORANGE, "linewidth": 1.2}
+        ax.fill_between(grid, low, high, label="averaged, range over a turn", **look)
 
 
 def _tex(name: str) -> str:
