@@ -22,8 +22,8 @@ def record_body(pair: Pair, path: Path) -> None:
     motions = {"synthesis": tumble.synthesised(pair), "exact": tumble.exact(pair)}
     size = float(np.abs(motions["exact"].rate).max())
     scenes: list[View] = [
-        _scene("inertial axes: averaged synthesis", "synthesis"),
-        _scene("inertial axes: exact optimum", "exact"),
+        _scene(f"inertial axes, epsilon = {pair.epsilon:g}: averaged synthesis", "synthesis"),
+        _scene(f"inertial axes, epsilon = {pair.epsilon:g}: exact optimum", "exact"),
     ]
     semiaxes = motions["exact"].semiaxes
     control: list[View] = [
