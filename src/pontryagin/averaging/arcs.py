@@ -177,7 +177,10 @@ def _taylor(
         tol=TOLERANCE,
         pars=np.ones(p + len(modes)),
         compact_mode=True,
-        t_events=[hy.t_event(hy.from_sympy(with_floats(s), table), callback=flip(i)) for i, s in enumerate(functions)],
+        t_events=[
+            hy.t_event(hy.from_sympy(with_floats(s), table), callback=flip(i))
+            for i, s in enumerate(functions)
+        ],
     )
     identity = np.array(integrator.state[n:])
 

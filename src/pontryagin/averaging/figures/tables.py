@@ -1,5 +1,6 @@
 """Tables of this paper: columns for `plotting.show_table`."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,9 @@ import sympy as sp
 from scipy.integrate import quad
 from scipy.special import ellipe
 
+from pontryagin.averaging import slopes as errors_of
+from pontryagin.averaging.count import window
+from pontryagin.averaging.extremal import Extremals
 from pontryagin.averaging.kepler_example import kepler
 from pontryagin.averaging.rotor_example import rotor
 from pontryagin.averaging.smooth import smooth_example
@@ -66,6 +70,72 @@ def closed_forms() -> Columns:
         "closed form": [f"{value:.12f}" for _, _, value in rows],
         "difference": [f"{abs(float(one.duration) - value):.0e}" for _, one, value in rows],
         "residual": [f"{float(one.certificate.residual):.0e}" for _, one, _ in rows],
+    }
+
+
+def root_counts(epsilons: Sequence[float]) -> Columns:
+    """Extremals of the rippled flywheel at each epsilon, their predicted number, and the least cost."""
+    solution = smooth_example(1, 2, k=1.0, ripple=0.5)
+    predicted = window(solution)
+    found = [solution.exact(epsilon) for epsilon in epsilons]
+    worst = [max(one.certificate.residual for one in some) for some in found]
+    return {
+        "$\\varepsilon$": [f"{epsilon:g}" for epsilon in epsilons],
+        "extremals": [len(some) for some in found],
+        "minima": [sum(one.kind == "minimum" for one in some) for some in found],
+        "predicted": [f"{predicted.count(epsilon):.1f}" for epsilon in epsilons],
+        "largest residual": [f"{float(value):.0e}" for value in worst],
+        "least $J$": [f"{some[0].cost:.8f}" for some in found],
+        "$(J - J_0)/\\varepsilon$": [
+            f"{(some[0].cost - float(solution.cost)) / epsilon:.3f}"
+            for some, epsilon in zip(found, epsilons, strict=True)
+        ],
+    }
+
+
+def extremals(found: Extremals, count: int) -> Columns:
+    """The cheapest extremals of one problem, and how many there are in all."""
+    some = found[:count]
+    return {
+        "": [f"{i + 1} of {len(found)}" for i in range(len(some))],
+        "kind": [one.kind for one in some],
+        "$J$": [f"{one.cost:.8f}" for one in some],
+        "$\\tau_1$": [f"{one.duration:.6f}" for one in some],
+        "turns": [f"{one.turns:.3f}" for one in some],
+        "residual": [f"{float(one.certificate.residual):.0e}" for one in some],
+    }
+
+
+def slopes() -> Columns:
+    """J0, the parts of J1, and the slopes of the errors of the problems of `slopes.problems`."""
+    rows = [errors_of.errors(name) for name in errors_of.problems()]
+    return {
+        "problem": [row.name for row in rows],
+        "$J_0$": [f"{row.first:.6f}" for row in rows],
+        **{f"$J_1$: {part}": [f"{row.terms[part]:.5f}" for row in rows] for part in ("start", "end", "way")},
+        "error$/\\varepsilon$, $J_0$": [f"{(row.averaged / row.epsilon).max():.3f}" for row in rows],
+        "error$/\\varepsilon^2$, corrected": [
+            f"{(row.corrected / row.epsilon**2).max():.2f}" for row in rows
+        ],
+        "slope, $J_0$": [f"{row.slope(row.averaged):.2f}" for row in rows],
+        "slope, ends only": [f"{row.slope(row.ends):.2f}" for row in rows],
+        "slope, $J_0 + \\varepsilon J_1$": [f"{row.slope(row.corrected):.2f}" for row in rows],
+    }
+
+
+def answers(solution: AveragedSolution, epsilon: float, phase: float = 0.0) -> Columns:
+    """One problem averaged, corrected and exact."""
+    found = solution.exact(epsilon, phase)
+    corrected = float(solution.cost) + epsilon * float(solution.correction(phase))
+    return {
+        "": ["averaged, $J_0$", "corrected, $J_0 + \\varepsilon J_1$", f"best of {len(found)} extremals"],
+        "cost": [f"{float(solution.cost):.8f}", f"{corrected:.8f}", f"{found[0].cost:.8f}"],
+        "$\\tau_1$": [f"{float(solution.duration):.6f}", "", f"{found[0].duration:.6f}"],
+        "residual": [
+            f"{float(solution.certificate.residual):.0e}",
+            "",
+            f"{float(found[0].certificate.residual):.0e}",
+        ],
     }
 
 
