@@ -25,6 +25,7 @@ VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 PAPERS = (
     "pontryagin.triple_integrator.claims",
     "pontryagin.orbit_correction.claims",
+    "pontryagin.averaging.claims",
 )
 """Modules whose ``ENTRIES`` make up the ledger, a paper a line."""
 

@@ -12,13 +12,23 @@ from pontryagin.ledger import Entry
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 
 TILES: dict[str, str] = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
-SECTIONS = {
-    "0": "introduction",
-    "1": "1 moments",
-    "2": "2 energy",
-    "3": "3 peak",
-    "4": "4 impulse",
+SECTIONS: dict[str, dict[str, str]] = {
+    "Gorelov & Morozova 2012": {
+        "0": "Gorelov, introduction",
+        "1": "1 moments",
+        "2": "2 energy",
+        "3": "3 peak",
+        "4": "4 impulse",
+    },
+    "Ibragimov 2017": {"0": "Ibragimov"},
+    "Akulenko 1977": {
+        "0": "Akulenko, introduction",
+        "1": "1 problem",
+        "2": "2 averaging",
+        "3": "3 examples",
+    },
 }
+"""Rows of the overview: the sections of a paper whose equations carry their numbers."""
 _SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
 
 
@@ -73,13 +83,15 @@ def entry(label: str, paper: str | None = None) -> None:
     Raises
     ------
     ValueError
-        If there is no such entry.
+        If there is no such entry, or several papers have one.
     pontryagin.ledger.Unsupported
         If the verdict does not stand.
     """
     found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
     if not found:
         raise ValueError(f"label: got {label!r}, takes one of the ledger's")
+    if len(papers := list(dict.fromkeys(one.paper for one in found))) > 1:
+        raise ValueError(f"paper: got {paper!r}, takes one of those that have {label}: {', '.join(papers)}")
     for one in found:
         one.check()
         _publish({"text/markdown": account(one)})
@@ -118,13 +130,18 @@ def counts_table(paper: str | None = None) -> dict[str, list[Any]]:
 
 
 def sections(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
-    """Entries by section, read off the equation number in their labels; others stay with the one before."""
+    """Entries by section, read off the equation number in their labels; others stay with the one before.
+
+    A section that `SECTIONS` does not name is called by its paper and number.
+    """
     grouped: dict[str, list[Entry]] = {}
-    section = "0"
+    paper, section = "", "0"
     for one in entries:
         numbered = re.search(r"\((\d)\.", one.label)
-        section = numbered[1] if numbered else section
-        grouped.setdefault(SECTIONS.get(section, section), []).append(one)
+        section = numbered[1] if numbered else section if one.paper == paper else "0"
+        paper = one.paper
+        name = SECTIONS.get(paper, {}).get(section, f"{paper}, {section}")
+        grouped.setdefault(name, []).append(one)
     return grouped
 
 

@@ -31,7 +31,6 @@ def density(function):
 
 
 poisson = density(lambda x, r: 1 / (1 - r * np.cos(x)))
-ellipse = density(lambda x, m: np.sqrt(1 - m * np.sin(x) ** 2))
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -42,9 +41,12 @@ def test_the_trapezoid_is_exact_to_rounding_for_poles_at_any_distance(rule, r):
 
 
 @pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("harmonic", [1, 2, 4, 8, 12])
 @pytest.mark.parametrize("m", [0.5, 0.99, 1 - 1e-4, 1 - 1e-8, 1 - 1e-12])
-def test_densities_with_symmetries_do_not_settle_by_chance(rule, m):
-    value = smooth_mean(ellipse(m), 1, rule)[0, 0]
+def test_densities_with_symmetries_do_not_settle_by_chance(rule, harmonic, m):
+    """A rule and its double see the same of a function whose period is a multiple of the finer one's step."""
+    repeated = density(lambda x, m: np.sqrt(1 - m * np.sin(harmonic * x) ** 2))
+    value = smooth_mean(repeated(m), 1, rule)[0, 0]
     assert value == pytest.approx(2 / np.pi * ellipe(m), rel=1e-9)
 
 
@@ -101,3 +103,19 @@ def test_halving_finds_a_peak_however_narrow():
     peak = density(lambda x, w: w / (2 * np.sin((x - 1) / 2) ** 2 + w**2 / 2))
     w = np.array([1e-2, 1e-4, 1e-7])
     np.testing.assert_allclose(halved_mean(peak(w), 3)[:, 0], 1 / np.sqrt(1 + w**2 / 4), rtol=1e-9)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-10])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_two_switches_however_close_are_found(depth, sign):
+    """sign (1 - cos(x - 1) - depth) vanishes at 1 - d and 1 + d only."""
+
+    def switching(x, index):
+        return (
+            sign * np.stack([1 - np.cos(x - 1) - depth, np.sin(x - 1)], axis=-1) * np.ones((len(index), 1, 1))
+        )
+
+    d = np.arccos(1 - depth)
+    np.testing.assert_allclose(find_switches(switching, 1), [[1 - d, 1 + d]], atol=1e-7)
+    shallower = lambda x, i: switching(x, i) + sign * np.array([2 * depth, 0])  # noqa: E731
+    assert find_switches(shallower, 1).shape == (1, 0)

@@ -86,6 +86,8 @@ def kernel_expressions(
         weight = 1 / system.rate if integral else system.weight
         integrand = system.hamiltonian.subs(system.phase_costate, 0) * weight
         density = [*expressions(integrand, z), expressions(integrand, [x])[1]]
+        if integral:
+            density += expressions(weight, a)
         kinks = switching_functions(integrand, x)
         switching = [*kinks, *(expressions(kink, [x])[1] for kink in kinks)] or None
     frequency = known[1] if known is not None else system.omega
@@ -94,7 +96,6 @@ def kernel_expressions(
     return {
         "mean": ((*z, *numbers), None if known is None else expressions(known[0], z)),
         "density": ((*z, x, *numbers), density),
-        "turn": ((*a, x, *numbers), expressions(1 / system.rate, a) if integral else None),
         "frequency": ((*a, *numbers), None if frequency is None else expressions(frequency, a)),
         "switching": ((*z, x, *numbers), switching),
         "boundary": ((*a, *numbers), ends),
@@ -119,7 +120,7 @@ def switching_functions(integrand: sp.Expr, x: sp.Symbol) -> list[sp.Expr]:
 
 
 def _compiled(name: str, arguments: Sequence[sp.Symbol], columns: Sequence[sp.Expr]) -> Kernel:
-    return compiler.function(name, arguments, {f"c{i}": column for i, column in enumerate(columns)})
+    return compiler.columns(name, arguments, columns)
 
 
 _MODELS: dict[tuple, Model] = {}

@@ -30,8 +30,8 @@ class Guess:
         Points of the straight way.
     frequency : (s, k) array
         omega there.
-    idle : (s, k) array
-        h0 without costate: minus the mean running cost, plus omega kappa.
+    idle : (s) array
+        H0 without costate at the start: minus the mean running cost, plus omega kappa.
     stuck : (s, k) boolean array
         No control moves the slow variables along the guessed direction there.
     """
@@ -51,10 +51,10 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
     slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
     length, stuck = _level(problem, slow, direction, _level(problem, slow[:, :1], direction)[0])
     eta = length[..., None] * direction[:, None]
-    h, omega = problem.averaged(np.concatenate([slow, IDLE * eta], axis=-1))
-    idle = h.value + problem.kappa[:, None] * omega.value
     z = np.concatenate([slow, eta], axis=-1)
-    speed = problem.hamiltonian(z).gradient[..., model.slow :]
+    h, omega = problem.averaged(z)
+    speed = h.gradient[..., model.slow :]
+    idle = problem.hamiltonian(np.concatenate([slow, IDLE * eta], axis=-1)[:, :1]).value[:, 0]
     along = np.einsum("ski,si->sk", speed, direction)
     reach = np.einsum("si,si->s", end - start, direction)[:, None]
     pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))

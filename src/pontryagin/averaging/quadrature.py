@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
+Judged = NDArray[np.intp] | slice
+EVERY = slice(None)
+
 
 class Rule(NamedTuple):
     """Nodes to begin with: of the trapezoid, which start somewhere, and of Gauss's rule between switches."""
@@ -19,8 +22,8 @@ class Rule(NamedTuple):
     start: float
 
 
-SOLVING = Rule(8, 6, 0.0)
-CHECKING = Rule(12, 9, 1.0)
+SOLVING = Rule(16, 6, 0.0)
+CHECKING = Rule(24, 9, 1.0)
 """Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
 LAST, GAUSS_LAST = 2**9, 384
 HALF_DIGITS, FALL = 1e-8, 1e-2
@@ -32,11 +35,11 @@ LOOK = 128
 
 
 def mean(
-    density: Density, switches: NDArray[np.float64], rule: Rule, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], rule: Rule, judged: Judged = EVERY
 ) -> NDArray[np.float64]:
     """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
 
-    Only the first `judged` columns say when a rule is fine enough: the others are their derivatives.
+    Only the `judged` columns say when a rule is fine enough: the others are their derivatives.
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
@@ -52,7 +55,7 @@ def mean(
 
 
 def smooth_mean(
-    density: Density, points: int, rule: Rule = SOLVING, judged: int | None = None
+    density: Density, points: int, rule: Rule = SOLVING, judged: Judged = EVERY
 ) -> NDArray[np.float64]:
     """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
@@ -79,8 +82,11 @@ def smooth_mean(
     return result
 
 
-def halved_mean(density: Density, points: int, judged: int | None = None) -> NDArray[np.float64]:
-    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns)."""
+def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArray[np.float64]:
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns).
+
+    Where intervals become so short that the density is known to fewer digits, fewer are asked for.
+    """
     nodes, weights = _gauss(16)
     point = np.repeat(np.arange(points), PARTS)
     low = np.tile(np.arange(PARTS) / PARTS, points)
@@ -95,13 +101,13 @@ def halved_mean(density: Density, points: int, judged: int | None = None) -> NDA
     scale = np.zeros((points, size.shape[1]))
     np.add.at(scale, point, size)
     result = np.zeros_like(scale)
-    for _ in range(HALVINGS):
+    for halving in range(HALVINGS):
+        asked = ROUNDING if halving < HALVINGS // 2 else FALL * HALF_DIGITS
         first, _ = integral(point, low, length / 2)
         second, _ = integral(point, low + length / 2, length / 2)
-        change = np.abs(first + second - value)[:, :judged]
-        own = scale[point, :judged]
-        allowed = np.maximum(HALF_DIGITS * own, ROUNDING * own.max(axis=-1, keepdims=True))
-        settled = (change <= FALL * allowed).all(axis=-1)
+        change = np.abs(first + second - value)[:, judged]
+        own = scale[point][:, judged]
+        settled = (change <= asked * np.maximum(own, own.max(axis=-1, keepdims=True))).all(axis=-1)
         np.add.at(result, point[settled], (first + second)[settled])
         more = ~settled
         if not more.any():
@@ -119,7 +125,7 @@ def halved_mean(density: Density, points: int, judged: int | None = None) -> NDA
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: Judged = EVERY
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     size = first
@@ -138,7 +144,7 @@ def split_mean(
     return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
 
 
-def _refined(begin, doubled, points: int, doublings: int, judged: int | None) -> NDArray[np.float64]:
+def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> NDArray[np.float64]:
     """Double a rule at the points where it has not settled.
 
     The error of a rule that converges geometrically is squared by each doubling: a change below half of all
@@ -151,9 +157,9 @@ def _refined(begin, doubled, points: int, doublings: int, judged: int | None) ->
     result = np.full(value.shape, np.nan)
     for _ in range(doublings):
         finer = doubled(active, value)
-        size = scale[:, :judged]
+        size = scale[:, judged]
         noise = ROUNDING * size.max(axis=-1, keepdims=True)
-        change = np.abs(finer - value)[:, :judged]
+        change = np.abs(finer - value)[:, judged]
         least = np.maximum(ROUNDING * size, noise)
         convergent = (change <= FALL * before) | (before <= least)
         settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
@@ -189,20 +195,55 @@ def find_switches(switching: Density, points: int) -> NDArray[np.float64]:
     `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
     """
     grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
-    everywhere = np.arange(points)
-    values = switching(grid[None], everywhere)
-    count = values.shape[-1] // 2
-    positive = values[..., :count] > 0
+    columns = switching(grid[None], np.arange(points))
+    columns = np.broadcast_to(columns, (points, *columns.shape[1:]))
+    count = columns.shape[-1] // 2
+    positive = columns[..., :count] > 0
     point, cell, which = np.nonzero(positive[:, 1:] != positive[:, :-1])
+    low, high, falling = grid[cell], grid[cell + 1], positive[point, cell, which]
+    pairs = _close_pairs(switching, grid, columns)
+    if pairs is not None:
+        low, high = np.concatenate([low, pairs[0]]), np.concatenate([high, pairs[1]])
+        point, which = np.concatenate([point, pairs[2]]), np.concatenate([which, pairs[3]])
+        falling = np.concatenate([falling, pairs[4]])
     if not len(point):
         return np.full((points, 0), np.nan)
-    root = _refine(switching, grid[cell], grid[cell + 1], point, which, positive[point, cell, which])
+    root = _refine(switching, low, high, point, which, falling)
     order = np.lexsort((root, point))
     point, root = point[order], root[order]
     place = np.arange(len(point)) - np.searchsorted(point, point)
     result = np.full((points, place.max() + 1), np.nan)
     result[point, place] = root
     return result
+
+
+def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[NDArray, ...] | None:
+    """Brackets of two switches between neighbouring nodes: an extremum there that has the other sign."""
+    count = columns.shape[-1] // 2
+    value, slope = columns[..., :count], columns[..., count:]
+    towards = value * slope
+    near = np.abs(value) < 2 * np.abs(slope) * (grid[1] - grid[0])
+    turning = (towards[:, :-1] < 0) & (towards[:, 1:] > 0) & (value[:, :-1] * value[:, 1:] > 0)
+    point, cell, which = np.nonzero(turning & (near[:, :-1] | near[:, 1:]))
+    if not len(point):
+        return None
+    rows = np.arange(len(point))
+    low, high = grid[cell], grid[cell + 1]
+    rising, above = slope[point, cell, which] > 0, value[point, cell, which] > 0
+    for _ in range(50):
+        middle = (low + high) / 2
+        before = (switching(middle[:, None], point)[rows, 0, which + count] > 0) == rising
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    crossed = (switching(low[:, None], point)[rows, 0, which] > 0) != above
+    point, which, at, above = point[crossed], which[crossed], low[crossed], above[crossed]
+    left, right = grid[cell[crossed]], grid[cell[crossed] + 1]
+    return (
+        np.concatenate([left, at]),
+        np.concatenate([at, right]),
+        np.concatenate([point, point]),
+        np.concatenate([which, which]),
+        np.concatenate([above, ~above]),
+    )
 
 
 def _refine(

@@ -204,7 +204,7 @@ def _require_sound(
             f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
             f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}"
         )
-    idle = ~(guess.idle[:, 0] < 0)
+    idle = ~(guess.idle < 0)
     if idle.any():
         member = int(np.nonzero(idle)[0][0])
         name = (
@@ -213,7 +213,7 @@ def _require_sound(
             else ("running_cost must be positive on average")
         )
         raise ValueError(
-            f"{name}, at the start the cost rate is {-guess.idle[member, 0]:.6g}"
+            f"{name}, at the start the cost rate is {-guess.idle[member]:.6g}"
             f"{_which(problem, first + member)}"
         )
     stuck = guess.stuck & ~there[:, None]

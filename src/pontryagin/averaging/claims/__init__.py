@@ -8,6 +8,7 @@ examples with exact solutions.
 from itertools import chain
 
 from pontryagin.averaging.claims import (
+    approximation,
     averaged,
     discontinuous,
     family,
@@ -17,24 +18,41 @@ from pontryagin.averaging.claims import (
     kepler_motion,
     kepler_optimum,
     kepler_principle,
+    least_time,
     optimum,
     principle,
+    rigid,
+    rigid_cylinder,
+    rigid_ellipsoid,
+    roots,
+    rotor,
+    smooth,
     statement,
+    window,
 )
 
 IN_ORDER = (
     statement,
     principle,
     family,
+    roots,
     averaged,
+    window,
     integral,
     optimum,
+    approximation,
     discontinuous,
+    rotor,
+    least_time,
+    smooth,
     kepler_motion,
     kepler_elements,
     kepler_principle,
     kepler_controls,
     kepler_optimum,
+    rigid,
+    rigid_ellipsoid,
+    rigid_cylinder,
 )
 
 ENTRIES = tuple(chain.from_iterable(part.claim for part in IN_ORDER))

@@ -122,8 +122,14 @@ def phase_is_known_to_the_order_of_one():
 )
 def constants_of_motion():
     def argument() -> Steps:
-        for name, rate in kepler.element_rates().items():
+        for name, quantity in (("E", kepler.energy_of_state()), ("K", kepler.momentum_of_state())):
+            rate = kepler.along_the_motion(quantity)
             yield f"Kepler: the rate of {name} vanishes at ε = 0", vanishes(rate.subs(kepler.epsilon, 0))
+        own = [kepler.parameter().free_symbols, kepler.eccentricity().free_symbols]
+        yield (
+            "and with them p = K² and e = √(1 + 2EK²)",
+            (own == [{kepler.momentum}, {kepler.energy, kepler.momentum}]),
+        )
         inertia = sp.diag(*sp.symbols("I_x I_y I_z", positive=True))
         spin = sp.Matrix(sp.symbols("omega_x:z", real=True))
         momentum = inertia * spin

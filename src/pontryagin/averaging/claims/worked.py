@@ -144,3 +144,15 @@ def in_window(epsilon: float) -> Members:
     kappa = kappa_of(scan.duration)
     inside = (window()[0] < kappa) & (kappa < window()[1])
     return Members(*(getattr(scan, name)[inside] for name in Members.__dataclass_fields__))
+
+
+def deviations(epsilon: float) -> dict[str, float]:
+    """Largest distance at the end of members in the window from the averaged ones of their durations."""
+    scan = in_window(epsilon)
+    kappa = kappa_of(scan.duration)
+    expected = {
+        "phase": averaged(ripple.turned(), kappa) / epsilon,
+        "costate": averaged(2 * ripple.A1, kappa),
+        "cost": averaged(ripple.cost(), kappa),
+    }
+    return {name: float(np.abs(getattr(scan, name) - value).max()) for name, value in expected.items()}
