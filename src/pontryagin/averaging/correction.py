@@ -104,9 +104,7 @@ def _integral(held, equations: Canonical, size: int) -> Array:
     return _settled(values, "the integral along the averaged solution", NODES)
 
 
-def _settled(
-    values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS
-) -> Array:
+def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS) -> Array:
     """Values at the first size that the next one confirms."""
     before = values(sizes[0])
     for size in sizes[1:]:
@@ -122,7 +120,7 @@ def _settled(
 
 
 def _at(held, equations: Canonical, tau: Array, size: int) -> Array:
-    """k1, k2, 1/r, dk1/dp and dk1/da at slow times (..., k) on `size` points of a turn: (..., k, size, 3 + 2n)."""
+    """k1, k2, 1/r, dk1/dp, dk1/da at times (..., k) on `size` points of a turn: (..., k, size, 3 + 2n)."""
     a, p = held.slow(tau), held.costate(tau)
     z = np.moveaxis(np.concatenate([a, p], axis=-1), -1, 0)[..., None]
     numbers = [np.asarray(number)[..., None, None] for number in held.numbers]
