@@ -99,6 +99,23 @@ def test_the_layout_travels_in_the_file(target):
     }
 
 
+def test_a_plot_s_span_and_a_scene_s_eye_travel_too(target):
+    from rerun.chunk import RrdReader
+
+    eye = ((1.0, 2.0, 3.0), (0.0, 0.5, 0.0))
+    with record(target, "turn", [[Scene("the turn", "turn", eye)], [Plot("angle", "angle", span=(-1, 2.5))]]):
+        pass
+    reader = RrdReader(str(target))
+    held = {}
+    for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks():
+        batch = chunk.to_record_batch()
+        held |= {name: batch[name].to_pylist()[0] for name in batch.schema.names if ":" in name}
+    assert held["ScalarAxis:range"] == [[-1.0, 2.5]]
+    assert held["ScalarAxis:zoom_lock"] == [True]
+    assert held["EyeControls3D:position"] == [list(eye[0])]
+    assert held["EyeControls3D:look_target"] == [list(eye[1])]
+
+
 def test_a_writer_that_raises_leaves_no_file(target):
     with pytest.raises(ValueError, match="t: got"), record(target, "turn", LAYOUT) as turn:
         turn.curve("angle/energy", [1.0, 0.0], [0.0, 0.0], "u", "red")

@@ -39,12 +39,21 @@ class View:
     entity: str
 
 
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
 class Scene(View):
-    """Bodies, arrows, ellipsoids and paths in 3-D."""
+    """Bodies, arrows, ellipsoids and paths in 3-D; `eye` is where one looks from at first, and at what."""
+
+    eye: tuple[Point, Point] | None = None
 
 
+@dataclass(frozen=True)
 class Plot(View):
-    """Curves against time."""
+    """Curves against time; `span` is the range of the vertical axis, by default that of the curves."""
+
+    span: tuple[float, float] | None = None
 
 
 class Events(View):
@@ -249,10 +258,13 @@ def _layout(columns: Sequence[Sequence[View]]) -> Any:
     def panel(view: View) -> Any:
         place: dict[str, Any] = {"origin": view.entity, "name": view.title}
         if isinstance(view, Plot):
-            return rrb.TimeSeriesView(**place, plot_legend=rrb.Corner2D.RightTop)
+            axis = rrb.ScalarAxis(range=view.span, zoom_lock=view.span is not None)
+            return rrb.TimeSeriesView(**place, axis_y=axis, plot_legend=rrb.Corner2D.RightTop)
         if isinstance(view, Events):
             words = rrb.archetypes.TextLogColumns(text_log_columns=["Body"])
             return rrb.TextLogView(**place, columns=words)
+        if isinstance(view, Scene) and view.eye:
+            place["eye_controls"] = rrb.EyeControls3D(position=view.eye[0], look_target=view.eye[1])
         return rrb.Spatial3DView(**place)
 
     stacks = [rrb.Vertical(*[panel(view) for view in column]) for column in columns]
