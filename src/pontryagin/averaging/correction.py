@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin import compile as compiler
+from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import Canonical, canonical, epsilon, y
 from pontryagin.averaging.turn import anomaly_at
 from pontryagin.errors import NotConverged
@@ -51,7 +52,7 @@ def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> A
     begin = finite("phase", phase, "a number or an array (...)")
     if not (solution.kappa == 0).all():
         raise ValueError("the correction is that of the optimum: solve with kappa = 0")
-    if ending is None and fixed_ending(solution.system):
+    if ending is None and fixed_ending(canonical(solution.system)):
         raise ValueError(
             "ending must be given: the least-time trajectory of one slow variable leaves no choice of the "
             "anomaly at the end, with which J1 varies"
@@ -63,12 +64,6 @@ def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> A
     first, best = _ends(held, equations, start, last)
     along = _settled(lambda size: _integral(held, equations, size), "the mean Hamiltonian")
     return first - best - along
-
-
-def fixed_ending(system) -> bool:
-    """Whether the trajectory does not depend on the costates: least time or the like, one slow variable."""
-    free = len(system.slow) == 1 and all(entry == 0 for entry in system.phase_gain)
-    return free and system.control_set.cost(system.control) == 0
 
 
 def _ends(held, equations: Canonical, start: Array, last: Array | None) -> tuple[Array, Array]:

@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.averaging.arrivals import arrivals, fixed_ending
 from pontryagin.averaging.extremal import Extremal, Extremals
 from pontryagin.averaging.family import Family, family
 from pontryagin.averaging.members import nearby_extremal
@@ -62,10 +63,7 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
     problem = shooting(held, float(small), float(start))
     centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
     guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
-    try:
-        traced, found = roots(problem, family(problem, centre, guess))
-    except NotConverged:
-        traced, found = roots(problem, family(problem, *nearby_extremal(problem, centre, guess)))
+    traced, found = _found(problem, centre, guess)
     proof = Proof(problem, found.shot)
 
     def phase_of(slow: Array, anomaly: Array) -> Array:
@@ -90,6 +88,17 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
         for i in np.argsort(found.shot.cost)
     ]
     return Extremals(tuple(items), float(small), float(begin), traced)
+
+
+def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | None, Roots]:
+    if fixed_ending(problem.equations):
+        turns = (centre - problem.anomaly) / (2 * np.pi)
+        shot = arrivals(problem, float(np.sign(guess[0])), turns)
+        return None, Roots(shot, np.full(len(shot.theta), np.inf))
+    try:
+        return roots(problem, family(problem, centre, guess))
+    except NotConverged:
+        return roots(problem, family(problem, *nearby_extremal(problem, centre, guess)))
 
 
 def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:

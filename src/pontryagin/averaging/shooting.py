@@ -130,7 +130,7 @@ class Shooting:
         _, *motion = _start(self.equations)(*starts[:, : 2 * n + 1].T, self.anomaly, *self.parameters)
         y0_p = -np.stack(motion[:-1], axis=-1) / motion[-1][:, None]
         by_p = through[..., :n] + through[..., n:] * y0_p[:, None, :]
-        _, _, jacobian, curvature = self._boundary(reached, w)
+        _, _, jacobian, curvature = self.boundary(reached, w)
         shot = self._shot(theta, w, starts, reached)
         count, r = len(w), len(self.scale_m)
         by_w = np.concatenate([by_p, np.zeros((count, by_p.shape[1], r))], axis=-1)
@@ -163,14 +163,19 @@ class Shooting:
         fixed = np.broadcast_to(self.start, (count, n))
         return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
 
-    def _boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
+    def carry(self, starts: Array, begin: float, end: float) -> Array:
+        """States (k, 2n + 3) carried from one anomaly to another, backwards too."""
+        return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
+
+    def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
+        """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
         n = len(self.start)
         return _boundary(self.equations)(*reached[:, :n].T, *w[:, n:].T, *self.parameters)
 
     def missing(self, reached: Array, theta: Array, w: Array) -> tuple[Array, Array, Array]:
         """Scaled residual (k, n + r), J with the terminal cost, and r, at states reached (k, 2n + 3)."""
         n = len(self.start)
-        target, gradient, _, _ = self._boundary(reached, w)
+        target, gradient, _, _ = self.boundary(reached, w)
         missed = target[..., 0] / self.scale_m
         left = (reached[:, n : 2 * n] + gradient[..., 0]) / self.scale_p
         terminal, rate = _terminal(self.equations)(*reached[:, :n].T, theta, *self.parameters)
