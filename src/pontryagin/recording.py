@@ -25,6 +25,7 @@ from pontryagin import files
 from pontryagin.views import TIMELINE, blueprint
 from pontryagin.views import Events as Events
 from pontryagin.views import Plot as Plot
+from pontryagin.views import Point as Point
 from pontryagin.views import Scene as Scene
 from pontryagin.views import View as View
 

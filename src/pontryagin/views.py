@@ -1,7 +1,7 @@
 """The layout of a recording: its panels, and how they look when it is opened."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 TIMELINE = "time"
@@ -24,7 +24,7 @@ class View:
 
     title: str
     entity: str
-    share: float = 1.0
+    share: float = field(default=1.0, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -33,19 +33,17 @@ class Scene(View):
 
     Attributes
     ----------
+    eye : (Point, Point), optional
+        Where one looks from at first, and at what; by default rerun chooses.
     trails : tuple of str
         Entities of which everything up to the present is shown, as `Recording.trail` writes them.
-    eye : Point, optional
-        Where it is first seen from, towards `target`; by default rerun chooses.
-    target : Point
     grid : bool
         Whether the floor is ruled.
     """
 
-    trails: tuple[str, ...] = ()
-    eye: Point | None = None
-    target: Point = (0.0, 0.0, 0.0)
-    grid: bool = True
+    eye: tuple[Point, Point] | None = None
+    trails: tuple[str, ...] = field(default=(), kw_only=True)
+    grid: bool = field(default=True, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -63,8 +61,8 @@ class Plot(View):
     """
 
     span: tuple[float, float] | None = None
-    whole: bool = False
-    legend: str = "RightTop"
+    whole: bool = field(default=False, kw_only=True)
+    legend: str = field(default="RightTop", kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -101,7 +99,7 @@ def _panel(view: View) -> Any:
         case Events():
             words = rrb.archetypes.TextLogColumns(text_log_columns=["Body"])
             return rrb.TextLogView(**place, columns=words)
-        case Scene(trails=trails, eye=eye, target=target, grid=grid):
+        case Scene(eye=eye, trails=trails, grid=grid):
             past = rrb.VisibleTimeRanges(
                 timeline=TIMELINE,
                 start=rrb.TimeRangeBoundary.infinite(),
@@ -109,9 +107,7 @@ def _panel(view: View) -> Any:
             )
             controls = None
             if eye is not None:
-                controls = rrb.EyeControls3D(
-                    kind=rrb.Eye3DKind.Orbital, position=eye, look_target=target, eye_up=(0.0, 0.0, 1.0)
-                )
+                controls = rrb.EyeControls3D(position=eye[0], look_target=eye[1])
             return rrb.Spatial3DView(
                 **place,
                 eye_controls=controls,

@@ -28,7 +28,8 @@ def low_thrust_spiral(path: Path) -> None:
     A spacecraft raises the energy E of its orbit by weak thrust, at the least price of time and thrust.
     Blue: the exact optimum, on the ellipse it would keep if the thrust stopped; black: its path. Orange: the
     averaged optimum, which does not know where on its ellipse the spacecraft is. Grey: first and last
-    ellipse. The costate of the anomaly swings about zero and ends there, which makes the end's place best.
+    ellipse. The costate of the anomaly swings about zero and vanishes at the end: no neighbouring place of
+    arrival costs less.
     """
     solution = kepler(E0=-0.5, K0=0.95, E1=-0.2, l=0.1)
     record_solution(solution, solution.exact(0.01)[0], path)

@@ -26,13 +26,14 @@ def record_body(pair: Pair, path: Path) -> None:
         _scene(f"inertial axes, epsilon = {pair.epsilon:g}: exact optimum", "exact"),
     ]
     semiaxes = motions["exact"].semiaxes
+    far = float(semiaxes.max())
     control: list[View] = [
         Scene(
             "body axes: both controls on the ellipsoid",
             "ellipsoid",
             share=2.0,
             trails=("ellipsoid/synthesis/way", "ellipsoid/exact/way"),
-            eye=tuple(2.2 * semiaxes.max() * np.array([0.8, -0.9, 0.7])),  # type: ignore[arg-type]
+            eye=((1.8 * far, -2.0 * far, 1.5 * far), (0.0, 0.0, 0.0)),
             grid=False,
         ),
         Events("events", "events"),
@@ -55,9 +56,7 @@ def record_body(pair: Pair, path: Path) -> None:
 
 
 def _scene(title: str, entity: str) -> Scene:
-    return Scene(
-        title, entity, trails=(f"{entity}/way",), eye=(1.9, -1.9, 1.5), target=(0.0, 0.0, 0.45), grid=False
-    )
+    return Scene(title, entity, ((1.9, -1.9, 1.5), (0.0, 0.0, 0.45)), trails=(f"{entity}/way",), grid=False)
 
 
 def _spans(motion: Motion) -> list[tuple[float, float]]:

@@ -11,6 +11,7 @@ from pontryagin.recording import Events, Scene, View, record
 
 A_TURN = 60
 """Samples a turn."""
+EYE = ((0.6, -1.4, 2.2), (0.0, 0.0, 0.0))
 GREY = "#9a9a9a"
 WORDS = {"v": "speed v", "a": "energy a"}
 
@@ -21,7 +22,7 @@ def record_wheel(pair: Pair, path: Path) -> None:
     t, angle = tau / pair.epsilon, pair.exact.anomaly(tau)
     control = pair.exact.control(tau)[:, 0]
     scenes: list[View] = [
-        Scene("the angle x; red: the control", "wheel", share=3.0, eye=(0.6, -1.4, 2.2), grid=False),
+        Scene("the angle x; red: the control", "wheel", EYE, share=3.0, grid=False),
         Events("events", "events"),
     ]
     slow, rest = replay.slow_plots(pair, WORDS)

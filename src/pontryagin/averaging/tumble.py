@@ -8,11 +8,11 @@ inertia are over I_x: (1, 1, d).
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolution, solve_ivp
+from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from pontryagin import compile as compiler
@@ -22,7 +22,8 @@ from pontryagin.errors import NotConverged
 
 Array = NDArray[np.float64]
 
-STEPS = 1600
+A_TURN, FEWEST = 70, 400
+"""Samples a turn of the body, and at least."""
 AT_REST = 1e-4
 """Share of the equatorial rate at the start that is called rest: the synthesis has no value at rest."""
 GAUSS = np.array([-1.0, 1.0]) / (2 * 3**0.5) + 0.5
@@ -78,60 +79,68 @@ def synthesised(pair: Pair) -> Motion:
     """
     lx, ly, lz, d, _ = (float(number) for number in pair.averaged.numbers)
     constants = (lx, ly, d, pair.epsilon)
-    start = _rates(pair, np.zeros(1))[0]
+    start = _first_rate(pair)
     level = AT_REST * np.hypot(*start[:2])
 
     def rest(_: float, w: Array) -> float:
         return float(np.hypot(w[0], w[1]) - level)
 
     rest.terminal = True  # type: ignore[attr-defined]
-    run = solve_ivp(
-        lambda _, w: _synthesis()(*w, *constants)[0][..., 0],
-        (0.0, 2 * float(pair.averaged.duration) / pair.epsilon),
-        start,
-        method="DOP853",
-        rtol=1e-10,
-        atol=1e-12,
-        events=rest,
-        dense_output=True,
-    )
-    if run.status != 1:
-        raise NotConverged("the body does not come to rest", rest(0.0, run.y[:, -1]))
-    dense, t = cast(OdeSolution, run.sol), np.linspace(0.0, run.t[-1], STEPS + 1)
+    longest = 2 * float(pair.averaged.duration) / pair.epsilon
+    dense, last = _turned(lambda _, w: _synthesis()(*w, *constants)[0][..., 0], start, longest, rest)
+    if not last < longest:
+        raise NotConverged("the body does not come to rest", rest(0.0, dense(last)))
+    t = _times(last, start)
     control = _synthesis()(*dense(t), *constants)[1][..., 0]
-    return _motion(t, lambda times: dense(times).T, control, np.array([lx, ly, lz]), d)
+    return _motion(t, dense, control, np.array([lx, ly, lz]), d)
 
 
 def exact(pair: Pair) -> Motion:
-    """The motion on the exact extremal."""
+    """The motion under the control of the exact extremal, as a function of time."""
     *semiaxes, d, _ = (float(number) for number in pair.averaged.numbers)
-    t = np.linspace(0.0, pair.exact.duration / pair.epsilon, STEPS + 1)
-    control = pair.exact.control(_slow_times(pair, t))
-    return _motion(t, lambda times: _rates(pair, _slow_times(pair, times)), control, np.array(semiaxes), d)
+    t = _times(pair.exact.duration / pair.epsilon, _first_rate(pair))
+    control = pair.exact.control(np.minimum(pair.epsilon * t, pair.exact.duration))
+    push = CubicSpline(t, control)
+    dense, _ = _turned(
+        lambda time, w: _free()(*w, *push(time), d, pair.epsilon)[0][..., 0], _first_rate(pair), t[-1]
+    )
+    return _motion(t, dense, control, np.array(semiaxes), d)
 
 
-def _slow_times(pair: Pair, t: Array) -> Array:
-    return np.minimum(pair.epsilon * t, pair.exact.duration)
+def _times(last: float, rate: Array) -> Array:
+    turns = float(np.linalg.norm(rate)) * last / (2 * np.pi)
+    return np.linspace(0.0, last, max(FEWEST, int(np.ceil(A_TURN * turns))) + 1)
 
 
-def _rates(pair: Pair, tau: Array) -> Array:
-    """omega on the exact extremal from a, c and psi, the latter in the sense in which it turns."""
-    (a, c), psi = pair.exact.slow(tau).T, pair.exact.phase(tau)
-    sense = float(pair.averaged.numbers[-1])
-    return np.column_stack([a * np.cos(psi), sense * a * np.sin(psi), c])
+def _first_rate(pair: Pair) -> Array:
+    """omega at the start, from a, c and psi, the latter in the sense in which it turns."""
+    (a, c), psi, sense = pair.averaged.start, pair.averaged.initial_phase, pair.averaged.numbers[-1]
+    return np.array([a * np.cos(psi), sense * a * np.sin(psi), c])
 
 
-def _motion(t: Array, rate: Callable[[Array], Array], control: Array, semiaxes: Array, d: float) -> Motion:
-    moments, shown = np.array([1.0, 1.0, d]), rate(t)
+def _turned(
+    rate: Callable[[float, Array], Array], start: Array, longest: float, rest: Callable | None = None
+) -> tuple[OdeSolution, float]:
+    """omega as a function of time, (k,) to (3, k), and when it ends: at the latest, or at rest."""
+    run = solve_ivp(
+        rate, (0.0, longest), start, method="DOP853", rtol=1e-10, atol=1e-12, events=rest, dense_output=True
+    )
+    if not run.success:
+        raise NotConverged(f"the rates were not integrated past t = {run.t[-1]}", longest - run.t[-1])
+    return run.sol, float(run.t[-1])
+
+
+def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: float) -> Motion:
+    moments, shown = np.array([1.0, 1.0, d]), dense(t).T
     momentum = moments * shown[0]
     first = _upright(momentum)
-    return Motion(t, shown, control, _attitudes(t, rate, first), moments, semiaxes)
+    return Motion(t, shown, control, _attitudes(t, dense, first), moments, semiaxes)
 
 
-def _attitudes(t: Array, rate: Callable[[Array], Array], first: Rotation) -> Array:
+def _attitudes(t: Array, dense: OdeSolution, first: Rotation) -> Array:
     """Attitudes (k, 4) at times (k,) by Magnus' method of fourth order, two rates a step."""
     step = np.diff(t)
-    w = rate((t[:-1, None] + step[:, None] * GAUSS).ravel()).reshape(-1, 2, 3)
+    w = dense((t[:-1, None] + step[:, None] * GAUSS).ravel()).T.reshape(-1, 2, 3)
     mean = step[:, None] * w.sum(axis=1) / 2
     commutator = 3**0.5 / 12 * step[:, None] ** 2 * np.cross(w[:, 0], w[:, 1])
     held = [first]
@@ -160,3 +169,10 @@ def _synthesis() -> Callable[..., tuple[Array, ...]]:
     rates = body.symmetric_rates().subs(dict(zip(body.u, control, strict=True)))
     arguments = [*body.w, body.lx, body.ly, body.d, body.epsilon]
     return compiler.function("synthesis", arguments, {"rates": rates, "control": control})
+
+
+@lru_cache(maxsize=1)
+def _free() -> Callable[..., tuple[Array, ...]]:
+    """omega' as a function of omega and any control."""
+    arguments = [*body.w, *body.u, body.d, body.epsilon]
+    return compiler.function("euler", arguments, {"rates": body.symmetric_rates()})
