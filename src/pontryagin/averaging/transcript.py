@@ -80,7 +80,7 @@ def shown(told: Report) -> Report:
     columns = zip(exact["kind"], exact["cost"], exact["duration"], exact["residual"], strict=True)
     for place, (kind, cost, duration, residual) in enumerate(columns, start=1):
         if place <= SHOWN:
-            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, duration {duration:.6g}, residual {residual:.0e}"
+            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, time {duration:.6g}, residual {residual:.0e}"
     if exact["count"] > SHOWN:
         lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
     rest = {heading: quantities for heading, quantities in told.items() if heading != "exact"}
