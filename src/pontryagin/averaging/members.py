@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging.shooting import Shooting, Shot
+from pontryagin.averaging.shooting import Shooting, Shot, newton_step
 from pontryagin.errors import NotConverged
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ def members(problem: Shooting, theta: Array, guess: Array, sweeps: int = SWEEPS)
         shot, slopes = problem.slopes(theta, w)
         if (shot.error <= CLOSE).all():
             return w, shot, slopes.residual_w
-        step = -np.linalg.solve(slopes.residual_w, shot.residual[..., None])[..., 0]
+        step = newton_step(slopes.residual_w, shot.residual)
         w = _damped(problem, theta, w, step, shot.error)
     raise NotConverged("Newton's method found no extremal that ends there", float(shot.error.max()))
 
@@ -61,7 +61,7 @@ def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[f
         rate = shot.hamiltonian[0] / shot.y[0] / problem.price
         above = np.hstack([slopes.residual_w[0], slopes.residual_theta[0][:, None]])
         below = rate * np.append(slopes.y_w[0], slopes.y_theta[0])
-        step = -np.linalg.solve(np.vstack([above, below]), missing)
+        step = newton_step(np.vstack([above, below])[None], missing[None])[0]
         for share in 0.5 ** np.arange(8):
             trial = z + share * step
             try:
@@ -101,7 +101,7 @@ def chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[
     for _ in range(6):
         if (shot.error <= CLOSE).all():
             return w, shot, jacobians
-        step = -np.linalg.solve(jacobians, shot.residual[..., None])[..., 0]
+        step = newton_step(jacobians, shot.residual)
         following = problem.shoot(theta, w + step)
         if not (following.error <= np.maximum(0.3 * shot.error, CLOSE)).all():
             break

@@ -12,7 +12,7 @@ from pontryagin.averaging.family import Family, family
 from pontryagin.averaging.members import nearby_extremal
 from pontryagin.averaging.proof import Proof
 from pontryagin.averaging.refinement import crossings, turns_resolved, with_members
-from pontryagin.averaging.shooting import Shooting, Shot, shooting
+from pontryagin.averaging.shooting import Shooting, Shot, newton_step, shooting
 from pontryagin.averaging.turn import anomaly_at, phase_at
 from pontryagin.errors import NotConverged
 from pontryagin.validation import finite, positive
@@ -154,7 +154,7 @@ def _polished(
         slope[i] = slopes.along[1]
         left = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
         for _ in range(4):
-            step = -np.linalg.solve(whole, left[..., None])[..., 0]
+            step = newton_step(whole, left)
             w[i] += step[:, :n]
             theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])

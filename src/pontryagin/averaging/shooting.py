@@ -71,6 +71,14 @@ class Shot:
         return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
 
 
+def newton_step(matrices: Array, residuals: Array) -> Array:
+    """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
+    try:
+        return -np.linalg.solve(matrices, residuals[..., None])[..., 0]
+    except np.linalg.LinAlgError:
+        return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
+
+
 @dataclass(frozen=True)
 class Slopes:
     """Derivatives of residual and y of a `Shot` in w and theta."""
@@ -83,7 +91,7 @@ class Slopes:
     @property
     def along(self) -> tuple[Array, Array]:
         """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
-        w = -np.linalg.solve(self.residual_w, self.residual_theta[..., None])[..., 0]
+        w = newton_step(self.residual_w, self.residual_theta)
         return w, self.y_theta + (self.y_w * w).sum(axis=-1)
 
 
