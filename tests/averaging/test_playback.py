@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from pontryagin.averaging import kepler, playback, smooth_example, spin_down, spiral, tumble
+from pontryagin.averaging.figures.drift import drift
 from pontryagin.averaging.replay import Pair
 from pontryagin.recording import read_back
 
@@ -170,6 +171,14 @@ class TestBody:
         best = held["/rate-x/exact"]["time"][-1]
         assert 0 < 0.05 * (synthesis - best) < 0.1 * pair.exact.duration
         assert len(held["/events"]["text"]) == 3
+
+    def test_the_figure_shows_the_rates_that_are_recorded(self, pair, held):
+        panels = drift(pair.averaged, pair.exact).axes
+        for panel, names in zip(panels, (("x", "y"), ("z",)), strict=False):
+            tau, shown = panel.lines[-1].get_data()
+            rates = [held[f"/rate-{name}/exact"] for name in names]
+            known = np.sqrt(sum(rate["scalars"] ** 2 for rate in rates))
+            assert_allclose(np.interp(tau, 0.05 * rates[0]["time"], known), shown, atol=1e-3)
 
 
 def _units(vectors):

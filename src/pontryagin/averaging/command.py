@@ -114,7 +114,7 @@ def solve(
     console.file_names(plot, record, out)
     values = chosen.read(given)
     solution = asked.solve(chosen, values)
-    exact = () if small is None else _exact(solution, small, start)
+    exact = None if small is None else _exact(solution, small, start)
     _files(solution, exact, plot, record)
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
@@ -163,7 +163,7 @@ def _solve_batch(
 ) -> None:
     read, values = chosen.stack(given, path)
     solution = asked.solve(chosen, values)
-    if epsilon is not None and transcript.has_fixed_ending(solution):
+    if epsilon is not None and "peak" in values:
         raise console.Refusal(
             "--epsilon", "does not go with --batch and --peak, where the end's angle matters"
         )

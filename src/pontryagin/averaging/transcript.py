@@ -1,6 +1,6 @@
 """An averaged solution and its exact extremals in words and numbers: a table, JSON, columns of CSV."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ def transcript(
     solution: Any,
     epsilon: float | None = None,
     phase: float | None = None,
-    exact: Sequence[Any] = (),
+    exact: Any = None,
 ) -> Report:
     """One solution as headings with their quantities, named as the attributes of the library.
 
@@ -31,8 +31,9 @@ def transcript(
         With it the correction is told, and the exact extremals.
     phase : float, optional
         Phase at the start.
-    exact : sequence of Extremal
-        Best first.
+    exact : Extremals, optional
+        Best first; beside epsilon. Where they leave no choice of the anomaly at the end, the correction is
+        that for the best one's.
 
     Examples
     --------
@@ -55,9 +56,9 @@ def transcript(
         },
         "certificate": {name: getattr(solution.certificate, name) for name in PROOF},
     }
-    if epsilon is None:
+    if epsilon is None or exact is None:
         return told
-    correction = solution.correction(phase, _ending(solution, exact))
+    correction = solution.correction(phase, exact[0].ending_anomaly if exact.family is None else None)
     told["corrected"] = {"correction": correction, "cost": solution.cost + epsilon * correction}
     told["exact"] = {
         "count": len(exact),
@@ -70,18 +71,6 @@ def transcript(
     return told
 
 
-def _ending(solution: Any, exact: Sequence[Any]) -> float | None:
-    """The anomaly at the end where the correction asks for it: that of the exact trajectory."""
-    return exact[0].ending_anomaly if exact and has_fixed_ending(solution) else None
-
-
-def has_fixed_ending(solution: Any) -> bool:
-    """Whether the trajectory leaves no choice of its ending anomaly, with which the correction varies."""
-    from pontryagin.averaging.correction import fixed_ending
-
-    return fixed_ending(solution.system)
-
-
 def shown(told: Report) -> Report:
     """The same for a table: an extremal a line, the best `SHOWN` of them."""
     if "exact" not in told:
@@ -91,7 +80,7 @@ def shown(told: Report) -> Report:
     columns = zip(exact["kind"], exact["cost"], exact["duration"], exact["residual"], strict=True)
     for place, (kind, cost, duration, residual) in enumerate(columns, start=1):
         if place <= SHOWN:
-            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, duration {duration:.8g}, residual {residual:.0e}"
+            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, time {duration:.6g}, residual {residual:.0e}"
     if exact["count"] > SHOWN:
         lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
     rest = {heading: quantities for heading, quantities in told.items() if heading != "exact"}

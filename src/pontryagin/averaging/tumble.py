@@ -8,6 +8,7 @@ inertia are over I_x: (1, 1, d).
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,7 +128,7 @@ def _turned(
     )
     if not run.success:
         raise NotConverged(f"the rates were not integrated past t = {run.t[-1]}", longest - run.t[-1])
-    return run.sol, float(run.t[-1])
+    return cast(OdeSolution, run.sol), float(run.t[-1])
 
 
 def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: float) -> Motion:
