@@ -237,8 +237,9 @@ def _runge_kutta(
             rows.extend(np.reshape(result.y, (len(whole), -1)).T)
             if result.status == 0:
                 return np.array(rows)
-            i = next(i for i, found in enumerate(result.t_events) if len(found))
-            now, whole = float(result.t_events[i][0]), result.y_events[i][0].copy()
+            instants, there = result.t_events or [], result.y_events or []
+            i = next(i for i, found in enumerate(instants) if len(found))
+            now, whole = float(instants[i][0]), there[i][0].copy()
             if wrt:
                 whole[n:] = switches.jump(i, now, whole, values, signs).ravel()
             signs = np.where(np.arange(len(modes)) == i, -signs, signs)

@@ -86,7 +86,7 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
         rtol=1e-10,
         atol=1e-12,
     )
-    if not flown.success or flown.t_events[0].size == 0:
+    if not flown.success or not flown.t_events or flown.t_events[0].size == 0:
         raise NotConverged(f"the body did not stop: {flown.message}", float(np.hypot(*flown.y[:2, -1])))
     control = np.stack(np.broadcast_arrays(*_control()(*flown.y, *axes)), axis=-1)
     return Braking(epsilon * flown.t, flown.y.T, control)

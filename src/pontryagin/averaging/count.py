@@ -86,7 +86,8 @@ def _border(solution: AveragedSolution, sense: int) -> float:
             step /= 2
             continue
         if reached <= 0:
-            return float(brentq(distance, *sorted((inside, inside + step)), xtol=1e-13))
+            low, high = sorted((inside, inside + step))
+            return float(brentq(distance, low, high, xtol=1e-13))
         inside += step
     raise NotConverged("the averaged family ends before h* keeps one sign", distance(inside))
 

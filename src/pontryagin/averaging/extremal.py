@@ -126,6 +126,19 @@ class Extremals(Sequence[Extremal]):
     phase: float
     family: Family | None
 
+    @property
+    def traced(self) -> Family:
+        """The family.
+
+        Raises
+        ------
+        ValueError
+            If there is none, as where the least time of one slow variable leaves no choice of the end.
+        """
+        if self.family is None:
+            raise ValueError("these extremals have no family over the ending anomaly")
+        return self.family
+
     @overload
     def __getitem__(self, index: int) -> Extremal: ...
 

@@ -67,8 +67,8 @@ class Family:
         keep = (self.theta >= low) & (self.theta <= high)
         lower, upper = self.limits
         limits = (lower if keep[0] else "no solution", upper if keep[-1] else "no solution")
-        columns = (getattr(self, name)[keep] for name in ("theta", "unknowns", *VALUES))
-        return Family(*columns, self.centre, limits)
+        kept = {name: getattr(self, name)[keep] for name in ("theta", "unknowns", *VALUES)}
+        return Family(**kept, centre=self.centre, limits=limits)
 
 
 @dataclass(frozen=True)
@@ -102,12 +102,13 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, theta, size, 1)
     turns = [*reversed(below), first, *above]
     shots = [turn.shot for turn in turns]
+    values = {name: np.concatenate([getattr(shot, name) for shot in shots]) for name in VALUES}
     traced = Family(
-        np.concatenate([turn.theta for turn in turns]),
-        np.concatenate([turn.unknowns for turn in turns]),
-        *(np.concatenate([getattr(shot, name) for shot in shots]) for name in VALUES),
-        theta,
-        (lower, upper),
+        theta=np.concatenate([turn.theta for turn in turns]),
+        unknowns=np.concatenate([turn.unknowns for turn in turns]),
+        **values,
+        centre=theta,
+        limits=(lower, upper),
     )
     return _unbroken(traced, float(problem.parameters[0]))
 
@@ -130,7 +131,7 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[_Turn
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
     """Anomalies of the members of a turn, counted from the one about theta; those after the start."""
     step = 2 * np.pi / size
-    angles = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2)
+    angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
     return angles[angles > problem.anomaly + step / 2]
 
 
@@ -185,7 +186,7 @@ def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int
     try:
         if weights is None:
             raise NotConverged("no turn before", np.inf)
-        guess = sum(weight * w for weight, w in zip(weights, guesses, strict=True))
+        guess = np.einsum("i,i...->...", np.array(weights), np.array(guesses))
         jacobians = past[-1].jacobians[size - len(angles) :]
         return _Turn(angles, *chord(problem, angles, guess, jacobians), ends)
     except NotConverged:

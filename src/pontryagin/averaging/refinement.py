@@ -84,8 +84,10 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
     order = np.argsort(np.concatenate([current.theta, theta]), kind="stable")
     added = [theta, unknowns, *(getattr(shot, name) for name in VALUES)]
     names = ("theta", "unknowns", *VALUES)
-    joined = (np.concatenate([getattr(current, n), new])[order] for n, new in zip(names, added, strict=True))
-    return Family(*joined, current.centre, current.limits)
+    joined = {
+        n: np.concatenate([getattr(current, n), new])[order] for n, new in zip(names, added, strict=True)
+    }
+    return Family(**joined, centre=current.centre, limits=current.limits)
 
 
 def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float) -> tuple[Array, Shot]:

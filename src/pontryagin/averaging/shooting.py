@@ -74,7 +74,8 @@ class Shot:
 def newton_step(matrices: Array, residuals: Array) -> Array:
     """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
     try:
-        return -np.linalg.solve(matrices, residuals[..., None])[..., 0]
+        solved: Array = np.linalg.solve(matrices, residuals[..., None])[..., 0]
+        return -solved
     except np.linalg.LinAlgError:
         return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
 

@@ -1,8 +1,9 @@
 """Solutions of the first approximation, (2.17)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,9 @@ from pontryagin.averaging.solve import extremals
 from pontryagin.averaging.turn import anomaly_at, phase_at
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.validation import finite, times, vectors
+
+if TYPE_CHECKING:
+    from pontryagin.averaging.extremal import Extremals
 
 Array = NDArray[np.float64]
 
@@ -133,7 +137,7 @@ class AveragedSolution:
 
         return correction(self, self.initial_phase if phase is None else phase, ending)
 
-    def exact(self, epsilon: float, phase: float | None = None) -> Sequence:
+    def exact(self, epsilon: float, phase: float | None = None) -> "Extremals":
         """All extremals of the unaveraged problem around the optimum, best first; one problem only.
 
         Parameters

@@ -55,7 +55,7 @@ def landscape(solution: AveragedSolution, epsilons: Sequence[float]) -> Figure:
 
 def curve(found: Extremals) -> tuple[Array, Array]:
     """End time and cost along the exact family, sampled finely."""
-    family = found.family
+    family = found.traced
     theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
     tau, cost = (CubicSpline(family.theta, column)(theta) for column in (family.duration, family.cost))
     return tau, cost
@@ -63,7 +63,7 @@ def curve(found: Extremals) -> tuple[Array, Array]:
 
 def kappa_at(found: Extremals, end: int) -> float:
     """kappa of the exact family's first or last turn: minus the mean of y over it."""
-    family = found.family
+    family = found.traced
     edge = family.theta[end]
     turn = np.abs(family.theta - edge) <= 2 * np.pi
     return -float(np.trapezoid(family.y[turn], family.theta[turn]) / np.ptp(family.theta[turn]))

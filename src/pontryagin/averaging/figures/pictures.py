@@ -94,7 +94,7 @@ def _extremals(epsilon: float) -> Extremals:
 
 def _family(found: Extremals) -> tuple[Array, Array, Array, Array]:
     """tau_1, h*, its mean and J, sampled finely along the family."""
-    family = found.family
+    family = found.traced
     theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
     tau, y, cost, multiplier = (
         CubicSpline(family.theta, values)(theta)
