@@ -74,8 +74,7 @@ class Shot:
 def newton_step(matrices: Array, residuals: Array) -> Array:
     """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
     try:
-        solved: Array = np.linalg.solve(matrices, residuals[..., None])[..., 0]
-        return -solved
+        return -np.linalg.solve(matrices, residuals[..., None])[..., 0].astype(np.float64)
     except np.linalg.LinAlgError:
         return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
 
