@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin import compile as compiler
 from pontryagin.averaging.modes import Modes
 from pontryagin.errors import NotConverged
-from pontryagin.flow import STEPS, TOLERANCE, Ends, Flow, has_heyoka, heyoka_system
+from pontryagin.flow import STEPS, TOLERANCE, Ends, Flow, has_heyoka, heyoka_system, with_floats
 
 Array = NDArray[np.float64]
 
@@ -177,7 +177,10 @@ def _taylor(
         tol=TOLERANCE,
         pars=np.ones(p + len(modes)),
         compact_mode=True,
-        t_events=[hy.t_event(hy.from_sympy(s, table), callback=flip(i)) for i, s in enumerate(functions)],
+        t_events=[
+            hy.t_event(hy.from_sympy(with_floats(s), table), callback=flip(i))
+            for i, s in enumerate(functions)
+        ],
     )
     identity = np.array(integrator.state[n:])
 
