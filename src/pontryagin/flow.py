@@ -208,9 +208,7 @@ def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Fl
 
 
 @functools.lru_cache(maxsize=64)
-def _taylor_ends(
-    states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float
-):
+def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float):
     import heyoka as hy
 
     system, table = heyoka_system(states, rates, parameters, clock)

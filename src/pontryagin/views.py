@@ -54,7 +54,7 @@ class Plot(View):
 
     Attributes
     ----------
-    limits : (lowest, highest), optional
+    span : (lowest, highest), optional
         Of the values shown; by default rerun chooses, and shows the noise of what is constant.
     whole : bool
         Whether all times are shown, and not the present with what is about it.
@@ -62,7 +62,7 @@ class Plot(View):
         Corner of the legend, in rerun's names.
     """
 
-    limits: tuple[float, float] | None = None
+    span: tuple[float, float] | None = None
     whole: bool = False
     legend: str = "RightTop"
 
@@ -91,8 +91,8 @@ def _panel(view: View) -> Any:
 
     place: dict[str, Any] = {"origin": view.entity, "name": view.title}
     match view:
-        case Plot(limits=limits, whole=whole, legend=legend):
-            values = None if limits is None else rrb.ScalarAxis(range=limits)
+        case Plot(span=span, whole=whole, legend=legend):
+            values = None if span is None else rrb.ScalarAxis(range=span, zoom_lock=True)
             everything = rrb.TimeRange(rrb.TimeRangeBoundary.infinite(), rrb.TimeRangeBoundary.infinite())
             times = rrb.TimeAxis(view_range=everything) if whole else None
             return rrb.TimeSeriesView(

@@ -108,7 +108,23 @@ def test_the_pendulums_frequency_is_an_elliptic_integral():
     np.testing.assert_allclose(omega.value, np.array(exact, dtype=float), rtol=1e-12)
 
 
+MOVING = {
+    name: PhaseSystem(
+        f=[u * (1 + sp.cos(x) / 2) - a * b / 4, w + u * sp.sin(x) + a / 3],
+        omega=1 + a**2,
+        control_set=control_set,
+        slow=[a, b],
+        control=[u, w],
+        phase=x,
+        target=[a - 2],
+        weight=1 + sp.cos(x) / 3,
+    )
+    for name, control_set in {"moving box": Box([2, 1]), "moving bounded": BoundedQuadratic(1)}.items()
+}
+"""Systems whose switches move with the costates."""
+
 MODELS = {
+    **{name: (system.model, (), [0.8, 0.4, 0.9, -1.1]) for name, system in MOVING.items()},
     **{name: (system.model, (), [1.7, 0.8]) for name, system in SYSTEMS.items()},
     "kepler": (kepler(-0.5, 0.8, -0.3, 0.1).model, (-0.3, 0.1), [-0.4, 0.9, 0.7, -0.2]),
     "body": (spin_down([3, 4, 2], [1, 0.7, 0.4], 0.5).model, (1, 0.7, 0.4, 0.5, -1), [0.7, 1.2, -0.5, 0.3]),

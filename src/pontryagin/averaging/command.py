@@ -163,4 +163,8 @@ def _solve_batch(
 ) -> None:
     read, values = chosen.stack(given, path)
     solution = asked.solve(chosen, values)
+    if epsilon is not None and transcript.has_fixed_ending(solution):
+        raise console.Refusal(
+            "--epsilon", "does not go with --batch and --peak, where the end's angle matters"
+        )
     console.emit("--out", out, rows.to_csv(read, transcript.answers(solution, epsilon, phase)))

@@ -29,7 +29,12 @@ CANDIDATES = 4
 
 
 def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> Array:
-    """J1 of J* = J0 + epsilon J1 + O(epsilon^2), (...).
+    """J1 of J* = J0 + epsilon J1 + O(epsilon^2), (...): the sum of its `parts`."""
+    return np.add.reduce(np.broadcast_arrays(*parts(solution, phase, ending).values()))
+
+
+def parts(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> dict[str, Array]:
+    """What J1 is the sum of: the terms of the start, of the end, and of the way between, (...) each.
 
     Parameters
     ----------
@@ -40,6 +45,11 @@ def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> A
     ending : (...) array, optional
         Anomaly at the end; by default the one that makes J1 least, which the optimum finds. Where the
         control leaves no choice of it (`fixed_ending`) it must be given, and J1 varies with it.
+
+    Returns
+    -------
+    dict
+        ``start``, ``end`` and ``way``; ``way`` vanishes for systems that a reversal of the anomaly reverses.
 
     Raises
     ------
@@ -61,8 +71,8 @@ def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> A
     equations = canonical(held.system)
     last = None if ending is None else finite("ending", ending, "a number or an array (...)")
     first, best = _ends(held, equations, start, last)
-    along = _settled(lambda size: _integral(held, equations, size), "the mean Hamiltonian")
-    return first - best - along
+    way = _settled(lambda size: _integral(held, equations, size), "the mean Hamiltonian")
+    return {"start": first, "end": -best, "way": -way}
 
 
 def fixed_ending(system) -> bool:
@@ -120,7 +130,7 @@ def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] =
 
 
 def _at(held, equations: Canonical, tau: Array, size: int) -> Array:
-    """k1, k2, 1/r, dk1/dp and dk1/da at slow times (..., k) on `size` points of a turn: (..., k, size, 3 + 2n)."""
+    """k1, k2, 1/r, dk1/dp, dk1/da at times (..., k) on `size` points of a turn: (..., k, size, 3 + 2n)."""
     a, p = held.slow(tau), held.costate(tau)
     z = np.moveaxis(np.concatenate([a, p], axis=-1), -1, 0)[..., None]
     numbers = [np.asarray(number)[..., None, None] for number in held.numbers]

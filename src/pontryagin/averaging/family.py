@@ -143,8 +143,9 @@ def _turn_about(problem: Shooting, theta: float, unknowns: Array, angles: Array,
         middle = members(problem, angles[[centre]], unknowns[None])
         up = list(march(problem, angles[centre], middle, angles[centre + 1 :]))
         down = list(march(problem, angles[centre], middle, angles[:centre][::-1]))
-        above = "" if centre + len(up) == len(angles) - 1 else "no solution"
-        below = below if len(down) == centre else _short_of(problem, angles[centre - len(down)])
+        above = "" if _complete(up, angles[centre + 1 :]) else "no solution"
+        if not _complete(down, angles[:centre][::-1]):
+            below = _short_of(problem, float(down[-1][0][0]) if down else angles[centre])
         return _joined([*reversed(down), (angles[[centre]], *middle), *up], (below, above))
 
 
@@ -193,10 +194,14 @@ def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int
         marched = list(march(problem, float(last.theta[end]), edge, angles[::sense]))
         if not marched:
             return None
-        if len(marched) < len(angles):
+        if not _complete(marched, angles[::sense]):
             reached = float(marched[-1][0][0])
             ends = (_short_of(problem, reached), "") if sense < 0 else ("", "no solution")
         return _joined(marched[::sense], ends)
+
+
+def _complete(marched: list, angles: Array) -> bool:
+    return len(angles) == 0 or (len(marched) > 0 and marched[-1][0][0] == angles[-1])
 
 
 def _short_of(problem: Shooting, theta: float) -> str:

@@ -28,7 +28,7 @@ def low_thrust_spiral(path: Path) -> None:
     A spacecraft raises the energy E of its orbit by weak thrust, at the least price of time and thrust.
     Blue: the exact optimum, on the ellipse it would keep if the thrust stopped; black: its path. Orange: the
     averaged optimum, which does not know where on its ellipse the spacecraft is. Grey: first and last
-    ellipse.
+    ellipse. The costate of the anomaly swings about zero and ends there, which makes the end's place best.
     """
     solution = kepler(E0=-0.5, K0=0.95, E1=-0.2, l=0.1)
     record_solution(solution, solution.exact(0.01)[0], path)
@@ -61,8 +61,10 @@ def record_solution(solution: AveragedSolution, exact: Extremal, path: Path) -> 
     Raises
     ------
     ValueError
-        If the solution is that of a stack.
+        If the solution is that of a stack, or not of an example of the paper.
     """
-    {("E", "K"): record_orbit, ("a", "c"): record_body}.get(solution.names, record_wheel)(
-        Pair(solution, exact), path
-    )
+    scenes: dict[tuple[str, ...], Callable[[Pair, Path], None]]
+    scenes = {("E", "K"): record_orbit, ("a", "c"): record_body, ("v",): record_wheel, ("a",): record_wheel}
+    if solution.names not in scenes:
+        raise ValueError(f"solution must be that of an example of the paper, got one in {solution.names}")
+    scenes[solution.names](Pair(solution, exact), path)

@@ -21,7 +21,10 @@ def record_body(pair: Pair, path: Path) -> None:
     """Record the motion under the averaged synthesis and that on the exact extremal."""
     motions = {"synthesis": tumble.synthesised(pair), "exact": tumble.exact(pair)}
     size = float(np.abs(motions["exact"].rate).max())
-    scenes: list[View] = [_scene("averaged synthesis", "synthesis"), _scene("exact optimum", "exact")]
+    scenes: list[View] = [
+        _scene(f"inertial axes, epsilon = {pair.epsilon:g}: averaged synthesis", "synthesis"),
+        _scene(f"inertial axes, epsilon = {pair.epsilon:g}: exact optimum", "exact"),
+    ]
     semiaxes = motions["exact"].semiaxes
     control: list[View] = [
         Scene(
@@ -36,10 +39,10 @@ def record_body(pair: Pair, path: Path) -> None:
     ]
     plots: list[View] = [
         *(
-            Plot(f"angular velocity about the body's {name} axis", f"rate-{name}", limits=limits, whole=True)
-            for name, limits in zip(COMPONENTS, _limits(motions["exact"]), strict=True)
+            Plot(f"angular velocity about the body's {name} axis", f"rate-{name}", span=span, whole=True)
+            for name, span in zip(COMPONENTS, _spans(motions["exact"]), strict=True)
         ),
-        Plot("form of the ellipsoid: 1 on it", "form", limits=(0.0, 1.25), whole=True),
+        Plot("form of the ellipsoid: 1 on it", "form", span=(0.0, 1.25), whole=True),
     ]
     layout = [scenes, control, plots]
     with record(path, "spin-down", layout, pair.speed, (3, 3, 3)) as recording:
@@ -52,16 +55,16 @@ def record_body(pair: Pair, path: Path) -> None:
 
 
 def _scene(title: str, entity: str) -> Scene:
-    words = f"{title}: angular velocity green, angular momentum purple, torque red"
     return Scene(
-        words, entity, trails=(f"{entity}/way",), eye=(2.6, -2.6, 1.9), target=(0.0, 0.0, 0.5), grid=False
+        title, entity, trails=(f"{entity}/way",), eye=(1.9, -1.9, 1.5), target=(0.0, 0.0, 0.45), grid=False
     )
 
 
-def _limits(motion: Motion) -> list[tuple[float, float]]:
+def _spans(motion: Motion) -> list[tuple[float, float]]:
     most = 1.15 * float(np.abs(motion.rate[:, :2]).max())
-    along = sorted((0.0, 1.25 * float(motion.rate[np.argmax(np.abs(motion.rate[:, 2])), 2])))
-    return [(-most, most), (-most, most), (along[0], along[1])]
+    along = motion.rate[:, 2]
+    margin = 0.1 * float(np.abs(along).max())
+    return [(-most, most), (-most, most), (float(along.min()) - margin, float(along.max()) + margin)]
 
 
 def _space(recording: Recording, name: str, motion: Motion, size: float) -> None:
@@ -69,14 +72,18 @@ def _space(recording: Recording, name: str, motion: Motion, size: float) -> None
     edges = np.array([1.0, 1.0, np.sqrt(max(2 / d - 1, 0.01))])
     recording.body(f"{name}/body", t, motion.attitude, 0.9 * edges / edges.max())
     axis = motion.in_space(np.array([0.0, 0.0, LONG * np.sign(motion.rate[0, 2])]))
-    recording.arrow(f"{name}/axis", t, axis, INK)
+    recording.arrow(f"{name}/axis", t, axis, INK, label="axis")
     recording.trail(f"{name}/way", t, axis, INK, 0.8)
-    recording.arrow(f"{name}/velocity", t, motion.in_space(motion.rate) * LONG / size, GREEN)
+    recording.arrow(
+        f"{name}/velocity", t, motion.in_space(motion.rate) * LONG / size, GREEN, label="velocity"
+    )
     momentum = motion.angular_momentum
-    recording.arrow(f"{name}/momentum", t, momentum * LONG / np.linalg.norm(momentum[0]), PURPLE)
+    recording.arrow(
+        f"{name}/momentum", t, momentum * LONG / np.linalg.norm(momentum[0]), PURPLE, label="momentum"
+    )
     torque = motion.in_space(motion.moments * motion.control)
     longest = float(np.linalg.norm(torque, axis=-1).max())
-    recording.arrow(f"{name}/torque", t, torque * 0.7 / longest, RED, axis * 0.0)
+    recording.arrow(f"{name}/torque", t, torque * 0.7 / longest, RED, label="torque")
 
 
 def _control(recording: Recording, name: str, motion: Motion, colour: str) -> None:
@@ -100,5 +107,5 @@ def _curves(recording: Recording, name: str, motion: Motion, colour: str) -> Non
 def _arrivals(recording: Recording, pair: Pair, synthesis: Motion) -> None:
     replay.arrivals(recording, pair)
     duration = float(synthesis.t[-1])
-    words = f"under the synthesis the precession is gone at t = {duration:.2f}"
-    recording.event("events", duration, f"{words}, slow time {pair.epsilon * duration:.6f}")
+    words = f"t = {duration:.2f}: synthesis arrives, cost {pair.epsilon * duration:.6f}"
+    recording.event("events", duration, words)

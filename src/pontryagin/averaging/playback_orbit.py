@@ -13,6 +13,7 @@ from pontryagin.recording import Events, Recording, Scene, View, record
 POINTS = 97
 """Points of an ellipse as drawn."""
 GREY = "#b8b8b8"
+WORDS = {"E": "energy E", "K": "angular momentum K"}
 
 
 def record_orbit(pair: Pair, path: Path) -> None:
@@ -23,7 +24,7 @@ def record_orbit(pair: Pair, path: Path) -> None:
     middle = float(lines[..., 0].min() + lines[..., 0].max()) / 2
     scenes: list[View] = [
         Scene(
-            f"the orbit at epsilon = {pair.epsilon:g}: exact blue, averaged orange",
+            f"epsilon = {pair.epsilon:g}: exact blue, averaged orange",
             "orbit",
             share=3.5,
             trails=("orbit/flown",),
@@ -33,11 +34,13 @@ def record_orbit(pair: Pair, path: Path) -> None:
         ),
         Events("events", "events"),
     ]
-    plots: list[View] = [
-        *replay.slow_plots(pair),
-        replay.panel("control u, the thrust being epsilon u", "thrust", "LeftTop"),
+    slow, rest = replay.slow_plots(pair, WORDS)
+    columns = [
+        scenes,
+        slow,
+        [*rest, replay.panel("control u; the thrust is epsilon u", "thrust", "LeftBottom")],
     ]
-    with record(path, "low-thrust spiral", [scenes, plots], pair.speed, (3, 2)) as recording:
+    with record(path, "low-thrust spiral", columns, pair.speed, (5, 3, 3)) as recording:
         _scene(recording, pair, flight, reach)
         replay.slow_curves(recording, pair, flight.tau)
         t = flight.tau / pair.epsilon

@@ -6,12 +6,13 @@ import numpy as np
 
 from pontryagin.averaging import replay
 from pontryagin.averaging.replay import Pair
-from pontryagin.plotting import GREEN, RED
+from pontryagin.plotting import RED
 from pontryagin.recording import Events, Scene, View, record
 
 A_TURN = 60
 """Samples a turn."""
-RADIUS = 1.0
+GREY = "#9a9a9a"
+WORDS = {"v": "speed v", "a": "energy a"}
 
 
 def record_wheel(pair: Pair, path: Path) -> None:
@@ -20,17 +21,19 @@ def record_wheel(pair: Pair, path: Path) -> None:
     t, angle = tau / pair.epsilon, pair.exact.anomaly(tau)
     control = pair.exact.control(tau)[:, 0]
     scenes: list[View] = [
-        Scene("the wheel, turned by the anomaly x; control red", "wheel", share=3.0, eye=(1.5, -2.5, 2.5)),
+        Scene("the angle x; red: the control", "wheel", share=3.0, eye=(0.6, -1.4, 2.2), grid=False),
         Events("events", "events"),
     ]
-    plots: list[View] = [*replay.slow_plots(pair), replay.panel("control u", "control")]
-    with record(path, "wheel", [scenes, plots], pair.speed) as recording:
+    slow, rest = replay.slow_plots(pair, WORDS)
+    columns = [scenes, slow, [*rest, replay.panel("control u", "control")]]
+    with record(path, "wheel", columns, pair.speed, (5, 3, 3)) as recording:
+        spoke = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(len(t))])
         attitude = np.column_stack([np.cos(angle / 2), np.zeros((len(t), 2)), np.sin(angle / 2)])
-        recording.body("wheel/bar", t, attitude, (2 * RADIUS, 0.2, 0.1))
-        spoke = RADIUS * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(len(t))])
+        rim = np.linspace(0, 2 * np.pi, 121)
+        recording.path("wheel/rim", np.column_stack([np.cos(rim), np.sin(rim), np.zeros(rim.size)]), GREY)
+        recording.body("wheel/spoke", t, attitude, (1.0, 0.08, 0.05), spoke / 2)
         across = np.column_stack([-np.sin(angle), np.cos(angle), np.zeros(len(t))])
-        recording.arrow("wheel/mark", t, spoke, GREEN)
-        push = across * control[:, None] * 0.7 * RADIUS / max(np.abs(control).max(), np.finfo(float).tiny)
+        push = across * control[:, None] * 0.7 / max(np.abs(control).max(), np.finfo(float).tiny)
         recording.arrow("wheel/control", t, push, RED, spoke)
         replay.slow_curves(recording, pair, tau)
         recording.curve("control/exact", t, control, "exact", replay.EXACT)

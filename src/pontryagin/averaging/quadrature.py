@@ -83,7 +83,10 @@ def smooth_mean(
 
 
 def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArray[np.float64]:
-    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns)."""
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns).
+
+    Where intervals become so short that the density is known to fewer digits, fewer are asked for.
+    """
     nodes, weights = _gauss(16)
     point = np.repeat(np.arange(points), PARTS)
     low = np.tile(np.arange(PARTS) / PARTS, points)
@@ -98,13 +101,13 @@ def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArra
     scale = np.zeros((points, size.shape[1]))
     np.add.at(scale, point, size)
     result = np.zeros_like(scale)
-    for _ in range(HALVINGS):
+    for halving in range(HALVINGS):
+        asked = ROUNDING if halving < HALVINGS // 2 else FALL * HALF_DIGITS
         first, _ = integral(point, low, length / 2)
         second, _ = integral(point, low + length / 2, length / 2)
         change = np.abs(first + second - value)[:, judged]
         own = scale[point][:, judged]
-        allowed = np.maximum(HALF_DIGITS * own, ROUNDING * own.max(axis=-1, keepdims=True))
-        settled = (change <= FALL * allowed).all(axis=-1)
+        settled = (change <= asked * np.maximum(own, own.max(axis=-1, keepdims=True))).all(axis=-1)
         np.add.at(result, point[settled], (first + second)[settled])
         more = ~settled
         if not more.any():

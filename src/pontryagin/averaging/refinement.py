@@ -70,6 +70,9 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
     NotConverged
         If one of them is not found.
     """
+    theta = theta[np.abs(theta[:, None] - current.theta).min(axis=1) > 1e-9]
+    if len(theta) == 0:
+        return current
     left = np.clip(np.searchsorted(current.theta, theta, side="right") - 1, 0, len(current.theta) - 2)
     guess = interpolated(current, current.unknowns, left, theta)
     try:
@@ -88,8 +91,9 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
 def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float) -> tuple[Array, Shot]:
     near = left if angle - current.theta[left] < current.theta[left + 1] - angle else left + 1
     edge = members(problem, current.theta[[near]], current.unknowns[[near]])
-    for _, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
-        return unknowns, shot
+    for reached, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
+        if reached[0] == angle:
+            return unknowns, shot
     raise NotConverged("a member of the family was not found between its neighbours", float(np.abs(angle)))
 
 

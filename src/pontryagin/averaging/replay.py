@@ -3,6 +3,7 @@
 Time is t = tau/epsilon. The averaged extremal is orange, the exact one blue.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.plotting import BLUE, GREEN, ORANGE, PURPLE
-from pontryagin.recording import Plot, Recording
+from pontryagin.recording import Plot, Recording, View
 
 Array = NDArray[np.float64]
 
@@ -68,19 +69,17 @@ class Pair:
         return CubicSpline(self.grid, rate).antiderivative()(self.grid)
 
 
-def panel(title: str, entity: str, legend: str = "RightTop") -> Plot:
+def panel(title: str, entity: str, legend: str = "LeftTop") -> Plot:
     """A plot over all times."""
     return Plot(title, entity, whole=True, legend=legend)
 
 
-def slow_plots(pair: Pair) -> list[Plot]:
-    """A panel of the slow variables, and those of their differences, the cost and the anomaly's costate."""
-    names = " and ".join(pair.averaged.names)
-    return [
-        panel(f"slow variables {names}", "slow", "LeftTop"),
-        panel("exact less averaged, over epsilon", "difference", "LeftTop"),
-        panel("cost so far", "cost", "LeftTop"),
-        panel("costate of the anomaly over epsilon: 0 on average and at the end", "costate", "LeftTop"),
+def slow_plots(pair: Pair, words: Mapping[str, str]) -> tuple[list[View], list[View]]:
+    """Two columns: the slow variables and their differences; the cost and the anomaly's costate."""
+    slow = [panel(words[name], f"slow-{name}") for name in pair.averaged.names]
+    return [*slow, panel("exact less averaged, over epsilon", "difference")], [
+        panel("cost so far", "cost"),
+        panel("costate of the anomaly over epsilon", "costate", "LeftBottom"),
     ]
 
 
@@ -89,13 +88,12 @@ def slow_curves(recording: Recording, pair: Pair, tau: Array) -> None:
     averaged, exact = pair.averaged.slow(pair.grid), pair.exact.slow(tau)
     both = tau[tau <= float(pair.averaged.duration)]
     apart = (exact[: len(both)] - pair.averaged.slow(both)) / pair.epsilon
-    curves = {f"slow/{n}-": (averaged[:, i], exact[:, i], f"{n} ") for i, n in enumerate(pair.averaged.names)}
-    curves["cost/"] = (pair.averaged_cost(), pair.exact.spent(tau), "")
-    costate = pair.exact.phase_costate(tau) / pair.epsilon
-    curves["costate/"] = (np.zeros(len(pair.grid)), costate, "")
-    for entity, (first, second, name) in curves.items():
-        recording.curve(f"{entity}averaged", pair.grid / pair.epsilon, first, f"{name}averaged", AVERAGED)
-        recording.curve(f"{entity}exact", tau / pair.epsilon, second, f"{name}exact", EXACT)
+    curves = {f"slow-{name}": (averaged[:, i], exact[:, i]) for i, name in enumerate(pair.averaged.names)}
+    curves["cost"] = (pair.averaged_cost(), pair.exact.spent(tau))
+    curves["costate"] = (np.zeros(len(pair.grid)), pair.exact.phase_costate(tau) / pair.epsilon)
+    for entity, (first, second) in curves.items():
+        recording.curve(f"{entity}/averaged", pair.grid / pair.epsilon, first, "averaged", AVERAGED)
+        recording.curve(f"{entity}/exact", tau / pair.epsilon, second, "exact", EXACT)
     for name, values, colour in zip(pair.averaged.names, apart.T, (GREEN, PURPLE), strict=False):
         recording.curve(f"difference/{name}", both / pair.epsilon, values, name, colour)
 
@@ -108,4 +106,4 @@ def arrivals(recording: Recording, pair: Pair) -> None:
     }
     for name, (duration, cost) in sorted(arrived.items(), key=lambda item: item[1]):
         t = duration / pair.epsilon
-        recording.event("events", t, f"{name} extremal arrives at t = {t:.2f}, cost {cost:.6f}")
+        recording.event("events", t, f"t = {t:.2f}: {name} arrives, cost {cost:.6f}")

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.averaging.extremal import Extremal, Extremals
 from pontryagin.averaging.family import Family, family
+from pontryagin.averaging.members import nearby_extremal
 from pontryagin.averaging.proof import Proof
 from pontryagin.averaging.refinement import crossings, turns_resolved, with_members
 from pontryagin.averaging.shooting import Shooting, Shot, shooting
@@ -19,6 +20,8 @@ Array = NDArray[np.float64]
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""
+SLACK = 1e-6
+"""How far beyond its bracket a root may lie: members, and their signs, are not polished."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,10 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
     problem = shooting(held, float(small), float(start))
     centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
     guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
-    traced, found = roots(problem, family(problem, centre, guess))
+    try:
+        traced, found = roots(problem, family(problem, centre, guess))
+    except NotConverged:
+        traced, found = roots(problem, family(problem, *nearby_extremal(problem, centre, guess)))
     proof = Proof(problem, found.shot)
 
     def phase_of(slow: Array, anomaly: Array) -> Array:
@@ -95,31 +101,29 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
         If y1 does not vanish in the window, or a bracketed root is not found.
     """
     current = turns_resolved(problem, traced)
-    if not (current.y[:-1] * current.y[1:] <= 0).any():
+    if len(_sign_changes(current)) == 0:
         raise NotConverged("the phase's costate does not vanish in the window", float(np.abs(traced.y).min()))
     found: list[Roots] = []
+    solved = np.empty(0)
     for _ in range(10):
-        at = _open_brackets(current, found)
+        at = _sign_changes(current)
+        at = at[~np.isin(current.theta[at], solved)]
         if len(at) == 0:
             return current, _sorted(found)
+        low, high = current.theta[at], current.theta[at + 1]
         theta, unknowns = crossings(current, at)
-        reached, good = _polished(
-            problem, theta, unknowns, current.theta[at], current.theta[at + 1], current.y
-        )
+        reached, good = _polished(problem, theta, unknowns, low, high, current.y)
         found.append(reached)
+        solved = np.append(solved, low[good])
         if not good.all():
             current = with_members(problem, current, theta[~good])
     raise NotConverged("an extremal was bracketed but not found", float(np.abs(current.y[at]).max()))
 
 
-def _open_brackets(current: Family, found: list[Roots]) -> NDArray[np.intp]:
-    """Members after which y1 changes sign with no root found there."""
-    at = np.nonzero(current.y[:-1] * current.y[1:] <= 0)[0]
-    if not found:
-        return at
-    known = np.sort(np.concatenate([each.shot.theta for each in found]))
-    inside = np.searchsorted(known, current.theta[at + 1]) - np.searchsorted(known, current.theta[at])
-    return at[inside == 0]
+def _sign_changes(current: Family) -> NDArray[np.intp]:
+    """Members after which y1 changes sign; a root at a member lies before it."""
+    positive = current.y >= 0
+    return np.nonzero(positive[:-1] != positive[1:])[0]
 
 
 def _polished(
@@ -143,7 +147,7 @@ def _polished(
         for _ in range(4):
             step = -np.linalg.solve(whole, left[..., None])[..., 0]
             w[i] += step[:, :n]
-            theta[i] = np.clip(theta[i] + step[:, n], low[i], high[i])
+            theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])
             before, left = left, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
             error = np.abs(left).max(axis=1)

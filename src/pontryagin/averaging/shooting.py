@@ -102,6 +102,8 @@ class Shooting:
         epsilon, then the system's numbers.
     scale_a, scale_p, scale_m : (n,), (n,), (r,) array
         Sizes of slow variables, costates and target.
+    price : float
+        Mean running cost J0/tau1, the size of h*.
     """
 
     equations: Canonical
@@ -111,6 +113,7 @@ class Shooting:
     scale_a: Array
     scale_p: Array
     scale_m: Array
+    price: float
 
     def shoot(self, theta: Array, w: Array) -> Shot:
         """Follow the extremals that leave with p0 to the anomalies theta."""
@@ -202,6 +205,7 @@ def shooting(solution, small: float, anomaly: float) -> Shooting:
         scale_a,
         scale_p,
         np.abs(jacobian) @ scale_a,
+        abs(float(solution.cost / solution.duration)),
     )
 
 

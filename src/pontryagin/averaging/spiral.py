@@ -59,17 +59,7 @@ class Flight:
 
 
 def fly(extremal: Extremal) -> Flight:
-    """Follow an extremal of `kepler` through the plane.
-
-    Examples
-    --------
-    >>> from pontryagin.averaging import kepler
-    >>> flight = fly(kepler(E0=-0.5, K0=0.95, E1=-0.4, l=0.1).exact(0.1)[0])
-    >>> E, K = flight.slow[-1]
-    >>> radius = K**2 / (1 + (1 + 2 * E * K**2) ** 0.5 * np.cos(flight.anomaly[-1]))
-    >>> bool(abs(np.hypot(*flight.place[-1]) - radius) < 1e-12)
-    True
-    """
+    """Follow an extremal of `kepler` through the plane."""
     samples = FINER * max(A_TURN, int(np.ceil(A_TURN * extremal.turns)))
     tau = np.linspace(0.0, extremal.duration, samples + 1)
     slow, control, eccentric = extremal.slow(tau), extremal.control(tau), extremal.anomaly(tau)
@@ -90,7 +80,15 @@ def fly(extremal: Extremal) -> Flight:
 
 
 def ellipses(slow: Array, pericentre: Array, points: int) -> Array:
-    """Orbits of energies and angular momenta (k, 2) as closed lines, (k, points, 2)."""
+    """Orbits of energies and angular momenta (k, 2), pericentres at angles (k,), as lines (k, points, 2).
+
+    Examples
+    --------
+    >>> ellipses(np.array([[-0.5, 0.8]]), np.zeros(1), 3).round(12) + 0.0
+    array([[[ 0.4,  0. ],
+            [-1.6,  0. ],
+            [ 0.4,  0. ]]])
+    """
     turn = np.linspace(0.0, 2 * np.pi, points)
     each = (np.asarray(column)[..., None] for column in (*slow.T, pericentre))
     return _place()(*each, turn)[0][..., 0]

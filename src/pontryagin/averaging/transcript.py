@@ -57,7 +57,7 @@ def transcript(
     }
     if epsilon is None:
         return told
-    correction = solution.correction(phase)
+    correction = solution.correction(phase, _ending(solution, exact))
     told["corrected"] = {"correction": correction, "cost": solution.cost + epsilon * correction}
     told["exact"] = {
         "count": len(exact),
@@ -70,6 +70,18 @@ def transcript(
     return told
 
 
+def _ending(solution: Any, exact: Sequence[Any]) -> float | None:
+    """The anomaly at the end where the correction asks for it: that of the exact trajectory."""
+    return exact[0].ending_anomaly if exact and has_fixed_ending(solution) else None
+
+
+def has_fixed_ending(solution: Any) -> bool:
+    """Whether the trajectory leaves no choice of its ending anomaly, with which the correction varies."""
+    from pontryagin.averaging.correction import fixed_ending
+
+    return fixed_ending(solution.system)
+
+
 def shown(told: Report) -> Report:
     """The same for a table: an extremal a line, the best `SHOWN` of them."""
     if "exact" not in told:
@@ -79,7 +91,7 @@ def shown(told: Report) -> Report:
     columns = zip(exact["kind"], exact["cost"], exact["duration"], exact["residual"], strict=True)
     for place, (kind, cost, duration, residual) in enumerate(columns, start=1):
         if place <= SHOWN:
-            lines[f"{place}"] = f"{kind}: cost {cost:.10g}, duration {duration:.10g}, residual {residual:.1e}"
+            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, duration {duration:.8g}, residual {residual:.0e}"
     if exact["count"] > SHOWN:
         lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
     rest = {heading: quantities for heading, quantities in told.items() if heading != "exact"}
@@ -93,14 +105,16 @@ def conclusion(told: Report) -> str:
     --------
     >>> from pontryagin.averaging import smooth_example
     >>> conclusion(transcript({"example": "smooth"}, smooth_example(1.0, 2.0)))
-    'The least cost is 2 + O(epsilon); what --epsilon adds is a given epsilon.'
+    'The least cost is 2 + O(epsilon).'
     """
     averaged = float(told["averaged"]["cost"])
     if "exact" not in told:
-        return f"The least cost is {averaged:.12g} + O(epsilon); what --epsilon adds is a given epsilon."
+        return f"The least cost is {averaged:.12g} + O(epsilon)."
     best, corrected = told["exact"]["cost"][0], float(told["corrected"]["cost"])
+    count = told["exact"]["count"]
+    found = f"The best of {count} extremals" if count > 1 else "The extremal found"
     return (
-        f"The best of {told['exact']['count']} extremals costs {best:.10g}: {best - averaged:+.2e} from the "
+        f"{found} costs {best:.10g}: {best - averaged:+.2e} from the "
         f"averaged cost, {best - corrected:+.2e} from the corrected one. "
         "Extremals satisfy necessary conditions; no bound from below is claimed."
     )

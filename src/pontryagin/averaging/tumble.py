@@ -8,10 +8,11 @@ inertia are over I_x: (1, 1, d).
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
+from scipy.integrate import OdeSolution, solve_ivp
 from scipy.spatial.transform import Rotation
 
 from pontryagin import compile as compiler
@@ -96,10 +97,9 @@ def synthesised(pair: Pair) -> Motion:
     )
     if run.status != 1:
         raise NotConverged("the body does not come to rest", rest(0.0, run.y[:, -1]))
-    t = np.linspace(0.0, run.t[-1], STEPS + 1)
-    rate = run.sol(t).T
-    control = _synthesis()(*rate.T, *constants)[1][..., 0]
-    return _motion(t, lambda times: run.sol(times).T, control, np.array([lx, ly, lz]), d)
+    dense, t = cast(OdeSolution, run.sol), np.linspace(0.0, run.t[-1], STEPS + 1)
+    control = _synthesis()(*dense(t), *constants)[1][..., 0]
+    return _motion(t, lambda times: dense(times).T, control, np.array([lx, ly, lz]), d)
 
 
 def exact(pair: Pair) -> Motion:

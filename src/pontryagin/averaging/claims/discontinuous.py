@@ -4,7 +4,9 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from pontryagin.averaging.derivation import principle
+from pontryagin.averaging import smooth_example
+from pontryagin.averaging.claims import worked
+from pontryagin.averaging.derivation import correction, principle, ripple, smooth
 from pontryagin.averaging.derivation.principle import psi
 from pontryagin.evidence import Conditional, Proof, Steps, vanishes
 from pontryagin.ledger import Page
@@ -239,3 +241,28 @@ def drifted(small: float) -> float:
         lambda time, y: small * field(time, y), (1, 1 / small), [2.0], "DOP853", rtol=1e-9, atol=1e-11
     )  # fmt: skip
     return float(2 - end.y[0, -1])
+
+
+@claim(
+    "end of section 2: higher approximations",
+    "canonical averaging gives further approximations in powers of ε",
+    verdict="holds",
+)
+def higher_approximations():
+    def argument() -> Steps:
+        h = ripple.maximum().subs(smooth.x, correction.x)
+        k1, k2 = correction.anomaly_hamiltonian(h, sp.S.Zero, smooth.v)
+        left = correction.transformed(k1, k2, [smooth.v], [smooth.eta])
+        yield (
+            "rippled example: a canonical change of variables removes the phase up to ε²",
+            vanishes(sp.simplify(left)),
+        )
+        first = float(smooth_example(worked.START, worked.END, ripple=worked.RIPPLE).correction())
+        for eps in worked.EPSILONS:
+            off = abs(worked.roots(eps).cost[worked.best(eps)] - 2 - eps * first)
+            yield (
+                f"ε = {eps}: J* is J0 + εJ1 with J1 = {first:.3f} within {off / eps**2:.1f}ε²",
+                off < 3 * eps**2,
+            )
+
+    return Proof(argument)

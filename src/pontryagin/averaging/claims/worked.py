@@ -1,8 +1,9 @@
-"""The rippled smooth example in numbers: every extremal of the unaveraged problem, by SciPy alone.
+"""The rippled smooth example in numbers: every extremal of the unaveraged problem, seen twice.
 
 v' = eps (u + cos(x)/2), x' = v, b' = eps (1 + u^2); v rises from 1 to 2, x(0) = 0, b(t1) is to be least. On
 H = 0 with v as the independent variable nothing has to be solved for: a start costate p is one member of
-the family (2.1), and q(t1) = 0 picks the extremals. `pontryagin.averaging` itself is not used.
+the family (2.1), and q(t1) = 0 picks the extremals. Those that the solver finds are flown anew with SciPy,
+and counted against the sign changes of h* along the family.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
+from pontryagin.averaging import smooth_example
 from pontryagin.averaging.derivation import ripple
 
 Array = NDArray[np.float64]
@@ -22,7 +24,7 @@ NUMBERS = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1, ripple.rise: 1, ripple.c: ri
 LOW, HIGH = 1.6, 2.8
 """Start costates between which v rises all the way and the window of kappa lies."""
 
-FINE, RESIDUAL = 1e-10, 1e-7
+FINE, RESIDUAL = 1e-11, 1e-8
 """Tolerance of the integration, and of h* at a root."""
 
 
@@ -83,20 +85,19 @@ def family(epsilon: float) -> Members:
 
 @cache
 def roots(epsilon: float) -> Members:
-    """All members with h* = 0 at the end, by the phase they end at: false position between sign changes."""
-    scan = family(epsilon)
-    left = np.flatnonzero(scan.level[1:] * scan.level[:-1] < 0)
-    a, b = scan.start[left], scan.start[left + 1]
-    fa, fb = scan.level[left], scan.level[left + 1]
-    for _ in range(20):
-        middle = members(b - fb * (b - a) / (fb - fa), epsilon)
-        kept = middle.level * fb > 0
-        fa, a = np.where(kept, fa / 2, fb), np.where(kept, a, b)
-        b, fb = middle.start, middle.level
-        if np.abs(fb).max() < RESIDUAL:
-            order = np.argsort(middle.phase)
-            return members(b[order], epsilon)
-    raise ArithmeticError(f"h* = {np.abs(fb).max()} is left at the end")
+    """All extremals by the phase they end at, as the solver finds them, flown anew here.
+
+    A start costate is let through only with h* = 0 at the end, and all of them only if `family` changes sign
+    as often as there are extremals.
+    """
+    found = smooth_example(START, END, k=PAY, ripple=RIPPLE).exact(epsilon, 0.0)
+    start = np.array([float(one.costate(np.zeros(1))[0, 0]) for one in found])
+    flown = members(start, epsilon)
+    signs = np.sign(family(epsilon).level)
+    if np.abs(flown.level).max() > RESIDUAL or (signs[1:] != signs[:-1]).sum() != start.size:
+        raise ArithmeticError(f"epsilon = {epsilon}: {start.size} extremals do not stand up to a second look")
+    order = np.argsort(flown.phase)
+    return Members(*(getattr(flown, name)[order] for name in Members.__dataclass_fields__))
 
 
 def best(epsilon: float) -> int:

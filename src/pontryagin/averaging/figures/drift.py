@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -53,10 +54,9 @@ def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
     for ax, name in zip(panels, names, strict=True):
         ax.set_ylabel(f"${_tex(name)}$")
     panels[-1].set_xlabel(TAU)
-    handles = {}
-    for ax in (slow[0], controls[0]):
-        handles |= dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
-    figure.legend(list(handles.values()), list(handles), loc="outside upper center", ncols=3)
+    handles, labels = slow[0].get_legend_handles_labels()
+    band, name = controls[0].get_legend_handles_labels()
+    figure.legend(handles + band[:1], labels + name[:1], loc="outside upper center", ncols=3)
     figure.align_ylabels(panels)
     return figure
 
@@ -69,13 +69,10 @@ def _averaged(
     over_a_turn = np.stack([solution.control(grid, np.full(len(grid), x)) for x in TURN])
     for i, ax in enumerate(controls):
         values = over_a_turn[..., i]
+        low, high = values.min(axis=0), values.max(axis=0)
+        label = "averaged, range over a turn"
         ax.fill_between(
-            grid,
-            values.min(axis=0),
-            values.max(axis=0),
-            color=ORANGE,
-            alpha=0.3,
-            label="averaged, over a turn",
+            grid, low, high, label=label, facecolor=to_rgba(ORANGE, 0.3), edgecolor=ORANGE, linewidth=1.2
         )
 
 
