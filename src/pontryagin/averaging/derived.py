@@ -4,6 +4,7 @@ import functools
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
@@ -13,6 +14,7 @@ from pontryagin.averaging.derivation import kepler_phase, kepler_principle
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.derivation import rotor as turning
 from pontryagin.averaging.derivation import smooth as smooth_case
+from pontryagin.averaging.model import Model
 from pontryagin.averaging.system import PhaseSystem
 
 RIPPLE, SENSE = sp.symbols("ripple sense", real=True)
@@ -139,6 +141,13 @@ def rotor(
         running_cost=1 if least_time else PRICE,
         numbers={level("a1"): a1, **priced},
     )
+
+
+@functools.lru_cache(maxsize=64)
+def rotor_model(mass: sp.Expr, potential: sp.Expr, force: sp.Expr, least_time: bool) -> Model:
+    """The numeric side of `rotor`: it is the same whatever the values of a1 and of peak or k."""
+    one = np.ones(())
+    return rotor(mass, potential, force, one, one if least_time else None, None if least_time else one).model
 
 
 @functools.lru_cache(maxsize=64)

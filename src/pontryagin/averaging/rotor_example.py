@@ -1,11 +1,12 @@
 """Example 1, (3.1): a rotor with a mass and a potential that depend on its angle, sped up or braked."""
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.solution import AveragedSolution, solve_averaged
+from pontryagin.averaging.solution import AveragedSolution, solved
 from pontryagin.validation import finite, positive
 
 if TYPE_CHECKING:
@@ -78,8 +79,14 @@ def rotor(
                 f"{name} must exceed the potential's maximum {top:.6g}, for omega vanishes there, "
                 f"got {energy.min():.6g}"
             )
-    system = derived.rotor(m, V, _of("force", force, "xv"), end, bound, price)
-    return solve_averaged(system, begin[..., None])
+    f = _of("force", force, "xv")
+    return solved(
+        derived.rotor_model(m, V, f, bound is not None),
+        ("a",),
+        begin[..., None],
+        (end, price if bound is None else bound),
+        lambda: derived.rotor(m, V, f, end, bound, price),
+    )
 
 
 def _of(name: str, value: Any, letters: str) -> "sp.Expr":
@@ -108,6 +115,7 @@ def _of(name: str, value: Any, letters: str) -> "sp.Expr":
     return mine
 
 
+@lru_cache(maxsize=64)
 def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
     from pontryagin import compile as compiler
     from pontryagin.averaging.derivation import rotor as derivation
