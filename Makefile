@@ -52,6 +52,7 @@ lab: $(EXTRA) ## open the notebooks in JupyterLab
 kernels: $(READY) ## generate the solvers' kernels from the derivations
 	@echo "== kernels from the derivations"
 	@$(PY) -m pontryagin.triple_integrator.generate
+	@$(PY) -m pontryagin.averaging.generate
 	@$(PY) -m pontryagin.rendezvous.generate
 
 .PHONY: bench

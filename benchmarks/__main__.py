@@ -7,13 +7,19 @@ from benchmarks.clock import SINGLE_THREAD
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="small sizes; leaves figures/benchmarks alone")
-    quick = parser.parse_args().quick
-    os.environ.update(SINGLE_THREAD)  # read when NumPy is loaded, which the next line does
+    os.environ.update(SINGLE_THREAD)  # read when NumPy is loaded, which the next lines do
+    from benchmarks.papers import PAPERS
     from benchmarks.run import run
 
-    run(quick)
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    known = ", ".join(PAPERS)
+    parser.add_argument("papers", nargs="*", metavar="PAPER", help=f"of {known}; all if none is named")
+    parser.add_argument("--quick", action="store_true", help="small sizes; leaves figures/benchmarks alone")
+    arguments = parser.parse_args()
+    for name in arguments.papers:
+        if name not in PAPERS:
+            parser.error(f"PAPER must be one of {known}, got {name!r}")
+    run(arguments.papers or list(PAPERS), arguments.quick)
 
 
 if __name__ == "__main__":

@@ -1,26 +1,26 @@
-"""The benchmark's plots: accuracy against time, time against the size of the stack, ruckig against scale."""
+"""The plot that every paper has: accuracy against time."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from benchmarks.contest import CALL, STACK, Row
-from benchmarks.transfers import Cell
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SEQUENTIAL, SKY, styled, subplots
+from pontryagin.plotting import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, styled, subplots
 
 MARKS = {
     "pontryagin": ("o", BLUE),
     "Clarabel": ("s", GREEN),
     "HiGHS": ("D", ORANGE),
     "CasADi": ("^", RED),
+    "CVXPY": ("^", RED),
     "solve_bvp": ("v", PURPLE),
     "ruckig": ("P", SKY),
 }
 """Marker and colour of each contestant."""
 
-OURS = {CALL: "one call", STACK: "stack"}
+OURS = {CALL: ("one call", 5, "bottom"), STACK: ("stack", -5, "top")}
+"""Label of our points, how far above they stand, and which side of the label that is."""
 
 FLOOR = 1e-16
 """Errors below this are drawn here."""
@@ -28,14 +28,15 @@ FLOOR = 1e-16
 
 @styled
 def accuracy_and_time(rows: Sequence[Row]) -> Figure:
-    """Worst relative error against time per problem, one panel a problem, and a panel for the legend."""
+    """Worst relative error against time per problem, one panel a problem; the legend fills what is left."""
     problems = list(dict.fromkeys(row.problem for row in rows))
-    lines = len(problems) // 2 + 1
+    lines = (len(problems) + 1) // 2
     figure, axes = subplots(lines, 2, height=2.1 * lines, sharex=True, sharey=True, squeeze=False)
     handles: dict[str, Line2D] = {}
     for axis, problem in zip(axes.flat, problems, strict=False):
         axis.set(title=problem[0].upper() + problem[1:], xscale="log", yscale="log")
         axis.tick_params(labelbottom=True)
+        axis.margins(0.12, 0.22)
         for row in rows:
             if row.problem != problem or not row.error >= 0:
                 continue
@@ -45,59 +46,14 @@ def accuracy_and_time(rows: Sequence[Row]) -> Figure:
             (handle,) = axis.plot(*place, marker, color=colour, linestyle="none")
             handles.setdefault(name, handle)
             if row.method in OURS:
-                axis.annotate(OURS[row.method], place, (0, 5), textcoords="offset points", ha="center")
-    for axis in axes.flat[len(problems) :]:
-        axis.set_axis_off()
-    axes.flat[-1].legend(handles.values(), handles.keys(), loc="center", ncols=2)
+                label, height, side = OURS[row.method]
+                offset = {"xytext": (0, height), "textcoords": "offset points"}
+                axis.annotate(label, place, **offset, ha="center", va=side)
+    if len(problems) % 2:
+        axes.flat[-1].set_axis_off()
+        axes.flat[-1].legend(handles.values(), handles.keys(), loc="center", ncols=2)
+    else:
+        figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
     figure.supxlabel(r"processor time per problem, $\mu$s", fontsize="medium")
     figure.supylabel("worst relative error of the cost", fontsize="medium")
     return figure
-
-
-@styled
-def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
-    """Time per problem against the number of problems handed over at once."""
-    figure, axis = subplots(height=3.2)
-    sizes, *times = table.values()
-    for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=False):
-        axis.loglog(sizes, values, marker=marker, label=heading.split(",")[0])
-    axis.axvline(compiled_from, color=INK, linestyle=":", linewidth=1.0)
-    axis.annotate(
-        "compiled from here",
-        (compiled_from, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(5, -3),
-        textcoords="offset points",
-        va="top",
-    )
-    axis.set_xlabel("problems in the stack")
-    axis.set_ylabel(r"processor time per problem, $\mu$s")
-    axis.legend(loc="lower left")
-    return figure
-
-
-@styled
-def failures_by_scale(cells: Sequence[Cell]) -> Figure:
-    """Share of least-time inputs that each side fails on, over the scales of the states and of the jerk."""
-    figure, axes = subplots(1, 2, sharey=True, height=3.3)
-    shown = [c for c in cells if c.ends == "full states" and not c.states.startswith("each")]
-    states = list(dict.fromkeys(cell.states for cell in shown))
-    jerks = list(dict.fromkeys(cell.jerk for cell in shown))
-    for axis, side in zip(axes, ("ruckig", "pontryagin"), strict=True):
-        share = np.array([cell.failed[side] / cell.count for cell in shown]).reshape(len(states), len(jerks))
-        image = axis.imshow(100 * share, origin="lower", cmap=SEQUENTIAL, vmin=0, vmax=100, aspect="auto")
-        for (i, j), value in np.ndenumerate(share):
-            colour = "white" if value < 0.6 else "black"
-            axis.text(j, i, f"{100 * value:.3g}", ha="center", va="center", color=colour, fontsize=9)
-        axis.set_title(side)
-        axis.set_xticks(range(len(jerks)), [_power(jerk) for jerk in jerks])
-        axis.set_yticks(range(len(states)), [_power(state) for state in states])
-        axis.set_xlabel("bound on $|u|$ (consistent units)")
-        axis.grid(visible=False)
-    axes[0].set_ylabel("scale of the states")
-    figure.colorbar(image, ax=axes, label="inputs failed, %")
-    return figure
-
-
-def _power(text: str) -> str:
-    return rf"$10^{{{text[2:]}}}$"

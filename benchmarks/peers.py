@@ -2,7 +2,7 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
-PEERS = ("ruckig", "clarabel", "scipy", "casadi")
+PEERS = ("scipy", "ruckig", "clarabel", "casadi", "cvxpy", "highspy")
 
 
 def absent(peer: str) -> str | None:

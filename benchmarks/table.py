@@ -3,22 +3,22 @@
 import csv
 import io
 import platform
+import re
 from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from benchmarks.contest import CALL, STACK, Row
+from benchmarks.peers import PEERS
 
 NOTES = (
     "Times are processor time of one thread, medians of rounds in which all contestants take turns;",
     "input set-up from Python is included unless the row says otherwise. Ratios are to our own rows on the",
-    "same problem. The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost.",
-    "Stacks hold 100000 problems, fewer in a quick run.",
-    "A problem counts as solved where an answer came and, for least time, where independent propagation of",
-    "it reaches the target to 1e-9 of the motion.",
+    "same problem: above 1, the factor by which a method is slower than ours; below 1, it is faster.",
+    "The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost.",
 )
-"""What the tables mean."""
+"""What all tables have in common."""
 
 
 def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
@@ -43,7 +43,7 @@ def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 def machine() -> dict[str, str]:
     """What the numbers depend on: processor, interpreter and versions."""
-    packages = ("numpy", "scipy", "numba", "ruckig", "clarabel", "casadi")
+    packages = ("numpy", "numba", *PEERS)
     return {
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
         "threads": "1",
@@ -80,19 +80,30 @@ def text(value: Any) -> str:
     return str(value)
 
 
-def as_markdown(
-    facts: Mapping[str, str], titles: Mapping[str, str], tables: Mapping[str, Mapping[str, Sequence[Any]]]
+def section(
+    title: str,
+    facts: Mapping[str, str],
+    notes: Sequence[str],
+    tables: Mapping[str, tuple[str, Mapping[str, Sequence[Any]]]],
 ) -> str:
-    """All tables as one Markdown page under the machine's facts."""
+    """The tables of one paper as a section of the Markdown page, under the machine's facts."""
     head = "; ".join(f"{name} {value}" for name, value in facts.items())
-    lines = ["# Benchmarks", "", head + ".", "", *NOTES, ""]
-    for name, columns in tables.items():
+    lines = [f"## {title}", "", head + ".", "", *notes, ""]
+    for heading, columns in tables.values():
         numeric = [_numeric(column) for column in columns.values()]
-        lines += [f"## {titles[name]}", "", "| " + " | ".join(columns) + " |"]
+        lines += [f"### {heading}", "", "| " + " | ".join(columns) + " |"]
         lines.append("|" + "|".join(" --: " if right else " :-- " for right in numeric) + "|")
         lines += ["| " + " | ".join(map(text, row)) + " |" for row in zip(*columns.values(), strict=True)]
         lines.append("")
     return "\n".join(lines)
+
+
+def page(written: str, new: str, order: Sequence[str]) -> str:
+    """The Markdown page with one section made new; the other sections that were written stay."""
+    found = [*re.split(r"^(?=## )", written, flags=re.MULTILINE)[1:], new]
+    titled = {part.split("\n", 1)[0].removeprefix("## "): part.strip() for part in found}
+    kept = [titled[title] for title in order if title in titled]
+    return "\n\n".join(["# Benchmarks", "\n".join(NOTES), *kept]) + "\n"
 
 
 def printed(title: str, table: Mapping[str, Sequence[Any]]) -> None:

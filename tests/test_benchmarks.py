@@ -2,10 +2,15 @@
 
 import numpy as np
 import pytest
-from benchmarks import collocation, contest, figures, fixed_time, grids, peers, problems, propagation, table
-from benchmarks import transfers as least_time
+from benchmarks import contest, papers, peers, run, table
 from benchmarks.clock import take_turns
+from benchmarks.figures import accuracy_and_time
+from benchmarks.triple_integrator import collocation, figures, fixed_time, grids, problems, propagation
+from benchmarks.triple_integrator import transfers as least_time
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
+
+from pontryagin import files
 
 COUNT = 4
 
@@ -116,10 +121,42 @@ def test_ratios_are_to_our_own_rows(rows):
 def test_tables_carry_the_machine_and_every_row(rows):
     facts, columns = table.machine(), table.columns(rows)
     assert facts["numpy"] == np.__version__
-    csv, markdown = table.as_csv(facts, columns), table.as_markdown(facts, {"a": "A"}, {"a": columns})
+    csv = table.as_csv(facts, columns)
+    markdown = table.section("Turns", facts, ["Noted."], {"a": ("A", columns)})
     assert csv.count("\n") == len(facts) + 1 + len(rows)
     assert markdown.count("\n| ") == 2 + len(rows)
+    assert "## Turns" in markdown and "### A" in markdown and "Noted." in markdown
     assert all(value in markdown and value in csv for value in facts.values())
+
+
+def measured(value: float) -> papers.Measured:
+    figure = Figure()
+    figure.set_label("line")
+    return papers.Measured(["Noted."], 7, {"table": ("A table", {"value": [value]})}, [figure])
+
+
+def test_one_paper_measured_alone_leaves_the_others_as_they_are(tmp_path):
+    first, second = list(papers.PAPERS)[:2]
+    for name, value in ((second, 1.5), (first, 2.5)):
+        run.write(tmp_path, name, {"threads": "1"}, measured(value))
+    page = (tmp_path / run.PAGE).read_text()
+    assert page.index(papers.PAPERS[first]) < page.index("| 2.5 |") < page.index(papers.PAPERS[second])
+    assert page.index(papers.PAPERS[second]) < page.index("| 1.5 |")
+    kept = (tmp_path / first / "table.csv").read_bytes(), page.split(f"## {papers.PAPERS[second]}")[0]
+    run.write(tmp_path, second, {"threads": "1"}, measured(3.5))
+    page = (tmp_path / run.PAGE).read_text()
+    assert "| 3.5 |" in page and "| 1.5 |" not in page
+    assert (
+        (tmp_path / first / "table.csv").read_bytes(),
+        page.split(f"## {papers.PAPERS[second]}")[0],
+    ) == kept
+    assert (tmp_path / second / "line.svg").is_file()
+
+
+def test_the_committed_page_has_a_section_of_every_paper_in_order():
+    page = (files.figures_folder() / run.FOLDER / run.PAGE).read_text()
+    titles = [line.removeprefix("## ") for line in page.splitlines() if line.startswith("## ")]
+    assert titles == list(papers.PAPERS.values())
 
 
 @pytest.mark.parametrize(
@@ -131,7 +168,7 @@ def test_cells_have_three_digits(value, shown):
 
 
 def test_plots_show_every_contestant(rows):
-    figure = figures.accuracy_and_time(rows)
+    figure = accuracy_and_time(rows)
     drawn = sum(len(axis.get_lines()) for axis in figure.axes)
     assert drawn == sum(row.error >= 0 for row in rows)
     sizes = figures.stack_size({"stack": [1, 10], "least peak, microseconds": [20.0, 5.0]}, compiled_from=5)

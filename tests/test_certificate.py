@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pontryagin.certificate import Certificate
+from pontryagin.certificate import Certificate, MaximumPrinciple
 
 
 def certificate(residual, primal, dual):
@@ -47,3 +47,14 @@ def test_a_stack_of_none_holds():
 def test_nothing_in_it_can_be_replaced():
     with pytest.raises(AttributeError):
         certificate(0.0, 1.0, 1.0).dual_value = np.array(2.0)
+
+
+@pytest.mark.parametrize("place", range(4))
+def test_a_maximum_principle_holds_as_well_as_its_worst_residual(place):
+    values = [np.zeros(2) for _ in range(4)]
+    values[place] = np.array([1e-12, 3e-9])
+    extremals = MaximumPrinciple(*values)
+    assert extremals.residual.tolist() == [1e-12, 3e-9]
+    assert extremals.holds(1e-8) and not extremals.holds(1e-9)
+    values[place] = np.array([0.0, np.nan])
+    assert not MaximumPrinciple(*values).holds(np.inf)

@@ -73,6 +73,12 @@ def test_a_flow_that_ends_in_a_singularity_is_not_handed_out(taylor):
         ends([x], [x**2], taylor=taylor)([[1.0]], 0.0, 2.0)
 
 
+@pytest.mark.parametrize("taylor", KINDS)
+def test_fractions_are_taken_as_they_are(taylor):
+    grow = ends([x], [x * sp.Rational(1, 3) * k], [k], taylor=taylor)
+    assert_allclose(grow([[1.0]], 0.0, 3.0, [2.0])[0], [[np.exp(2.0)]], rtol=1e-13)
+
+
 def test_bad_systems_are_refused_by_name():
     with pytest.raises(ValueError, match="one expression for each of 2 states, got 1"):
         flow([x, v], [v])

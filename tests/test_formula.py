@@ -8,7 +8,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pontryagin.formula import FUNCTIONS, Formula, number, read
+from pontryagin.formula import FUNCTIONS, Formula, expression, number, read
 
 
 class Known(NamedTuple):
@@ -68,6 +68,38 @@ def test_a_formula_has_the_values_that_sympy_gives_to_its_meaning(known, t):
     value = formula(t) if isinstance(formula, Formula) else formula
     exact = float(known.meaning.evalf(30, subs={T: sp.Rational(t)}))
     assert abs(value - exact) <= 1e-13 * known.bound
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.recursive(LEAVES, compound, max_leaves=5), st.floats(-2, 2))
+def test_an_expression_has_the_values_of_the_formula(known, t):
+    found, formula = expression(known.text, "t"), read(known.text, "t")
+    value = float(sp.sympify(found).subs(sp.Symbol("t", real=True), sp.Rational(t)))
+    exact = formula(t) if isinstance(formula, Formula) else formula
+    assert abs(value - exact) <= 1e-13 * known.bound
+
+
+def test_an_expression_holds_what_was_typed_in_every_variable():
+    x, v = sp.symbols("x v", real=True)
+    assert expression("0.3*sin(x) - v^3/4", "x", "v") == sp.Rational(3, 10) * sp.sin(x) - v**3 / 4
+    assert expression("asin(sqrt(abs(x)))/(2*pi)", "x").subs(x, 1).evalf() == pytest.approx(0.25, rel=1e-15)
+    assert expression("3/4", "x") == 0.75
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("x^13", "power"),
+        ("(1+x)^1e9", "power"),
+        ("2^x", "power"),
+        ("x*9**9**9**9", "no finite"),
+        ("x + y", "not a formula: takes numbers, x, v, pi"),
+        ("x.evalf()", "not a formula"),
+    ],
+)
+def test_an_expression_that_algebra_would_choke_on_is_refused(text, words):
+    with pytest.raises(ValueError, match=words):
+        expression(text, "x", "v")
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

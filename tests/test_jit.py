@@ -52,6 +52,23 @@ def test_without_numba_the_same_numbers_come_more_slowly(monkeypatch):
     assert jit.batched(two_values, outputs=2)(p, p).tolist() == compiled.tolist()
 
 
+def doubles(values):
+    """A kernel of arrays."""
+    for i in range(values.shape[0]):
+        values[i] *= 2.0
+
+
+def test_small_work_runs_plain_until_the_kernel_is_compiled():
+    signature = "void(float64[::1])"
+    assert jit.compiled(doubles, signature, large=False) is doubles
+    quick = jit.compiled(doubles, signature)
+    assert quick is not doubles
+    assert jit.compiled(doubles, signature, large=False) is quick
+    values = np.arange(3.0)
+    quick(values)
+    assert values.tolist() == [0.0, 2.0, 4.0]
+
+
 def test_an_edited_kernel_is_not_served_stale(tmp_path, monkeypatch):
     count = jit.COMPILE_FROM
     for factor in (2, 3):

@@ -42,7 +42,7 @@ def test_sides_must_pair():
 
 
 def test_an_entry_is_checked_and_shown(published):
-    notebook.entry("(2.3)")
+    notebook.entry("(2.3)", "Gorelov")
     (shown,) = published
     (entry,) = [e for e in ledger.entries("Gorelov") if e.label == "(2.3)"]
     text = shown["text/markdown"]
@@ -63,6 +63,12 @@ def test_an_entry_whose_verdict_breaks_is_not_shown(published, monkeypatch):
 def test_an_unknown_label_is_refused():
     with pytest.raises(ValueError, match=r"label: got '\(9.9\)'"):
         notebook.entry("(9.9)")
+
+
+def test_a_label_of_two_papers_needs_the_paper(published):
+    with pytest.raises(ValueError, match="Gorelov & Morozova 2012, Akulenko 1977"):
+        notebook.entry("(2.3)")
+    assert published == []
 
 
 def test_verdicts_show_every_step(published):

@@ -12,7 +12,9 @@ DRAWN = sorted(path for path in (repository() / "figures").rglob("*") if path.su
 
 @pytest.mark.parametrize("path", DRAWN, ids=lambda path: f"{path.parent.name}/{path.name}")
 def test_every_figure_and_table_is_on_the_map(path):
-    folder = r"\(`make bench`\)" if path.parent.name == "benchmarks" else re.escape(path.parent.name)
+    folder = re.escape(path.parent.name)
+    if path.parent.parent.name == "benchmarks":
+        folder = rf"benchmarks/{folder} \(`make bench`\)"
     assert re.search(rf"^\| {re.escape(path.stem)} \| {folder} \|", README, re.MULTILINE)
 
 

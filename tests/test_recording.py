@@ -33,6 +33,25 @@ def write_turn(path):
         turn.event("events", 0.5, "first impulse")
 
 
+def test_a_trail_is_held_piece_by_piece(target):
+    way = np.outer(T, [1.0, 2.0, 3.0])
+    layout = [[Scene("way", "way", share=2.0, trails=("way/flown",), grid=False)]]
+    layout.append([Plot("u", "u", span=(0.0, 1.0), whole=True, legend="LeftTop")])
+    with record(target, "way", layout, speed=2.0, shares=(2, 1)) as recording_:
+        recording_.trail("way/flown", T, way, "red")
+    held = recording.read_back(target)["/way/flown"]
+    pieces = held["strips"].reshape(-1, 2, 3)
+    np.testing.assert_allclose(pieces[:, 0], way[:-1], atol=1e-6)
+    np.testing.assert_allclose(pieces[:, 1], way[1:], atol=1e-6)
+    np.testing.assert_allclose(held["time"], T[1:], atol=1e-9)
+
+
+def test_a_panel_of_another_kind_is_refused(target):
+    with pytest.raises(TypeError, match="columns"), record(target, "none", [[recording.View("a", "a")]]):
+        pass
+    assert not target.exists()
+
+
 @settings(max_examples=15, deadline=None)
 @given(arrays(float, st.integers(1, 30), elements=st.floats(-1e6, 1e6)))
 def test_a_curve_is_read_back_to_the_last_bit(tmp_path_factory, values):
@@ -97,6 +116,23 @@ def test_the_layout_travels_in_the_file(target):
         ("TimeSeries", "angle", "angle"),
         ("TextLog", "events", "events"),
     }
+
+
+def test_a_plot_s_span_and_a_scene_s_eye_travel_too(target):
+    from rerun.chunk import RrdReader
+
+    eye = ((1.0, 2.0, 3.0), (0.0, 0.5, 0.0))
+    with record(target, "turn", [[Scene("the turn", "turn", eye)], [Plot("angle", "angle", span=(-1, 2.5))]]):
+        pass
+    reader = RrdReader(str(target))
+    held = {}
+    for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks():
+        batch = chunk.to_record_batch()
+        held |= {name: batch[name].to_pylist()[0] for name in batch.schema.names if ":" in name}
+    assert held["ScalarAxis:range"] == [[-1.0, 2.5]]
+    assert held["ScalarAxis:zoom_lock"] == [True]
+    assert held["EyeControls3D:position"] == [list(eye[0])]
+    assert held["EyeControls3D:look_target"] == [list(eye[1])]
 
 
 def test_a_writer_that_raises_leaves_no_file(target):

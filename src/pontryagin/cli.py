@@ -21,7 +21,11 @@ from typer.main import get_command
 from pontryagin import __version__, console
 from pontryagin.errors import Infeasible, NotConverged
 
-COMMANDS = ("pontryagin.triple_integrator.command", "pontryagin.orbit_correction.command")
+COMMANDS = (
+    "pontryagin.triple_integrator.command",
+    "pontryagin.orbit_correction.command",
+    "pontryagin.averaging.command",
+)
 """Modules whose ``solve`` is a problem, a paper a line."""
 
 

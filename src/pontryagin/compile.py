@@ -76,6 +76,35 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     return call
 
 
+def columns(name: str, arguments: Sequence, expressions: Sequence) -> Callable[..., tuple]:
+    """Compile SymPy expressions into a plain function that leaves broadcasting to NumPy.
+
+    Where `function` first brings all arguments to one shape, here a subexpression is evaluated at the shape
+    of the arguments in it alone, and a constant stays a number: what inner loops call.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> x, y = sp.symbols("x y")
+    >>> columns("f", [x, y], [x**2, sp.Max(x, y), sp.Integer(3)])(np.array([1.0, 4.0]), 2.0)
+    (array([ 1., 16.]), array([2., 4.]), 3)
+    """
+    import sympy as sp
+
+    flat = [sp.sympify(e).replace(lambda e: isinstance(e, sp.Max | sp.Min), _as_pieces) for e in expressions]
+    _require_known_symbols(name, arguments, flat)
+    call = sp.lambdify(list(arguments), tuple(flat), modules="numpy", cse=True)
+    call.__name__ = call.__qualname__ = name
+    return call
+
+
+def _as_pieces(extreme):
+    """Max or Min as Piecewise: NumPy's own would need arguments of one shape."""
+    import sympy as sp
+
+    return extreme.rewrite(sp.Piecewise)
+
+
 def _real(name: str, value: object) -> NDArray[np.float64]:
     array = np.asarray(value)
     if np.iscomplexobj(array):

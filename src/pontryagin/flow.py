@@ -160,10 +160,19 @@ def heyoka_system(
     table |= {symbol: hy.par[i] for i, symbol in enumerate(parameters)}
     if clock is not None:
         table[clock] = hy.time
-    shared, reduced = sp.cse([sp.sympify(rate) for rate in rates], symbols=sp.numbered_symbols(cls=sp.Dummy))
+    shared, reduced = sp.cse([with_floats(rate) for rate in rates], symbols=sp.numbered_symbols(cls=sp.Dummy))
     for symbol, expression in shared:
         table[symbol] = hy.from_sympy(expression, table)
     return [(table[x], hy.from_sympy(r, table)) for x, r in zip(states, reduced, strict=True)], table
+
+
+def with_floats(expression):
+    """Fractions as floats where heyoka takes none: those whose denominator is no power of two."""
+    import sympy as sp
+
+    taken = sp.sympify(expression)
+    fractions = [r for r in taken.atoms(sp.Rational) if r.q & (r.q - 1)]
+    return taken.xreplace({r: sp.Float(float(r)) for r in fractions})
 
 
 def compact(rates: Sequence) -> bool:
@@ -199,9 +208,7 @@ def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Fl
 
 
 @functools.lru_cache(maxsize=64)
-def _taylor_ends(
-    states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float
-):
+def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float):
     import heyoka as hy
 
     system, table = heyoka_system(states, rates, parameters, clock)

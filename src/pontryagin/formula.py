@@ -1,18 +1,22 @@
 """Numbers and formulas as a user types them, read without running them.
 
-What is understood: numbers, ``pi``, one variable, ``+ - * / **`` (``^`` is a power too), parentheses and the
-functions of `FUNCTIONS`. Everything else is refused by name, so that text from anywhere can be read.
+What is understood: numbers, ``pi``, the variables asked for, ``+ - * / **`` (``^`` is a power too),
+parentheses and the functions of `FUNCTIONS`. Everything else is refused by name, so that text from anywhere
+can be read.
 """
 
 import ast
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    import sympy as sp
 
 FUNCTIONS: dict[str, Callable[[Any], Any]] = {
     name: getattr(np, name)
@@ -32,6 +36,9 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
 
 LONGEST = 500
 """Characters beyond which nobody typed it."""
+
+HIGHEST = 12
+"""Power of a variable beyond which expanding it takes long."""
 
 
 @dataclass(frozen=True)
@@ -87,20 +94,75 @@ def read(text: str, variable: str | None = None) -> float | Formula:
         ...
     ValueError: "__import__('os')" is not a formula: functions are abs, sign, ... of one argument each
     """
+    tree = _parsed(text, () if variable is None else (variable,))
+    return Formula(text.strip(), str(variable), tree) if _varies(tree) else _constant(tree, text)
+
+
+def expression(text: str, *variables: str) -> "float | sp.Expr":
+    """The number that a text stands for, or the SymPy expression in real symbols of the variables' names.
+
+    Its numbers are the decimals that were typed, and constant parts the decimals of their floating-point
+    values; powers of variables have exponents up to `HIGHEST`, so that algebra with it comes to an end.
+
+    Raises
+    ------
+    ValueError
+        As `read`, or if a power is higher.
+
+    Examples
+    --------
+    >>> expression("1 + 0.2*cos(x)^2 - v/4", "x", "v")
+    -v/4 + cos(x)**2/5 + 1
+    """
+    tree = _parsed(text, variables)
+    return _symbolic(tree, text) if _varies(tree) else _constant(tree, text)
+
+
+def _parsed(text: str, variables: Sequence[str]) -> ast.expr:
+    """The checked tree of a text."""
     if len(text) > LONGEST:
         raise ValueError(f"{len(text)} characters are too long for a formula, which has at most {LONGEST}")
     try:
         tree = ast.parse(text.strip().replace("^", "**"), mode="eval").body
-        _check(tree, variable)
+        _check(tree, variables)
     except (SyntaxError, RecursionError, MemoryError):
         raise ValueError(f"{text!r} is not a formula") from None
-    if any(isinstance(node, ast.Name) and node.id == variable for node in ast.walk(tree)):
-        return Formula(text.strip(), str(variable), tree)
+    return tree
+
+
+def _varies(tree: ast.expr) -> bool:
+    """Whether a variable stands in a checked tree."""
+    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    return bool(names - {"pi", *FUNCTIONS})
+
+
+def _constant(tree: ast.expr, text: str) -> float:
     with np.errstate(all="ignore"):
         value = float(_value(tree, {}))
     if not np.isfinite(value):
         raise ValueError(f"{text!r} has no finite real value")
     return value
+
+
+def _symbolic(node: ast.expr, text: str) -> "sp.Expr":
+    """A checked tree as SymPy."""
+    import sympy as sp
+
+    if not _varies(node):
+        return sp.Rational(repr(_constant(node, ast.unparse(node))))
+    match node:
+        case ast.Name(id=name):
+            return sp.Symbol(name, real=True)
+        case ast.UnaryOp(op=op, operand=operand):
+            return OPERATORS[type(op)](_symbolic(operand, text))
+        case ast.BinOp(left=left, op=op, right=right):
+            base, second = _symbolic(left, text), _symbolic(right, text)
+            if isinstance(op, ast.Pow) and not (second.is_number and abs(second) <= HIGHEST):
+                raise ValueError(f"{text!r} has a power other than those from -{HIGHEST} to {HIGHEST}")
+            return OPERATORS[type(op)](base, second)
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return getattr(sp, "Abs" if name == "abs" else name)(_symbolic(argument, text))
+    raise AssertionError(ast.dump(node))
 
 
 def number(text: str) -> float:
@@ -120,12 +182,12 @@ def number(text: str) -> float:
     return value
 
 
-def _check(node: ast.expr, variable: str | None) -> None:
+def _check(node: ast.expr, variables: Sequence[str]) -> None:
     """Refuse what is not understood."""
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return
-        case ast.Name(id=name) if name in ("pi", variable):
+        case ast.Name(id=name) if name in ("pi", *variables):
             return
         case ast.UnaryOp(op=op, operand=operand) if type(op) in OPERATORS:
             parts = [operand]
@@ -139,12 +201,12 @@ def _check(node: ast.expr, variable: str | None) -> None:
                 f"{ast.unparse(node)!r} is not a formula: functions are {names}, of one argument each"
             )
         case _:
-            symbols = f"{variable}, pi" if variable else "pi"
+            symbols = ", ".join([*variables, "pi"])
             raise ValueError(
                 f"{ast.unparse(node)!r} is not a formula: takes numbers, {symbols}, + - * / ^ and functions"
             )
     for part in parts:
-        _check(part, variable)
+        _check(part, variables)
 
 
 def _value(node: ast.expr, variables: dict[str, NDArray[np.float64]]) -> Any:

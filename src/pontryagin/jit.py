@@ -130,9 +130,13 @@ def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> ty
     return _LOADED[kernel]
 
 
-@functools.cache
-def compiled(kernel: Callable, signature: str) -> Callable:
+_COMPILED: dict[tuple[Callable, str], Callable] = {}
+
+
+def compiled(kernel: Callable, signature: str, large: bool = True) -> Callable:
     """Compile a plain function of arrays by Numba for one signature, cached on disk like `batched`.
+
+    As in `batched`, small work runs the plain source, unless the kernel is compiled already.
 
     Parameters
     ----------
@@ -140,19 +144,24 @@ def compiled(kernel: Callable, signature: str) -> Callable:
         Written in plain arithmetic, loops over arrays, the `math` module and ``np.empty`` and its kin.
     signature : str
         Its types in Numba's notation, such as ``"void(float64[::1], float64[:, ::1])"``.
+    large : bool
+        Whether the work at hand is worth the half second that Numba takes to load.
 
     Returns
     -------
     function
-        The compiled kernel, or the kernel itself where Numba is not installed.
+        The compiled kernel, or the kernel itself for small work and where Numba is not installed.
     """
-    if not has_numba():
+    if (kernel, signature) in _COMPILED:
+        return _COMPILED[kernel, signature]
+    if not (large and has_numba()):
         return kernel
     text = _closure_source(kernel) + (
         f'\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model="numpy")'
         f"({kernel.__name__}.py_func)\n"
     )
-    return _load(text).compiled
+    _COMPILED[kernel, signature] = _load(text).compiled
+    return _COMPILED[kernel, signature]
 
 
 def _closure_source(kernel: Callable) -> str:

@@ -26,6 +26,7 @@ PAPERS = (
     "pontryagin.triple_integrator.claims",
     "pontryagin.rendezvous.claims",
     "pontryagin.orbit_correction.claims",
+    "pontryagin.averaging.claims",
 )
 """Modules whose ``ENTRIES`` make up the ledger, a paper a line."""
 

@@ -66,13 +66,15 @@ def entry(label: str, paper: str | None = None) -> None:
     Raises
     ------
     ValueError
-        If there is no such entry.
+        If there is no such entry, or several papers have one.
     pontryagin.ledger.Unsupported
         If the verdict does not stand.
     """
     found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
     if not found:
         raise ValueError(f"label: got {label!r}, takes one of the ledger's")
+    if len(papers := list(dict.fromkeys(one.paper for one in found))) > 1:
+        raise ValueError(f"paper: got {paper!r}, takes one of those that have {label}: {', '.join(papers)}")
     for one in found:
         one.check()
         _publish({"text/markdown": account(one)})

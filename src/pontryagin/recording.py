@@ -13,7 +13,6 @@ unit quaternions, scalar first, that turn body axes into the axes of the scene.
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -23,32 +22,16 @@ from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin import files
-
-TIMELINE = "time"
+from pontryagin.views import TIMELINE, blueprint
+from pontryagin.views import Events as Events
+from pontryagin.views import Plot as Plot
+from pontryagin.views import Point as Point
+from pontryagin.views import Scene as Scene
+from pontryagin.views import View as View
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 _SHADES = (0.55, 1.0, 0.65, 0.9, 0.5, 0.8)
-
-
-@dataclass(frozen=True)
-class View:
-    """A panel of the layout: its title and the entity whose branch it shows."""
-
-    title: str
-    entity: str
-
-
-class Scene(View):
-    """Bodies, arrows, ellipsoids and paths in 3-D."""
-
-
-class Plot(View):
-    """Curves against time."""
-
-
-class Events(View):
-    """Events in words, in the order of time."""
 
 
 class Recording:
@@ -134,15 +117,20 @@ class Recording:
             entity, self._rr.LineStrips3D([strip], colors=[_rgb(colour)], radii=[width]), static=True
         )
 
-    def net(self, entity: str, t: ArrayLike, strips: ArrayLike, colour: str) -> None:
-        """A surface as lines that move: `strips` (k, lines, points, 3), 1 pixel wide."""
+    def trail(self, entity: str, t: ArrayLike, points: ArrayLike, colour: str, width: float = 2.0) -> None:
+        """The way through `points` (k, 3) up to the present, in a `Scene` that names it among its trails."""
+        times = _times(t)
+        way = _array("points", points, (times.size, 3))
+        pieces = np.stack([way[:-1], way[1:]], axis=1)
+        self._lines(entity, colour, width)
+        self._send(entity, times[1:], self._rr.LineStrips3D.columns(strips=pieces))
+
+    def net(self, entity: str, t: ArrayLike, strips: ArrayLike, colour: str, width: float = 0.7) -> None:
+        """Lines that move: `strips` (k, lines, points, 3), `width` in pixels."""
         times = _times(t)
         shape = np.asarray(strips).shape
         moving = _array("strips", strips, (times.size, *shape[1:3], 3))
-        look = self._rr.LineStrips3D.from_fields(
-            colors=[_rgb(colour)], radii=[self._rr.Radius.ui_points(0.7)]
-        )
-        self._stream.log(entity, look, static=True)
+        self._lines(entity, colour, width)
         columns = self._rr.LineStrips3D.columns(strips=moving.reshape(-1, *shape[2:]))
         self._send(entity, times, columns.partition([shape[1]] * times.size))
 
@@ -150,6 +138,12 @@ class Recording:
         """Something that happens at the instant `t`, in words."""
         self._stream.set_time(TIMELINE, duration=float(t))
         self._stream.log(entity, self._rr.TextLog(text))
+
+    def _lines(self, entity: str, colour: str, width: float) -> None:
+        look = self._rr.LineStrips3D.from_fields(
+            colors=[_rgb(colour)], radii=[self._rr.Radius.ui_points(width)]
+        )
+        self._stream.log(entity, look, static=True)
 
     def _send(self, entity: str, times: NDArray[np.float64], columns: Any) -> None:
         self._stream.send_columns(
@@ -166,7 +160,13 @@ class Recording:
 
 
 @contextmanager
-def record(path: Path, name: str, columns: Sequence[Sequence[View]]) -> Iterator[Recording]:
+def record(
+    path: Path,
+    name: str,
+    columns: Sequence[Sequence[View]],
+    speed: float = 1.0,
+    shares: Sequence[float] | None = None,
+) -> Iterator[Recording]:
     """Write a recording to `path`; the file appears when the block ends, whole, and not when it raises.
 
     Parameters
@@ -177,6 +177,10 @@ def record(path: Path, name: str, columns: Sequence[Sequence[View]]) -> Iterator
         What the viewer calls the recording.
     columns : sequence of sequences of View
         The layout: columns from left to right, in each its panels from top to bottom.
+    speed : float
+        Units of time that a second of the replay shows.
+    shares : sequence of float, optional
+        Widths of the columns beside each other; equal by default.
 
     Yields
     ------
@@ -199,7 +203,7 @@ def record(path: Path, name: str, columns: Sequence[Sequence[View]]) -> Iterator
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
         with rr.RecordingStream("pontryagin", recording_id=name) as stream:
-            stream.save(str(draft), default_blueprint=_layout(columns))
+            stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
             yield Recording(stream)
         stream.disconnect()
 
@@ -241,23 +245,6 @@ def _rerun() -> ModuleType:
     except ImportError as missing:
         raise RuntimeError("recordings need rerun-sdk: pip install 'pontryagin[recording]'") from missing
     return rerun
-
-
-def _layout(columns: Sequence[Sequence[View]]) -> Any:
-    import rerun.blueprint as rrb
-
-    def panel(view: View) -> Any:
-        place: dict[str, Any] = {"origin": view.entity, "name": view.title}
-        if isinstance(view, Plot):
-            return rrb.TimeSeriesView(**place, plot_legend=rrb.Corner2D.RightTop)
-        if isinstance(view, Events):
-            words = rrb.archetypes.TextLogColumns(text_log_columns=["Body"])
-            return rrb.TextLogView(**place, columns=words)
-        return rrb.Spatial3DView(**place)
-
-    stacks = [rrb.Vertical(*[panel(view) for view in column]) for column in columns]
-    time = rrb.TimePanel(timeline=TIMELINE, loop_mode="all", play_state="playing", state="collapsed")
-    return rrb.Blueprint(rrb.Horizontal(*stacks), time, collapse_panels=True)
 
 
 def _times(t: ArrayLike) -> NDArray[np.float64]:

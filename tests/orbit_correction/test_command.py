@@ -8,10 +8,12 @@ import re
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.linalg import expm
 from typer.testing import CliRunner
 
 from pontryagin.cli import app
 from pontryagin.orbit_correction import correct
+from pontryagin.orbit_correction.satellite import LINEAR
 from pontryagin.recording import read_back
 
 Z0 = "-0.0037787,-0.0039109,0.0141512"
@@ -40,6 +42,24 @@ def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(thrust):
     for name, value in told["certificate"].items():
         assert value == float(getattr(plan.certificate, name)), name
     assert_allclose(told["states"]["end"], 0, atol=1e-15)
+
+
+@pytest.mark.parametrize("thrust", ["ball", "box"])
+def test_samples_are_the_linear_motion_and_its_costate(thrust):
+    told = json.loads(solve("--z0", Z0, "--thrust", thrust, "--json", "--samples", 31).stdout)["samples"]
+    plan = correct(STATE, thrust=thrust)
+    assert told["t"] == np.linspace(0, 0.25 * float(plan.impulse_count), 31).tolist()
+    state, fired = np.array(STATE), 0
+    for before, after, expected in zip(told["t"], told["t"][1:], told["state"][1:], strict=False):
+        while fired < plan.impulse_count and 0.25 * fired <= before + 1e-12:
+            state = expm(-LINEAR * (0.25 * fired - before)) @ np.append(0, plan.impulses[fired]) + state
+            fired += 1
+        state = expm(LINEAR * (after - before)) @ state
+        if fired == plan.impulse_count or 0.25 * fired > after + 1e-12:
+            assert_allclose(expected, state, atol=1e-15)
+    costate = [expm(-LINEAR.T * t) @ plan.initial_costate for t in told["t"]]
+    assert_allclose(told["costate"], costate, atol=1e-14)
+    assert_refused(solve("--z0", Z0, "--samples", 3), "--samples goes with --json only")
 
 
 def test_without_options_it_is_the_paper_s_example():

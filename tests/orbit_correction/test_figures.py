@@ -60,8 +60,29 @@ class TestSets:
     def test_what_has_no_set_is_refused(self):
         with pytest.raises(ValueError, match="must have a step"):
             figures.controllable_sets(correct([0.0, 0.0, 0.0]))
-        with pytest.raises(ValueError, match="for the ball"):
-            figures.remaining_sets(correct(Z0, thrust="box"))
+        with pytest.raises(ValueError, match="at most 6 steps, got 7"):
+            figures.remaining_sets(correct(Z0, interval=np.pi, thrust="box"))
+
+    @pytest.mark.parametrize("thrust", ["ball", "box"])
+    def test_each_panel_has_the_state_on_the_line_that_the_set_does_not_cross(self, thrust):
+        plan = correct(Z0, thrust=thrust)
+        for k, ax in enumerate(figures.remaining_sets(plan).axes):
+            drawn = ax.patches[0].get_xy()
+            (across, up), line = ax.lines[2].get_data(), ax.lines[1].get_xdata()[0]
+            assert line == across[0] == pytest.approx(drawn[:, 0].max(), rel=1e-12)
+            size = np.linalg.norm(100 * plan.states[k])
+            assert np.hypot(across[0], up[0]) <= size * (1 + 1e-12)
+            assert drawn[:, 1].min() < up[0] < drawn[:, 1].max()
+            assert ax.get_aspect() == 1
+
+    def test_the_outlines_are_those_of_the_surfaces(self):
+        space, *planes = figures.controllable_sets(PLAN).axes
+        for ax, view in zip(planes, figures.sets.VIEWS, strict=True):
+            largest = np.array(ax.patches[0].get_xy())
+            assert_allclose(np.abs(largest).max(axis=0), 1.0, atol=1e-3)
+            path = np.array(next(line.get_xydata() for line in ax.lines if len(line.get_xdata()) == 5))
+            drawn = next(line.get_data_3d() for line in space.lines if len(line.get_data_3d()[0]) == 5)
+            assert_allclose(path, np.array(drawn)[list(view)].T)
 
 
 class TestImpulses:
@@ -117,7 +138,7 @@ class TestBeyond:
     def test_every_state_is_in_the_picture_of_waste(self):
         found = count_impulses(random_states(40))
         left, right = figures.wasted_impulses(found).axes
-        assert left.collections[0].get_sizes().sum() == 9 * 40
+        assert left.collections[0].get_sizes().sum() == 5 * 40
         assert sum(bar.get_height() for bar in right.patches) == pytest.approx(2)
 
     def test_the_residual_s_slope_is_two(self):

@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
+from pontryagin import jit
 from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.zonotope import turning_place
 
 INTERVALS = (0.25, 1.0, np.pi / 2, np.pi, 4.0)
 
@@ -81,10 +83,36 @@ def test_the_gauge_falls_with_the_number_of_steps_and_scales_with_the_state(z0, 
 
 
 @pytest.mark.parametrize("name", THRUSTS)
-def test_compiled_and_plain_kernels_agree(name):
+def test_compiled_and_plain_kernels_agree(name, monkeypatch):
     generator = np.random.default_rng(5)
     rows = generator.normal(size=(40, 3)) * 0.01
     thrust = Thrust(name, 0.25, 0.0035)
     together = thrust.gauges(rows, np.full(40, 7))
+    served = [thrust.gauges(row[None], np.array([7])).upper[0] for row in rows]
+    assert served == together.upper.tolist()
+    monkeypatch.setattr(jit, "_COMPILED", {})
     alone = [thrust.gauges(row[None], np.array([7])).upper[0] for row in rows]
+    assert not jit._COMPILED
     assert_allclose(together.upper, alone, rtol=1e-12)
+
+
+@given(
+    st.lists(st.tuples(st.integers(0, 6), st.integers(1, 5)), min_size=1, max_size=40), st.integers(-120, 0)
+)
+def test_the_selection_stops_where_the_sorted_slopes_turn(pieces, slope):
+    """Whole numbers: many ties, and sums that are exact in any order."""
+    times, rates = (np.array(column, float) for column in zip(*pieces, strict=True))
+    order = np.argsort(times, kind="stable")
+    turned = np.flatnonzero(slope + 2 * np.cumsum(rates[order]) >= 0)
+    crossed = np.arange(len(pieces))
+    place = turning_place(times, rates, crossed, len(pieces), float(slope))
+    assert sorted(crossed) == list(range(len(pieces)))
+    if not turned.size:
+        assert place == -1
+        return
+    assert times[crossed[place]] == times[order[turned[0]]]
+    before = slope + 2 * rates[crossed[:place]].sum()
+    assert before < 0 or place == 0
+    assert before + 2 * rates[crossed[place]] >= 0
+    assert (times[crossed[:place]] <= times[crossed[place]]).all()
+    assert (times[crossed[place:]] >= times[crossed[place]]).all()

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from pontryagin import Infeasible
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
 from pontryagin.orbit_correction.satellite import LINEAR, step_input, step_transition
+from pontryagin.orbit_correction.thrust import Thrust
 
 Z0 = np.array([-0.37787e-2, -0.39109e-2, 1.41512e-2])
 STATES = 1e-2 * np.array(
@@ -91,3 +92,86 @@ def test_intervals_of_whole_revolutions_leave_the_radius_out_of_reach(thrust):
     plan = correct([0.0, 0.004, -0.003], interval=2 * np.pi, thrust=thrust)
     assert plan.certificate.holds(1e-10)
     assert_allclose(fly(plan), 0, atol=1e-11)
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+@pytest.mark.parametrize("interval", [2 * np.pi - 1e-7, 2 * np.pi + 1e-7, 1e-7, 1e300])
+def test_intervals_next_to_whole_revolutions_and_beyond_all_measure_are_solved(interval, thrust):
+    plan = correct(Z0, interval=interval, thrust=thrust)
+    assert plan.certificate.holds(1e-9)
+    assert plan.gauge <= 1 < plan.shorter_gauge
+    assert 4 < plan.steps < 7000
+
+
+def test_the_steps_on_both_sides_of_whole_revolutions_are_those_of_a_short_interval():
+    """An impulse acts where the orbit is: 2 pi + d is d, and 2 pi - d is d with time reversed."""
+    near = [int(correct(Z0, interval=h).steps) for h in (1e-6, 2 * np.pi + 1e-6, 4 * np.pi + 1e-6)]
+    assert len(set(near)) == 1 and near[0] > 1000
+
+
+@pytest.mark.parametrize(
+    ("thrust", "z0", "interval"), [("ball", [1e300, 0, 0], 0.25), ("disc", Z0, 1e-300), ("box", Z0, 1e-12)]
+)
+def test_more_than_a_million_steps_are_none_and_the_reason_is_said(thrust, z0, interval):
+    with pytest.raises(Infeasible, match=r"is not corrected in 1000000 steps of interval"):
+        correct([[0.0, 0.0, 0.0], Z0, z0], interval=interval, thrust=thrust)
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+@pytest.mark.parametrize("size", [1e-300, 1e-3, 1e290])
+def test_states_and_peaks_of_any_size(size, thrust):
+    plan, expected = correct(Z0 * size, peak=0.0035 * size, thrust=thrust), correct(Z0, thrust=thrust)
+    assert plan.steps == expected.steps
+    assert_allclose(plan.gauge, expected.gauge, rtol=1e-12)
+    assert_allclose(plan.impulses / size, expected.impulses, atol=1e-12)
+    assert_allclose(plan.initial_costate, expected.initial_costate, atol=1e-9)
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+@pytest.mark.parametrize("steps", [2, 3, 7, 40])
+def test_a_gauge_of_exactly_one_needs_no_further_step(steps, thrust):
+    generator = np.random.default_rng(steps)
+    rows = generator.normal(size=(10, 3))
+    alpha = Thrust(thrust, 0.25, 0.0035).gauges(rows, np.full(10, steps)).upper[:, None]
+    assert (correct(rows / alpha, thrust=thrust).steps == steps).all()
+    assert (correct(rows / alpha * (1 + 1e-9), thrust=thrust).steps == steps + 1).all()
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+def test_a_stack_is_its_members_and_may_be_empty(thrust):
+    rows = np.random.default_rng(2).normal(size=(2, 3, 3)) * 0.01
+    rows[1, 1] = 0
+    plan = correct(rows, thrust=thrust)
+    for i, j in np.ndindex(2, 3):
+        alone = correct(rows[i, j], thrust=thrust)
+        assert alone.steps == plan.steps[i, j]
+        assert_allclose(alone.gauge, plan.gauge[i, j], rtol=1e-12)
+        assert_allclose(plan.impulses[i, j, : alone.impulse_count], alone.impulses, atol=1e-12)
+    nobody = correct(np.zeros((2, 0, 3)), thrust=thrust)
+    assert nobody.impulses.shape[:2] == nobody.controls.shape[:2] == nobody.steps.shape == (2, 0)
+
+
+def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
+    rows = np.random.default_rng(4).normal(size=(50, 3)) * 0.01
+    engine, counts = Thrust("ball", 0.25, 0.0035), np.random.default_rng(4).integers(1, 20, 50)
+    whole = engine.bounds(rows, counts)
+    monkeypatch.setattr("pontryagin.orbit_correction.thrust.CHUNK", 60)
+    assert_allclose(engine.bounds(rows, counts), whole, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"z0": [1.0, 2.0]}, ValueError, "z0 must be an array"),
+        ({"z0": [np.nan, 0, 0]}, ValueError, "z0 must be .* finite"),
+        ({"z0": None}, TypeError, "z0 must be"),
+        ({"peak": -1.0}, ValueError, "peak must be positive, got -1.0"),
+        ({"peak": [0.1]}, ValueError, "single numbers"),
+        ({"interval": 0.0}, ValueError, "interval must be positive"),
+        ({"interval": np.inf}, ValueError, "interval must be .* finite"),
+        ({"thrust": "cone"}, ValueError, "thrust must be one of ball, disc, box, got 'cone'"),
+    ],
+)
+def test_bad_arguments_are_refused_by_name(arguments, error, message):
+    with pytest.raises(error, match=message):
+        correct(**({"z0": Z0} | arguments))

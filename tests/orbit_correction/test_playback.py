@@ -40,7 +40,10 @@ def test_the_flight_is_the_true_one(played):
     flight = fly_plan(plan)
     times, states, angles = flight.path(playback.SAMPLES)
     for name, values in zip(("dr", "dvR", "dvT"), states.T, strict=True):
-        assert_allclose(held[f"/state/{name}"]["time"], playback.PACE * times, atol=1e-8)
+        shown = held[f"/state/{name}"]["time"]
+        assert np.all(np.diff(shown) > 0.9 * playback.BLINK)
+        after_a_jump = np.append(False, np.diff(times) == 0)
+        assert_allclose(shown, playback.PACE * times + playback.BLINK * after_a_jump, atol=1e-8)
         assert_allclose(held[f"/state/{name}"]["scalars"], 1e3 * values, atol=1e-12)
     radii = playback.RADIUS * (1 + playback.magnification(plan) * states[:, 0])
     places = radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
@@ -50,11 +53,15 @@ def test_the_flight_is_the_true_one(played):
 def test_impulses_are_curves_arrows_and_events(played):
     plan, held = played
     for side, name in enumerate(("radial", "transverse")):
-        after = held[f"/impulse/{name}"]["scalars"][1 :: playback.SAMPLES]
-        assert_allclose(after, plan.impulses[:, side] / 0.0035, atol=1e-15)
+        curve = held[f"/impulse/{name}"]
+        for shift, share in ((0.0, 0.0), (playback.HOLD, 1.0), (playback.HOLD + 2 * playback.BLINK, 0.0)):
+            drawn = np.interp(2.5 * np.arange(plan.impulse_count) + shift, curve["time"], curve["scalars"])
+            assert_allclose(drawn, share * plan.impulses[:, side] / 0.0035, atol=1e-7)
     arrows = held["/orbit/impulse"]["vectors"][1 :: playback.SAMPLES]
     assert_allclose(
-        np.linalg.norm(arrows, axis=1), 3 * np.linalg.norm(plan.impulses, axis=1) / 0.0035, rtol=1e-5
+        np.linalg.norm(arrows, axis=1),
+        playback.LENGTH * np.linalg.norm(plan.impulses, axis=1) / 0.0035,
+        rtol=1e-5,
     )
     events = held["/events"]
     assert len(events["text"]) == plan.impulse_count + 1
@@ -65,8 +72,10 @@ def test_impulses_are_curves_arrows_and_events(played):
 def test_the_gauge_stays(played):
     plan, held = played
     alpha = held["/gauge/alpha"]["scalars"]
-    assert len(alpha) == 1 + playback.SAMPLES * (int(plan.impulse_count) - 1)
-    assert_allclose(alpha, plan.gauge, rtol=1e-9)
+    assert len(alpha) == 3 + playback.SAMPLES * (int(plan.impulse_count) - 1)
+    assert_allclose(alpha[:-2], plan.gauge, rtol=1e-9)
+    assert alpha[-2:].tolist() == [0, 0]
+    assert held["/gauge/alpha"]["time"][-1] == pytest.approx(2.5 * float(plan.impulse_count))
 
 
 def test_the_nets_and_the_state_are_those_of_the_linear_motion(played):

@@ -3,7 +3,9 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pontryagin import ledger
 from pontryagin.report import tex, tree
+from pontryagin.report.render_html import ASSETS
 
 x, y = sp.symbols("x y", real=True)
 t, T = sp.symbols("t T", positive=True)
@@ -97,3 +99,16 @@ def test_an_environment_that_stands_alone_is_put_between_dollars_once():
     assert tex.display_blocks(f"so\n\n{alone}\n\nthus") == f"so\n\n$${alone}$$\n\nthus"
     for kept in (f"$$\n{alone}\n$$", f"```\n{alone}\n```", "plain \\begin{align} in a line"):
         assert tex.display_blocks(kept) == kept
+
+
+def test_every_formula_of_the_ledger_can_be_set(tmp_path):
+    import typst
+
+    written = {f for e in ledger.entries() for f in (e.printed_latex, e.derived_latex) if f}
+    assert any(r"\cap" in formula for formula in written)
+    formulas = "\n\n".join(f"$${tex.for_typst(formula)[0]}$$" for formula in sorted(written))
+    template = (ASSETS / "report.typ").read_text(encoding="utf-8")
+    names = [line for line in template.splitlines() if line.startswith("#let sect")]
+    page = tmp_path / "formulas.typ"
+    page.write_text("\n".join([*names, tree.run(["-f", "markdown", "-t", "typst"], formulas)]))
+    assert typst.compile(str(page)).startswith(b"%PDF")

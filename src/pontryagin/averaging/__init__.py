@@ -25,6 +25,9 @@ kappa            kappa                    minus the mean of q / epsilon, (2.10);
 tau_1            duration                 slow time of arrival
 J_0              cost                     (2.9)
 
+A system goes through `system` (rates), `control_sets` (h*), `average` (kernels), `model` (h0 by
+`quadrature`), `guess`, `collocation` and `solve` (the boundary value problem), `certify`, `solution`.
+
 The costate of the cost is -1 throughout, and the costs that the paper carries as further components of a
 are integrals here, so that a system's slow variables are its physical ones.
 """

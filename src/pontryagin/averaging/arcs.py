@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin import compile as compiler
 from pontryagin.averaging.modes import Modes
 from pontryagin.errors import NotConverged
-from pontryagin.flow import STEPS, TOLERANCE, Ends, Flow, has_heyoka, heyoka_system
+from pontryagin.flow import STEPS, TOLERANCE, Ends, Flow, has_heyoka, heyoka_system, with_floats
 
 Array = NDArray[np.float64]
 
@@ -177,7 +177,10 @@ def _taylor(
         tol=TOLERANCE,
         pars=np.ones(p + len(modes)),
         compact_mode=True,
-        t_events=[hy.t_event(hy.from_sympy(s, table), callback=flip(i)) for i, s in enumerate(functions)],
+        t_events=[
+            hy.t_event(hy.from_sympy(with_floats(s), table), callback=flip(i))
+            for i, s in enumerate(functions)
+        ],
     )
     identity = np.array(integrator.state[n:])
 
@@ -234,8 +237,9 @@ def _runge_kutta(
             rows.extend(np.reshape(result.y, (len(whole), -1)).T)
             if result.status == 0:
                 return np.array(rows)
-            i = next(i for i, found in enumerate(result.t_events) if len(found))
-            now, whole = float(result.t_events[i][0]), result.y_events[i][0].copy()
+            instants, there = result.t_events or [], result.y_events or []
+            i = next(i for i, found in enumerate(instants) if len(found))
+            now, whole = float(instants[i][0]), there[i][0].copy()
             if wrt:
                 whole[n:] = switches.jump(i, now, whole, values, signs).ravel()
             signs = np.where(np.arange(len(modes)) == i, -signs, signs)

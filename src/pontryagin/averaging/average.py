@@ -1,6 +1,7 @@
 """From a phase system to its kernels: the average in closed form where it is one, else its density."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import sympy as sp
 
@@ -63,7 +64,7 @@ def model(system: PhaseSystem) -> Model:
         *(system.hamiltonian, system.maximiser.as_immutable()),
     )
     if key not in _MODELS:
-        kernels = {
+        kernels: dict[str, Any] = {
             name: None if columns is None else _compiled(name, arguments, columns)
             for name, (arguments, columns) in kernel_expressions(system).items()
         }
@@ -84,20 +85,21 @@ def kernel_expressions(
     if known is None:
         weight = 1 / system.rate if integral else system.weight
         integrand = system.hamiltonian.subs(system.phase_costate, 0) * weight
-        density = [*expressions(integrand, z), integrand.diff(x)]
+        density = [*expressions(integrand, z), expressions(integrand, [x])[1]]
+        if integral:
+            density += expressions(weight, a)
         kinks = switching_functions(integrand, x)
-        switching = [*kinks, *(kink.diff(x) for kink in kinks)] or None
+        switching = [*kinks, *(expressions(kink, [x])[1] for kink in kinks)] or None
     frequency = known[1] if known is not None else system.omega
     ends = [column for e in (*system.target, system.terminal_cost) for column in expressions(e, a)]
     cost = system.running_cost + system.control_set.cost(list(system.control))
     return {
         "mean": ((*z, *numbers), None if known is None else expressions(known[0], z)),
         "density": ((*z, x, *numbers), density),
-        "turn": ((*a, x, *numbers), expressions(1 / system.rate, a) if integral else None),
         "frequency": ((*a, *numbers), None if frequency is None else expressions(frequency, a)),
         "switching": ((*z, x, *numbers), switching),
         "boundary": ((*a, *numbers), ends),
-        "control": ((*z, x, system.phase_costate, *numbers), list(system.maximiser)),
+        "control": ((*z, x, *numbers), list(system.maximiser.subs(system.phase_costate, 0))),
         "rates": ((*a, x, *system.control, *numbers), [*system.f, cost]),
         "pace": ((*a, x, *numbers), [1 / system.rate]),
     }
@@ -118,7 +120,7 @@ def switching_functions(integrand: sp.Expr, x: sp.Symbol) -> list[sp.Expr]:
 
 
 def _compiled(name: str, arguments: Sequence[sp.Symbol], columns: Sequence[sp.Expr]) -> Kernel:
-    return compiler.function(name, arguments, {f"c{i}": column for i, column in enumerate(columns)})
+    return compiler.columns(name, arguments, columns)
 
 
 _MODELS: dict[tuple, Model] = {}

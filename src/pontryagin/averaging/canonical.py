@@ -45,6 +45,8 @@ class Canonical:
         r.
     motion : tuple of n + 1 expressions
         f and dx/dt = r + epsilon F at u*, without modes: the derivatives of `hamiltonian` in p and y.
+    free : bool
+        Whether the control costs nothing and does not move the anomaly.
     boundary : tuple of r expressions
         M.
     terminal_cost : expression
@@ -63,6 +65,7 @@ class Canonical:
     gap: sp.Expr
     rate: sp.Expr
     motion: tuple[sp.Expr, ...]
+    free: bool
     boundary: tuple[sp.Expr, ...]
     terminal_cost: sp.Expr
 
@@ -158,6 +161,7 @@ def _derived(
         gap=hamiltonian.subs(scaled) - at(free, optimal),
         rate=rate,
         motion=tuple(at(g, optimal) for g in [*f, rate + epsilon * phase_rate]),
+        free=control_cost == 0 and not phase_rate.has(*control),
         boundary=tuple(target),
         terminal_cost=terminal_cost,
     )

@@ -5,16 +5,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.collocation import Path, Problem, scales
+from pontryagin.averaging.mesh import derivative, evaluate
 from pontryagin.averaging.quadrature import CHECKING
 from pontryagin.certificate import MaximumPrinciple
 
 Array = NDArray[np.float64]
 
 
-def certify(problem: Problem, path: Path, names: Sequence[str], first: int = 0) -> MaximumPrinciple:
-    """Residuals of extremals given by their series, between the points of collocation.
+def certify(
+    problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]
+) -> MaximumPrinciple:
+    """Residuals of extremals between the points of collocation.
 
     The velocities that the series have there are compared with the means of f under the control u* itself,
     not with the derivatives of h0, and all means are taken by rules with other nodes.
@@ -24,17 +26,20 @@ def certify(problem: Problem, path: Path, names: Sequence[str], first: int = 0) 
     ValueError
         If the frequency is not positive all the way.
     """
-    model, series, duration = problem.model, path.z, path.duration
-    n, degree = model.slow, path.degree
-    count = degree + 3
-    s = np.sin(np.pi * (np.arange(count) + 0.5) / (2 * count)) ** 2
-    z = chebyshev.polynomials(s, degree) @ series
-    slope = chebyshev.slopes(s, degree) @ series
+    if not path.duration.any():
+        return _at_rest(problem, path)
+    model, mesh, duration = problem.model, path.mesh, path.duration
+    n = model.slow
+    edges, series = np.array(mesh.edges), mesh.series(path.z)
+    inside = np.sin(np.pi * (np.arange(mesh.degree + 3) + 0.5) / (2 * mesh.degree + 6)) ** 2
+    s = (edges[:-1, None] + np.diff(edges)[:, None] * inside).reshape(-1)
+    count = len(s)
+    z, slope = evaluate(edges, series, s), derivative(edges, series, s)
     flat = z.reshape(-1, 2 * n)
     held = tuple(np.repeat(number, count) for number in problem.numbers)
     kappa = np.repeat(problem.kappa, count)
     h, omega = model.averaged(flat, held, CHECKING)
-    _require_turning(omega.value.reshape(-1, count), z[..., :n], names, first)
+    _require_turning(omega.value.reshape(-1, count), z[..., :n], names, members)
     rate, cost = model.controlled(flat, held, CHECKING)
     size = scales(z)
     price = np.abs(cost).reshape(-1, count).max(axis=1)
@@ -46,7 +51,7 @@ def certify(problem: Problem, path: Path, names: Sequence[str], first: int = 0) 
     states = slope[..., :n] - slow_time * rate.reshape(-1, count, n)
     pull = (h.gradient + kappa[:, None] * omega.gradient)[:, :n].reshape(-1, count, n)
     costates = slope[..., n:] + slow_time * pull
-    start, end = np.moveaxis(chebyshev.polynomials(np.array([0.0, 1.0]), degree) @ series, 1, 0)
+    start, end = path.z[:, 0], path.z[:, -1]
     target, terminal = model.ends(end[:, :n], problem.numbers)
     normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
     reach = (np.abs(target.gradient) * size[:, None, :n]).sum(axis=-1)
@@ -65,12 +70,21 @@ def certify(problem: Problem, path: Path, names: Sequence[str], first: int = 0) 
     )
 
 
-def _require_turning(omega: Array, slow: Array, names: Sequence[str], first: int) -> None:
+def _at_rest(problem: Problem, path: Path) -> MaximumPrinciple:
+    """Residuals where the start is the end: nothing moves and no control acts."""
+    start = path.z[:, 0, : problem.model.slow]
+    target, _ = problem.model.ends(start, problem.numbers)
+    none = np.zeros(len(start))
+    away = np.abs(target.value - problem.level).max(axis=1)
+    return MaximumPrinciple(np.maximum(away, np.abs(start - problem.start).max(axis=1)), none, none, none)
+
+
+def _require_turning(omega: Array, slow: Array, names: Sequence[str], members: NDArray[np.intp]) -> None:
     dead = ~(omega > 0)
     if dead.any():
         member, place = (int(i[0]) for i in np.nonzero(dead))
         at = ", ".join(
             f"{name} = {value:.6g}" for name, value in zip(names, slow[member, place], strict=True)
         )
-        where = f" (problem {first + member} of the stack)" if len(omega) > 1 else ""
+        where = f" (problem {members[member]} of the stack)" if len(members) > 1 else ""
         raise ValueError(f"omega must be positive all the way, got {omega[member, place]:.6g} at {at}{where}")

@@ -1,12 +1,12 @@
-"""The averaged boundary value problem (2.11), (2.4), (2.12): collocation at Chebyshev's points, Newton."""
+"""The averaged boundary value problem (2.11), (2.4), (2.12): collocation and Newton's method."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.jets import Jet
+from pontryagin.averaging.mesh import Mesh, evaluate
 from pontryagin.averaging.model import Model
 
 Array = NDArray[np.float64]
@@ -50,41 +50,46 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """What Newton's method works on: `z` (s, N + 1, 2n) at Chebyshev's points, duration (s), alpha (s, r)."""
+    """What Newton's method works on, for a stack (s): values at the points of a mesh of tau / duration.
 
+    Attributes
+    ----------
+    mesh : Mesh
+    z : (s, k, 2n) array
+        (xi, eta) at its points.
+    duration : (s) array
+    multipliers : (s, r) array
+        alpha.
+    """
+
+    mesh: Mesh
     z: Array
     duration: Array
     multipliers: Array
 
     def __getitem__(self, members) -> "Path":
-        return Path(self.z[members], self.duration[members], self.multipliers[members])
-
-    @property
-    def degree(self) -> int:
-        """N."""
-        return self.z.shape[1] - 1
+        return Path(self.mesh, self.z[members], self.duration[members], self.multipliers[members])
 
     def moved(self, step: Array, share: Array) -> "Path":
         """The path after a share (s) of the step (s, unknowns)."""
         count = self.z[0].size
         step = share[:, None] * step
         return Path(
+            self.mesh,
             self.z + step[:, :count].reshape(self.z.shape),
             self.duration + step[:, count],
             self.multipliers + step[:, count + 1 :],
         )
 
-    def refined(self, degree: int) -> "Path":
-        """The same path at more points."""
-        series = chebyshev.to_coefficients(self.degree) @ self.z
-        values = chebyshev.polynomials(chebyshev.points(degree), self.degree) @ series
-        return replace(self, z=values)
+    def on(self, mesh: Mesh) -> "Path":
+        """The same path at the points of another mesh."""
+        values = evaluate(np.array(self.mesh.edges), self.mesh.series(self.z), mesh.points)
+        return replace(self, mesh=mesh, z=values)
 
-    def tail(self) -> Array:
-        """Largest of the last two coefficients of each variable's series, in shares of the variable, (s)."""
-        series = chebyshev.to_coefficients(self.degree) @ self.z
-        last = np.abs(series[:, -2:]).max(axis=1)
-        return (last / scales(self.z)).max(axis=-1)
+    def tails(self) -> Array:
+        """Largest of the last two coefficients on each panel, in shares of the variable, (s, panels)."""
+        last = np.abs(self.mesh.series(self.z)[..., -2:, :]).max(axis=-2)
+        return (last / scales(self.z)[:, None]).max(axis=-1)
 
 
 def scales(z: Array) -> Array:
@@ -108,6 +113,11 @@ def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     (s) array
         The last step in shares of the variables: at most `CLOSE` where it converged, inf where it failed.
     """
+    with np.errstate(all="ignore"):
+        return _newton(problem, path)
+
+
+def _newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     closeness = np.full(len(path.duration), np.inf)
     active = np.arange(len(closeness))
     result, h = path, problem.hamiltonian(path.z)
@@ -128,14 +138,14 @@ def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     return result, closeness
 
 
-def _replaced(path: Path, members: Array, by: Path) -> Path:
+def _replaced(path: Path, members: NDArray[np.intp], by: Path) -> Path:
     z, duration, multipliers = path.z.copy(), path.duration.copy(), path.multipliers.copy()
     z[members], duration[members], multipliers[members] = by.z, by.duration, by.multipliers
-    return Path(z, duration, multipliers)
+    return Path(path.mesh, z, duration, multipliers)
 
 
 def _solve(matrix: Array, residual: Array) -> tuple[Array, NDArray[np.bool_]]:
-    finite = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+    finite = np.asarray(np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1))
     safe = np.where(finite[:, None, None], matrix, np.eye(matrix.shape[-1]))
     try:
         step = np.linalg.solve(safe, -np.where(finite[:, None], residual, 0.0)[..., None])[..., 0]
@@ -186,7 +196,7 @@ def _norm(path: Path, residual: Array) -> Array:
     rows = np.concatenate(
         [
             each[:, :n],
-            np.tile(each, (1, path.degree)),
+            np.tile(each, (1, path.z.shape[1] - 1)),
             np.ones((len(each), r)),
             each[:, n:],
             action[:, None],
@@ -199,7 +209,7 @@ def _norm(path: Path, residual: Array) -> Array:
 def _residual(problem: Problem, path: Path, h: Jet) -> Array:
     """What is left (s, unknowns) of: start, collocation, target, transversality, H0 = 0 at the end."""
     z, n = path.z, problem.model.slow
-    way = chebyshev.integrals(path.degree) @ _turned(h.gradient, -1)
+    way = path.mesh.integrals @ _turned(h.gradient, -1)
     target, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
     pull = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
     return np.concatenate(
@@ -217,8 +227,8 @@ def _residual(problem: Problem, path: Path, h: Jet) -> Array:
 def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
     """Derivatives of the residual (s, unknowns, unknowns) in z by points, the duration and alpha."""
     stack, points, width = path.z.shape
-    n, degree, r = width // 2, path.degree, path.multipliers.shape[-1]
-    weights = chebyshev.integrals(degree)
+    n, r = width // 2, path.multipliers.shape[-1]
+    weights = path.mesh.integrals
     size = points * width
     result = np.zeros((stack, size + 1 + r, size + 1 + r))
     result[:, np.arange(n), np.arange(n)] = 1
@@ -228,8 +238,8 @@ def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
     for i in range(width):
         block[:, index, i, index, i] += 1
         block[:, :, i, 0, i] -= 1
-    row = n + degree * width
-    result[:, n:row, :size] = block[:, 1:].reshape(stack, degree * width, size)
+    row = size - n
+    result[:, n:row, :size] = block[:, 1:].reshape(stack, size - width, size)
     result[:, n:row, size] = -(weights @ _turned(h.gradient, -1))[:, 1:].reshape(stack, -1)
     target, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
     end = slice(size - width, size - n)

@@ -9,6 +9,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from pontryagin import compile as compiler
+from pontryagin.averaging.system_checks import listed, numeric, require_count, require_positive
 
 Number: TypeAlias = "float | sp.Expr"
 
@@ -73,7 +74,7 @@ class Quadratic:
             raise ValueError(
                 f"Quadratic: weight must be a number or ({dimension}, {dimension}), got shape {matrix.shape}"
             )
-        entries = np.stack(_numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
+        entries = np.stack(numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
         for values in entries.reshape(-1, dimension, dimension):
             if not np.allclose(values, values.T, rtol=1e-12, atol=0):
                 raise ValueError(f"Quadratic: weight must be symmetric, got {values.tolist()}")
@@ -108,7 +109,7 @@ class Ball:
 
     def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
         """The radius must be positive."""
-        _require_positive("Ball: radius", [self.radius], numbers)
+        require_positive("Ball: radius", [self.radius], numbers)
 
 
 @dataclass(frozen=True)
@@ -147,8 +148,8 @@ class Ellipsoid:
 
     def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
         """The semiaxes must be positive, one for each control."""
-        _require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
-        _require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
+        require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
+        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
 
 
 @dataclass(frozen=True)
@@ -187,8 +188,8 @@ class Box:
 
     def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
         """The bounds must be positive, one for each control."""
-        _require_count("Box: bounds", self.bounds, dimension)
-        _require_positive("Box: bounds", self.bounds, numbers)
+        require_count("Box: bounds", self.bounds, dimension)
+        require_positive("Box: bounds", self.bounds, numbers)
 
 
 @dataclass(frozen=True)
@@ -231,8 +232,8 @@ class BoundedQuadratic:
 
     def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
         """Radius and weight must be positive."""
-        _require_positive("BoundedQuadratic: radius", [self.radius], numbers)
-        _require_positive("BoundedQuadratic: weight", [self.weight], numbers)
+        require_positive("BoundedQuadratic: radius", [self.radius], numbers)
+        require_positive("BoundedQuadratic: weight", [self.weight], numbers)
 
 
 @dataclass(frozen=True)
@@ -278,7 +279,7 @@ class Custom:
         value = self.support(free)
         unknown = value.free_symbols - set(free) - set(numbers)
         if unknown:
-            raise ValueError(f"Custom: the support function holds unknown symbols {_listed(unknown)}")
+            raise ValueError(f"Custom: the support function holds unknown symbols {listed(unknown)}")
         held = sorted(value.free_symbols & set(numbers), key=str)
         evaluate = compiler.function("support", [*free, *held], {"sigma": value})
         constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in held]
@@ -307,30 +308,3 @@ def _of_one(function: type[sp.Function], value: sp.Expr) -> sp.Expr:
     roots = {power: sp.Dummy(positive=True) for power in value.atoms(sp.Pow) if not power.exp.is_integer}
     back = {positive: power for power, positive in roots.items()}
     return function(sp.sympify(value).xreplace(roots)).xreplace(back)
-
-
-def _require_count(name: str, values: Sequence, dimension: int) -> None:
-    if len(values) != dimension:
-        raise ValueError(f"{name} must hold one for each of {dimension} controls, got {len(values)}")
-
-
-def _require_positive(name: str, values: Sequence[Number], numbers: Mapping[sp.Symbol, NDArray]) -> None:
-    for value in _numeric(name, values, numbers):
-        least = value.min()
-        if not (np.isfinite(least) and least > 0):
-            raise ValueError(f"{name} must be positive for a convex set of controls, got {least:g}")
-
-
-def _numeric(name: str, values: Sequence, numbers: Mapping[sp.Symbol, NDArray]) -> tuple[NDArray, ...]:
-    """The values as arrays, of the shape that the numbers in them broadcast to."""
-    expressions = [sp.sympify(value) for value in values]
-    held = set().union(*(expression.free_symbols for expression in expressions))
-    if held - set(numbers):
-        raise ValueError(f"{name} holds unknown symbols {_listed(held - set(numbers))}")
-    symbols = sorted(held, key=str)
-    evaluate = compiler.function("values", symbols, {f"v{i}": e for i, e in enumerate(expressions)})
-    return evaluate(*(numbers[symbol] for symbol in symbols))
-
-
-def _listed(symbols: set[sp.Symbol]) -> str:
-    return ", ".join(sorted(map(str, symbols)))

@@ -4,7 +4,9 @@ import functools
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from pontryagin.averaging.control_sets import Ball, Ellipsoid, Quadratic
 from pontryagin.averaging.derivation import kepler as orbit
@@ -12,6 +14,7 @@ from pontryagin.averaging.derivation import kepler_phase, kepler_principle
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.derivation import rotor as turning
 from pontryagin.averaging.derivation import smooth as smooth_case
+from pontryagin.averaging.model import Model
 from pontryagin.averaging.system import PhaseSystem
 
 RIPPLE, SENSE = sp.symbols("ripple sense", real=True)
@@ -120,12 +123,13 @@ EXAMPLES: dict[str, Callable[[], Example]] = {"smooth": smooth, "kepler": kepler
 
 
 def rotor(
-    mass: sp.Expr, potential: sp.Expr, force: sp.Expr, a1: float, peak: float | None, k: float | None
+    mass: sp.Expr, potential: sp.Expr, force: sp.Expr, a1: NDArray, peak: NDArray | None, k: NDArray | None
 ) -> PhaseSystem:
     """(3.1) in the energy a and the angle x: |u| <= peak in the least time, or at the cost k + u^2."""
     a = sp.Symbol("a", real=True)
     slow_rate, speed = (rate.subs(turning.a, a) for rate in _rotor_rates(mass, potential, force))
     least_time = peak is not None
+    priced = {name: value for name, value in ((PEAK, peak), (PRICE, k)) if value is not None}
     return PhaseSystem(
         f=[slow_rate],
         anomaly_rate=speed,
@@ -135,8 +139,15 @@ def rotor(
         phase=turning.x,
         target=[a - level("a1")],
         running_cost=1 if least_time else PRICE,
-        numbers={level("a1"): a1, **({PEAK: peak} if peak is not None else {PRICE: k})},
+        numbers={level("a1"): a1, **priced},
     )
+
+
+@functools.lru_cache(maxsize=64)
+def rotor_model(mass: sp.Expr, potential: sp.Expr, force: sp.Expr, least_time: bool) -> Model:
+    """The numeric side of `rotor`: it is the same whatever the values of a1 and of peak or k."""
+    one = np.ones(())
+    return rotor(mass, potential, force, one, one if least_time else None, None if least_time else one).model
 
 
 @functools.lru_cache(maxsize=64)

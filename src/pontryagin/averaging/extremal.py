@@ -84,6 +84,10 @@ class Extremal:
         states = self._states(tau)
         return self.turn_to_phase(states[:, : self._n], states[:, -1])
 
+    def spent(self, tau: ArrayLike) -> Array:
+        """Integral of the running cost up to slow times (k,)."""
+        return self._states(tau)[:, 2 * self._n + 2]
+
     def control(self, tau: ArrayLike) -> Array:
         """u at slow times (k,), as (k, m)."""
         n, states = self._n, self._states(tau)
@@ -121,6 +125,19 @@ class Extremals(Sequence[Extremal]):
     epsilon: float
     phase: float
     family: Family | None
+
+    @property
+    def traced(self) -> Family:
+        """The family.
+
+        Raises
+        ------
+        ValueError
+            If there is none, as where the least time of one slow variable leaves no choice of the end.
+        """
+        if self.family is None:
+            raise ValueError("these extremals have no family over the ending anomaly")
+        return self.family
 
     @overload
     def __getitem__(self, index: int) -> Extremal: ...

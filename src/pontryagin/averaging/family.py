@@ -6,25 +6,23 @@ family, the extremals of the problem are the roots of y1(theta), and J has its m
 zero. y1 oscillates once a turn about a slowly changing mean, minus kappa of the averaged problem's family.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.averaging.members import chord, march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
 Array = NDArray[np.float64]
 
-FEWEST, MOST = 8, 256
+FEWEST, MOST = 8, 64
 """Members a turn."""
 RESOLVED = 0.02
 """How well, in shares of y1's range, members must tell what is halfway between them."""
-CLOSE = 1e-7
-"""Residual of a member; the roots are polished."""
-SWEEPS, QUICK = 20, 6
-"""Newton steps allowed from a rough guess, and from a neighbour."""
+FLAT = 1e-6
+"""Range of y1, in shares of its size, that counts as none."""
 BETWEEN = 0.06
 """How far, in shares of its range, y1 may reach beyond its members: (1 - cos(pi/8))/2 is 0.04."""
 BROKEN = 0.25
@@ -69,18 +67,22 @@ class Family:
         keep = (self.theta >= low) & (self.theta <= high)
         lower, upper = self.limits
         limits = (lower if keep[0] else "no solution", upper if keep[-1] else "no solution")
-        columns = (getattr(self, name)[keep] for name in ("theta", "unknowns", *VALUES))
-        return Family(*columns, self.centre, limits)
+        kept = {name: getattr(self, name)[keep] for name in ("theta", "unknowns", *VALUES)}
+        return Family(**kept, centre=self.centre, limits=limits)
 
 
 @dataclass(frozen=True)
 class _Turn:
-    """Members of one turn, with the Jacobians that serve the next one."""
+    """Members of one turn, with the Jacobians that serve the next one.
+
+    `ends` says whether the turn breaks off below and above, and why.
+    """
 
     theta: Array
     unknowns: Array
     shot: Shot
     jacobians: Array
+    ends: tuple[str, str] = ("", "")
 
     @property
     def mean(self) -> float:
@@ -95,19 +97,132 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     NotConverged
         If the guess leads to no member.
     """
-    first = _first_turn(problem, theta, unknowns)
-    below, lower = _outwards(problem, first, -1)
-    above, upper = _outwards(problem, first, 1)
+    first, size = _first_turn(problem, theta, unknowns)
+    below, lower = _outwards(problem, first, theta, size, -1)
+    above, upper = _outwards(problem, first, theta, size, 1)
     turns = [*reversed(below), first, *above]
     shots = [turn.shot for turn in turns]
+    values = {name: np.concatenate([getattr(shot, name) for shot in shots]) for name in VALUES}
     traced = Family(
-        np.concatenate([turn.theta for turn in turns]),
-        np.concatenate([turn.unknowns for turn in turns]),
-        *(np.concatenate([getattr(shot, name) for shot in shots]) for name in VALUES),
-        theta,
-        (lower, upper),
+        theta=np.concatenate([turn.theta for turn in turns]),
+        unknowns=np.concatenate([turn.unknowns for turn in turns]),
+        **values,
+        centre=theta,
+        limits=(lower, upper),
     )
     return _unbroken(traced, float(problem.parameters[0]))
+
+
+def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[_Turn, int]:
+    """The turn about theta, of as many members as resolve y1: those halfway tell what neighbours do."""
+    size = FEWEST
+    while 2 * size < MOST:
+        angles = _angles(problem, theta, 2 * size, 0)
+        y = _turn_about(problem, theta, unknowns, angles[angles >= theta - 1e-9], "").shot.y
+        between = (-y[:-6:2] + 9 * y[2:-4:2] + 9 * y[4:-2:2] - y[6::2]) / 16
+        missed = np.abs(between - y[3:-3:2]).max(initial=0.0)
+        if missed <= RESOLVED * np.ptp(y) or np.ptp(y) <= FLAT * np.abs(y).max():
+            break
+        size *= 2
+    angles = _angles(problem, theta, size, 0)
+    return _turn_about(problem, theta, unknowns, angles, "start" if len(angles) < size else ""), size
+
+
+def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
+    """Anomalies of the members of a turn, counted from the one about theta; those after the start."""
+    step = 2 * np.pi / size
+    angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
+    return angles[angles > problem.anomaly + step / 2]
+
+
+def _turn_about(problem: Shooting, theta: float, unknowns: Array, angles: Array, below: str) -> _Turn:
+    try:
+        found = members(problem, angles, np.tile(unknowns, (len(angles), 1)))
+        return _Turn(angles, *found, (below, ""))
+    except NotConverged:
+        centre = int(np.argmin(np.abs(angles - theta)))
+        middle = members(problem, angles[[centre]], unknowns[None])
+        up = list(march(problem, angles[centre], middle, angles[centre + 1 :]))
+        down = list(march(problem, angles[centre], middle, angles[:centre][::-1]))
+        above = "" if _complete(up, angles[centre + 1 :]) else "no solution"
+        if not _complete(down, angles[:centre][::-1]):
+            below = _short_of(problem, float(down[-1][0][0]) if down else angles[centre])
+        return _joined([*reversed(down), (angles[[centre]], *middle), *up], (below, above))
+
+
+def _outwards(
+    problem: Shooting, first: _Turn, theta: float, size: int, sense: int
+) -> tuple[list[_Turn], str]:
+    """Turns beyond the first, and why there are no more."""
+    last, history, quiet = first, [first], 0
+    found: list[_Turn] = []
+    while not (reason := last.ends[(sense + 1) // 2]):
+        if len(found) == TURNS:
+            raise NotConverged("the family has no end", float(abs(last.mean)))
+        angles = _angles(problem, theta, size, sense * (len(found) + 1))
+        following = _next_turn(problem, history, angles, size, sense)
+        if following is None:
+            return found, _short_of(problem, last.theta[0]) if sense < 0 else "no solution"
+        found.append(following)
+        history = [*history[-2:], following]
+        quiet = 0 if _has_root(last, following, sense) else quiet + 1
+        turned_back = len(found) >= 2 and sense * (following.mean - last.mean) < 0
+        last = following
+        if quiet >= QUIET_TURNS:
+            return found, "no further root"
+        if turned_back and not following.ends[(sense + 1) // 2]:
+            return found, "turning point"
+    return found, reason
+
+
+def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int, sense: int) -> _Turn | None:
+    """The members at the angles, guessed from the turns before; None where not one is found."""
+    if len(angles) == 0:
+        return None
+    ends = ("start" if len(angles) < size else "", "")
+    past = [turn for turn in history if len(turn.theta) == size]
+    guesses = [turn.unknowns[size - len(angles) :] for turn in past]
+    weights = {1: [1.0], 2: [-1.0, 2.0], 3: [1.0, -3.0, 3.0]}.get(len(past))
+    try:
+        if weights is None:
+            raise NotConverged("no turn before", np.inf)
+        guess = np.einsum("i,i...->...", np.array(weights), np.array(guesses))
+        jacobians = past[-1].jacobians[size - len(angles) :]
+        return _Turn(angles, *chord(problem, angles, guess, jacobians), ends)
+    except NotConverged:
+        last, end = history[-1], min(sense, 0) * -1 - 1
+        edge = (last.unknowns[[end]], last.shot[[end]], last.jacobians[[end]])
+        marched = list(march(problem, float(last.theta[end]), edge, angles[::sense]))
+        if not marched:
+            return None
+        if not _complete(marched, angles[::sense]):
+            reached = float(marched[-1][0][0])
+            ends = (_short_of(problem, reached), "") if sense < 0 else ("", "no solution")
+        return _joined(marched[::sense], ends)
+
+
+def _complete(marched: list, angles: Array) -> bool:
+    return len(angles) == 0 or (len(marched) > 0 and marched[-1][0][0] == angles[-1])
+
+
+def _short_of(problem: Shooting, theta: float) -> str:
+    """What stopped a search downwards: hardly half a turn is left to the start, or something else."""
+    return "start" if theta - problem.anomaly < np.pi else "no solution"
+
+
+def _has_root(last: _Turn, following: _Turn, sense: int) -> bool:
+    """Whether y1 vanishes in the turn, between its members too."""
+    y = np.concatenate([last.shot.y, following.shot.y][::sense])
+    seen = y[-len(following.theta) - 1 :] if sense > 0 else y[: len(following.theta) + 1]
+    reach = BETWEEN * np.ptp(y)
+    return bool(seen.min() <= reach and seen.max() >= -reach)
+
+
+def _joined(parts: list[tuple[Array, Array, Shot, Array]], ends: tuple[str, str]) -> _Turn:
+    theta, w, shots, jacobians = zip(*parts, strict=True)
+    return _Turn(
+        np.concatenate(theta), np.concatenate(w), Shot.joined(shots), np.concatenate(jacobians), ends
+    )
 
 
 def local_range(theta: Array, y: Array) -> Array:
@@ -126,177 +241,3 @@ def _unbroken(traced: Family, small: float) -> Family:
     below = traced.theta[1:][broken & (traced.theta[:-1] < traced.centre)]
     above = traced.theta[:-1][broken & (traced.theta[:-1] >= traced.centre)]
     return traced.cut(below.max(initial=-np.inf), above.min(initial=np.inf))
-
-
-def members(problem: Shooting, theta: Array, guess: Array, sweeps: int = SWEEPS) -> tuple[Array, Shot, Array]:
-    """Unknowns, shots and Jacobians of the members that end at theta (k,), by damped Newton.
-
-    Raises
-    ------
-    NotConverged
-        If some residual is not brought under `CLOSE`.
-    """
-    w = guess
-    for _ in range(sweeps):
-        shot, slopes = problem.slopes(theta, w)
-        if (shot.error <= CLOSE).all():
-            return w, shot, slopes.residual_w
-        step = -np.linalg.solve(slopes.residual_w, shot.residual[..., None])[..., 0]
-        w = _damped(problem, theta, w, step, shot.error)
-    raise NotConverged("Newton's method found no extremal that ends there", float(shot.error.max()))
-
-
-def _damped(problem: Shooting, theta: Array, w: Array, step: Array, error: Array) -> Array:
-    """w + share step, the share halved where the residual does not fall."""
-    share = np.ones(len(w))
-    for _ in range(5):
-        try:
-            trial = problem.shoot(theta, w + share[:, None] * step).error
-        except (NotConverged, FloatingPointError):
-            share = share / 2
-            continue
-        worse = ~(trial <= (1 - share / 4) * error) & (error > CLOSE)
-        if not worse.any():
-            break
-        share = np.where(worse, share / 2, share)
-    else:
-        raise NotConverged("Newton's method found no extremal that ends there", float(error.max()))
-    return w + share[:, None] * step
-
-
-def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> _Turn:
-    """As many members as resolve y1: those halfway between must be what their neighbours tell."""
-    size = FEWEST
-    while True:
-        turn = _turn_about(problem, theta, unknowns, 2 * size)
-        y = turn.shot.y
-        between = (-y[:-6:2] + 9 * y[2:-4:2] + 9 * y[4:-2:2] - y[6::2]) / 16
-        missed = np.abs(between - y[3:-3:2][: len(between)]).max()
-        if missed <= RESOLVED * np.ptp(y) or np.ptp(y) <= 1e-6 * np.abs(y).max() or 2 * size > MOST:
-            return _Turn(turn.theta[::2], turn.unknowns[::2], turn.shot[::2], turn.jacobians[::2])
-        size *= 2
-
-
-def _turn_about(problem: Shooting, theta: float, unknowns: Array, size: int) -> _Turn:
-    step = 2 * np.pi / size
-    angles = theta + step * np.arange(-size // 2, size // 2)
-    angles = angles[angles > problem.anomaly + step / 2]
-    try:
-        return _Turn(angles, *members(problem, angles, np.tile(unknowns, (len(angles), 1))))
-    except NotConverged:
-        centre = int(np.argmin(np.abs(angles - theta)))
-        middle = members(problem, angles[[centre]], unknowns[None])
-        up = list(march(problem, angles[centre], middle, angles[centre + 1 :]))
-        down = list(march(problem, angles[centre], middle, angles[:centre][::-1]))
-        return _joined([*reversed(down), (angles[[centre]], *middle), *up])
-
-
-def _outwards(problem: Shooting, first: _Turn, sense: int) -> tuple[list[_Turn], str]:
-    """Turns beyond the first, and why there are no more."""
-    history, found, quiet = [first], [], 0
-    while len(found) < TURNS:
-        last = history[-1]
-        angles = first.theta + sense * 2 * np.pi * (len(found) + 1)
-        step = first.theta[1] - first.theta[0]
-        if len(last.theta) < len(first.theta) or (angles <= problem.anomaly + step / 2).any():
-            angles = angles[angles > problem.anomaly + step / 2]
-        following, complete = _next_turn(problem, history, angles, sense)
-        if following is not None:
-            found.append(following)
-            history = [*history[-2:], following]
-        if not complete:
-            return found, "start" if sense < 0 and _near_start(problem, found, first) else "no solution"
-        if len(angles) < len(first.theta):
-            return found, "start"
-        quiet = 0 if _has_root(last, following, sense) else quiet + 1
-        if quiet >= QUIET_TURNS:
-            return found, "no further root"
-        if len(found) >= 2 and sense * (following.mean - last.mean) < 0:
-            return found, "turning point"
-    raise NotConverged("the family has no end", float(abs(last.mean)))
-
-
-def _next_turn(
-    problem: Shooting, history: list[_Turn], angles: Array, sense: int
-) -> tuple[_Turn | None, bool]:
-    """The members at the angles, and whether all were found; guessed from the turns before."""
-    size = len(angles)
-    if size == 0:
-        return None, False
-    past = [turn for turn in history if len(turn.theta) >= size]
-    cut = slice(-size, None) if sense < 0 else slice(0, size)
-    before = [turn.unknowns[cut] for turn in past]
-    weights = {0: [], 1: [1.0], 2: [-1.0, 2.0]}.get(len(before), [1.0, -3.0, 3.0])
-    try:
-        if not before:
-            raise NotConverged("no turn before", np.inf)
-        guess = sum(weight * w for weight, w in zip(weights, before[-3:], strict=True))
-        jacobians = past[-1].jacobians[cut]
-        return _Turn(angles, *_chord(problem, angles, guess, jacobians)), True
-    except NotConverged:
-        last = history[-1]
-        end = -1 if sense > 0 else 0
-        edge = (last.unknowns[[end]], last.shot[[end]], last.jacobians[[end]])
-        marched = list(march(problem, float(last.theta[end]), edge, angles[::sense]))
-        if not marched:
-            return None, False
-        return _joined(marched[::sense]), len(marched) == size
-
-
-def _chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[Array, Shot, Array]:
-    """Newton's method with the Jacobians of the turn before, corrected by Broyden; exact ones if slow."""
-    shot = problem.shoot(theta, w)
-    jacobians = jacobians.copy()
-    for _ in range(6):
-        if (shot.error <= CLOSE).all():
-            return w, shot, jacobians
-        step = -np.linalg.solve(jacobians, shot.residual[..., None])[..., 0]
-        following = problem.shoot(theta, w + step)
-        if not (following.error <= np.maximum(0.3 * shot.error, CLOSE)).all():
-            break
-        length = np.maximum((step**2).sum(axis=-1), 1e-300)
-        unexplained = following.residual / length[:, None]
-        jacobians += unexplained[:, :, None] * step[:, None, :]
-        w, shot = w + step, following
-    return members(problem, theta, w, QUICK)
-
-
-def march(
-    problem: Shooting, theta: float, edge: tuple[Array, Shot, Array], angles: Iterable[float]
-) -> Iterable[tuple[Array, Array, Shot, Array]]:
-    """Member after member from the edge, each guessed from the ones before; ends where none is found."""
-    w, _, jacobians = edge
-    _, slopes = problem.slopes(np.array([theta]), w)
-    tangent = slopes.along[0]
-    for angle in angles:
-        while theta != angle:
-            for halvings in range(6):
-                target = angle if halvings == 0 else theta + (angle - theta) / 2**halvings
-                try:
-                    found = _chord(problem, np.array([target]), w + (target - theta) * tangent, jacobians)
-                    break
-                except NotConverged:
-                    continue
-            else:
-                return
-            tangent = (found[0] - w) / (target - theta)
-            theta, (w, _, jacobians) = target, found
-        yield (np.array([angle]), *found)
-
-
-def _has_root(last: _Turn, following: _Turn, sense: int) -> bool:
-    """Whether y1 vanishes in the turn, between its members too."""
-    y = np.concatenate([last.shot.y, following.shot.y][::sense])
-    seen = y[-len(following.theta) - 1 :] if sense > 0 else y[: len(following.theta) + 1]
-    reach = BETWEEN * np.ptp(y)
-    return bool(seen.min() <= reach and seen.max() >= -reach)
-
-
-def _near_start(problem: Shooting, found: list[_Turn], first: _Turn) -> bool:
-    reached = found[-1].theta[0] if found else first.theta[0]
-    return reached - problem.anomaly < np.pi
-
-
-def _joined(parts: list[tuple[Array, Array, Shot, Array]]) -> _Turn:
-    theta, w, shots, jacobians = zip(*parts, strict=True)
-    return _Turn(np.concatenate(theta), np.concatenate(w), Shot.joined(shots), np.concatenate(jacobians))

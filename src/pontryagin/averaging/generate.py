@@ -21,7 +21,7 @@ MEANING = {
     "density": "h* dpsi/dx at q = 0, its gradient and Hessian in (a, p), and its derivative in x.",
     "frequency": "omega, its gradient and Hessian in a.",
     "boundary": "M and g, each with its gradient and Hessian in a, (1.2), (1.3).",
-    "control": "u*(a, x, p, q), (1.5).",
+    "control": "u*(a, x, p) at q = 0, (1.5).",
     "rates": "f and the running cost, (1.1).",
     "pace": "dt/dx at epsilon = 0.",
 }

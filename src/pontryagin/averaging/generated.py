@@ -1,6 +1,7 @@
 """What `make kernels` has generated of the paper's examples: their models, and the systems when asked for."""
 
 from dataclasses import fields
+from typing import Any
 
 from numpy.typing import NDArray
 
@@ -11,8 +12,8 @@ from pontryagin.averaging.model import Model
 def model(name: str) -> Model:
     """The numeric side of an example; no SymPy is loaded."""
     text = getattr(kernels, name.upper())
-    given = {"slow": len(text["slow"]), "target": len(text["target"])}
-    functions = {
+    given: dict[str, Any] = {"slow": len(text["slow"]), "target": len(text["target"])}
+    functions: dict[str, Any] = {
         f.name: getattr(kernels, f"{name}_{f.name}", None) for f in fields(Model) if f.name not in given
     }
     return Model(**given, **functions)

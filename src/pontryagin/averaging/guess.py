@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.collocation import Path, Problem
+from pontryagin.averaging.mesh import Mesh, derivative, evaluate
 
 Array = NDArray[np.float64]
 
@@ -14,6 +14,7 @@ GROWTHS = 40
 NEAR = 1e-5
 """Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
 
+SHARES = 96
 IDLE = 1e-9
 """The share of a costate that is as good as none, and has derivatives where none has not."""
 
@@ -25,13 +26,12 @@ class Guess:
     Attributes
     ----------
     path : Path
-        Of the given degree.
     slow : (s, k, n) array
         Points of the straight way.
     frequency : (s, k) array
         omega there.
-    idle : (s, k) array
-        h0 without costate: minus the mean running cost, plus omega kappa.
+    idle : (s) array
+        H0 without costate at the start: minus the mean running cost, plus omega kappa.
     stuck : (s, k) boolean array
         No control moves the slow variables along the guessed direction there.
     """
@@ -43,36 +43,84 @@ class Guess:
     stuck: NDArray[np.bool_]
 
 
-def straight(problem: Problem, degree: int) -> Guess:
-    """The way along the straight line to the target's nearest point, at Chebyshev's points of slow time."""
+def straight(problem: Problem, mesh: Mesh) -> Guess:
+    """The way along the straight line to the target's nearest point, at the mesh's points of slow time."""
     model = problem.model
     start = problem.start
     end, direction = _nearest(problem)
-    share = chebyshev.points(degree)
-    slow = start[:, None] + share[:, None] * (end - start)[:, None]
+    slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
     length, stuck = _level(problem, slow, direction, _level(problem, slow[:, :1], direction)[0])
     eta = length[..., None] * direction[:, None]
-    h, omega = problem.averaged(np.concatenate([slow, IDLE * eta], axis=-1))
-    idle = h.value + problem.kappa[:, None] * omega.value
     z = np.concatenate([slow, eta], axis=-1)
-    speed = problem.hamiltonian(z).gradient[..., model.slow :]
+    h, omega = problem.averaged(z)
+    speed = h.gradient[..., model.slow :]
+    idle = problem.hamiltonian(np.concatenate([slow, IDLE * eta], axis=-1)[:, :1]).value[:, 0]
     along = np.einsum("ski,si->sk", speed, direction)
-    reach = np.einsum("si,si->s", end - start, direction)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        pace = reach[:, None] / along
-    pace = np.where(np.isfinite(pace) & (pace > 0), pace, np.nan)
-    usable = np.isfinite(pace).all(axis=1)
-    pace = np.where(usable[:, None], pace, 1.0)
-    clock = pace @ chebyshev.integrals(degree).T
-    clock = np.maximum.accumulate(clock, axis=1)
-    duration = clock[:, -1]
-    z = np.stack([_at_times(c / c[-1], share, path) for c, path in zip(clock, z, strict=True)])
+    reach = np.einsum("si,si->s", end - start, direction)[:, None]
+    pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
+    clock = pace @ mesh.integrals.T
+    z = _at_even_times(mesh, clock / clock[:, -1:], z)
     alpha = _multipliers(problem, z[:, -1])
-    return Guess(Path(z, duration, alpha), slow, omega.value, idle, stuck)
+    return Guess(Path(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
-def _at_times(clock: Array, times: Array, values: Array) -> Array:
-    return np.stack([np.interp(times, clock, column) for column in values.T], axis=-1)
+def shot(problem: Problem, mesh: Mesh) -> Path | None:
+    """The averaged extremal that leaves the start as `straight` does, up to the target's level.
+
+    Runge and Kutta's method in steps that bring the target nearer by equal shares; None where it turns away.
+    """
+    model, n = problem.model, problem.model.slow
+    _, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    if stuck.any():
+        return None
+
+    def flow(z: Array) -> Array:
+        gradient = problem.hamiltonian(z[:, None]).gradient[:, 0]
+        return np.concatenate([gradient[:, n:], -gradient[:, :n]], axis=-1)
+
+    def missing(z: Array) -> tuple[Array, Array]:
+        target, _ = model.ends(z[:, :n], problem.numbers)
+        return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
+
+    z = np.concatenate([problem.start, length * direction], axis=-1)
+    far, _ = missing(z)
+    path, times = [z], [np.zeros(len(z))]
+    for _ in range(SHARES):
+        left, pace = missing(z)
+        nearing = (pace * far).sum(axis=1)
+        if not (nearing > 0).all():
+            return None
+        step = np.minimum((far * far).sum(axis=1) / SHARES, (left * far).sum(axis=1)) / nearing
+        h = step[:, None]
+        k1 = flow(z)
+        k2 = flow(z + h / 2 * k1)
+        k3 = flow(z + h / 2 * k2)
+        k4 = flow(z + h * k3)
+        z = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        path.append(z)
+        times.append(times[-1] + step)
+    values, clock = np.stack(path, axis=1), np.stack(times, axis=1)
+    duration = clock[:, -1]
+    if not (np.isfinite(values).all() and (duration > 0).all()):
+        return None
+    at = [
+        np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
+        for c, own in zip(clock, values, strict=True)
+    ]
+    return Path(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
+
+
+def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
+    """Values (s, k, 2n) at even shares of time of what is known at even shares of the way."""
+    edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
+    share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
+    for _ in range(3):
+        late = evaluate(edges, series, share)[..., 0] - mesh.points
+        inside = np.clip(share, 1e-9, 1 - 1e-9)
+        pace = derivative(edges, series, inside)[..., 0]
+        share = np.clip(share - np.divide(late, pace, out=np.zeros_like(late), where=pace > 0), 0, 1)
+    return evaluate(edges, mesh.series(z), share)
 
 
 def _nearest(problem: Problem) -> tuple[Array, Array]:
@@ -89,6 +137,8 @@ def _nearest(problem: Problem) -> tuple[Array, Array]:
         if (np.abs(step) <= 1e-12 * (np.abs(end) + np.abs(end - problem.start))).all():
             break
     assert direction is not None
+    away = -target.gradient.sum(axis=1)
+    direction = np.where((direction == 0).all(axis=1, keepdims=True), away, direction)
     size = np.linalg.norm(direction, axis=1, keepdims=True)
     return end, direction / np.where(size > 0, size, 1)
 

@@ -61,15 +61,35 @@ def width(variables: int) -> int:
 def expressions(function, variables: Sequence) -> list:
     """The columns of a SymPy expression: value, gradient, upper triangle of the Hessian by rows.
 
-    Where the function has a kink its second derivative is taken on either side, without the delta function.
+    Signs are constants to the derivatives, which are right on either side of a kink.
     """
-    from sympy import DiracDelta
-
+    function, signs = with_constant_signs(function)
     gradient = [function.diff(variable) for variable in variables]
     count = len(variables)
     hessian = [gradient[i].diff(variables[j]) for i in range(count) for j in range(i, count)]
-    hessian = [entry.replace(DiracDelta, lambda *_: 0) for entry in hessian]
-    return [function, *gradient, *hessian]
+    return [restored(column, signs) for column in (function, *gradient, *hessian)]
+
+
+def with_constant_signs(function) -> tuple:
+    """The function with |g| written as g times a constant, and what the constants stand for."""
+    import sympy as sp
+
+    signs: dict = {}
+
+    def constant(g):
+        return signs.setdefault(g, sp.Dummy("sign", real=True))
+
+    function = sp.sympify(function).replace(sp.Abs, lambda g: g * constant(g))
+    return function.replace(sp.sign, constant), signs
+
+
+def restored(expression, signs: dict):
+    """The expression with the signs put back for their constants, outer ones before those inside them."""
+    from sympy import sign
+
+    for g, constant in reversed(signs.items()):
+        expression = expression.xreplace({constant: sign(g)})
+    return expression
 
 
 @functools.cache

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.averaging.jets import Jet, Kernel, evaluate, jet, width
-from pontryagin.averaging.quadrature import SOLVING, Rule, find_switches, mean, smooth_mean
+from pontryagin.averaging.quadrature import SOLVING, Rule, find_switches, mean
 
 Array = NDArray[np.float64]
 BESIDE = 1e-9
@@ -24,18 +24,16 @@ class Model:
     mean : kernel of (a, p), or None
         Columns of the jet of h0 in (a, p), where the average is known in closed form.
     density : kernel of (a, p, x), or None
-        Columns of the jet of h* dpsi/dx at p_x = 0, and its derivative in x; of h* / r where the frequency
-        is an integral. None where `mean` is given.
-    turn : kernel of (a, x), or None
-        Columns of the jet of 1 / r in a, where the frequency is an integral.
+        Columns of the jet of h* dpsi/dx at p_x = 0, and its derivative in x. Where the frequency is an
+        integral, the same of h* / r, and the jet of 1 / r in a. None where `mean` is given.
     frequency : kernel of a, or None
-        Columns of the jet of omega in a, where it is known.
+        Columns of the jet of omega in a, None where it is an integral.
     switching : kernel of (a, p, x), or None
         Functions at whose zeros the density is not smooth, and their derivatives in x.
     boundary : kernel of a
         Columns of the jets in a of M_1, ..., M_r and g.
-    control : kernel of (a, p, x, p_x)
-        u*.
+    control : kernel of (a, p, x)
+        u* at p_x = 0.
     rates : kernel of (a, x, u)
         f and the whole running cost.
     pace : kernel of (a, x)
@@ -46,7 +44,6 @@ class Model:
     target: int
     mean: Kernel | None
     density: Kernel | None
-    turn: Kernel | None
     frequency: Kernel | None
     switching: Kernel | None
     boundary: Kernel
@@ -59,40 +56,39 @@ class Model:
         shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
         flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
         held = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
-        turn = self._turn(flat, held, rule)
-        if self.frequency is not None:
-            columns = evaluate(self.frequency, *flat[:, : self.slow].T, *held)
-            omega = jet(columns, self.slow).padded(2 * self.slow)
+        a = flat[:, : self.slow].T
+        if self.mean is None:
+            h, turn = self._quadrature(flat, held, rule)
         else:
-            assert turn is not None
+            h, turn = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow), None
+        if turn is None:
+            assert self.frequency is not None
+            omega = jet(evaluate(self.frequency, *a, *held), self.slow).padded(2 * self.slow)
+        else:
             omega = jet(_one(len(flat), 2 * self.slow), 2 * self.slow) / turn
-        if self.mean is not None:
-            h = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow)
-        else:
-            h = self._quadrature(flat, held, rule)
-            h = h if turn is None else h / turn
+            h = h / turn
         return _shaped(h, shape), _shaped(omega, shape)
 
-    def _turn(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet | None:
-        if self.turn is None:
-            return None
-        density = _over(self.turn, tuple(z[:, : self.slow].T), numbers)
-        return jet(smooth_mean(density, len(z), rule[0], 1 + self.slow), self.slow).padded(2 * self.slow)
-
-    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> Jet:
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Jet, Jet | None]:
+        """Means of the density, and of 1 / r where the frequency is an integral."""
         assert self.density is not None
+        n = self.slow
         density = _over(self.density, tuple(z.T), numbers)
         switches = self.switches(z, numbers)
-        columns = mean(lambda x, i: density(x, i)[..., :-1], switches, rule, 1 + 2 * self.slow)
-        h = jet(columns, 2 * self.slow)
-        if np.isnan(switches).all():
-            return h
-        return Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+        own, judged = width(2 * n), np.arange(1 + 2 * n)
+        if self.frequency is None:
+            judged = np.append(judged, own + 1 + np.arange(1 + n))
+        columns = mean(density, switches, rule, judged)
+        h = jet(columns[:, :own], 2 * n)
+        if not np.isnan(switches).all():
+            h = Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+        turn = None if self.frequency is not None else jet(columns[:, own + 1 :], n).padded(2 * n)
+        return h, turn
 
     def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
         """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
         a = tuple(z[:, : self.slow].T)
-        control = _over(self.control, tuple(z.T), (np.zeros(len(z)), *numbers))
+        control = _over(self.control, tuple(z.T), numbers)
 
         def density(x: Array, index: NDArray[np.intp]) -> Array:
             u = np.moveaxis(control(x, index), -1, 0)
@@ -116,7 +112,7 @@ class Model:
         point, which = np.nonzero(~np.isnan(switches))
         at = switches[point, which][:, None]
         jump = (density(at + BESIDE, point) - density(at - BESIDE, point))[:, 0]
-        gradient, slope = jump[:, 1 : 1 + count], jump[:, -1]
+        gradient, slope = jump[:, 1 : 1 + count], jump[:, width(count)]
         kinks = np.divide(1, slope, out=np.zeros_like(slope), where=slope != 0) / (2 * np.pi)
         result = np.zeros((len(switches), count, count))
         np.add.at(result, point, kinks[:, None, None] * gradient[:, :, None] * gradient[:, None, :])

@@ -2,6 +2,7 @@
 
 import functools
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,14 +10,24 @@ from numpy.typing import NDArray
 Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
-Rule = tuple[int, int]
-SOLVING: Rule = (32, 24)
-"""Nodes to begin with, of the trapezoid and of Gauss's rule."""
-CHECKING: Rule = (45, 31)
-"""Others, that share none of the former's chances."""
-LAST, GAUSS_LAST = 2**15, 384
-HALF_DIGITS = 1e-8
-"""The error is squared by each doubling, so that a change at half of all digits is the last to be seen."""
+Judged = NDArray[np.intp] | slice
+EVERY = slice(None)
+
+
+class Rule(NamedTuple):
+    """Nodes to begin with: of the trapezoid, which start somewhere, and of Gauss's rule between switches."""
+
+    trapezoid: int
+    gauss: int
+    start: float
+
+
+SOLVING = Rule(16, 6, 0.0)
+CHECKING = Rule(24, 9, 1.0)
+"""Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
+LAST, GAUSS_LAST = 2**9, 384
+HALF_DIGITS, FALL = 1e-8, 1e-2
+PARTS, HALVINGS = 8, 40
 ROUNDING = 1e-14
 """A column that cancels to nothing is not asked for more than this share of the largest."""
 LOOK = 128
@@ -24,73 +35,140 @@ LOOK = 128
 
 
 def mean(
-    density: Density, switches: NDArray[np.float64], rule: Rule, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], rule: Rule, judged: Judged = EVERY
 ) -> NDArray[np.float64]:
     """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
 
-    Only the first `judged` columns say when a rule is fine enough: the others are their derivatives.
+    Only the `judged` columns say when a rule is fine enough: the others are their derivatives.
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
-        return smooth_mean(density, len(switches), rule[0], judged)
+        return smooth_mean(density, len(switches), rule, judged)
     split = np.nonzero(~plain)[0]
-    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule[1], judged)
+    columns = split_mean(lambda x, i: density(x, split[i]), switches[split], rule.gauss, judged)
     result = np.empty((len(switches), columns.shape[-1]))
     result[split] = columns
     if plain.any():
         smooth = np.nonzero(plain)[0]
-        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule[0], judged)
+        result[smooth] = smooth_mean(lambda x, i: density(x, smooth[i]), len(smooth), rule, judged)
     return result
 
 
-def smooth_mean(density: Density, points: int, first: int, judged: int | None = None) -> NDArray[np.float64]:
-    """Means of periodic functions by the trapezoid, its nodes doubled from `first` until nothing changes.
+def smooth_mean(
+    density: Density, points: int, rule: Rule = SOLVING, judged: Judged = EVERY
+) -> NDArray[np.float64]:
+    """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
-    Returns (points, columns); nan where the density is not defined or the rule does not settle.
+    Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
+    (points, columns); nan where the density is not defined.
     """
-    active = np.arange(points)
-    size = first
-    grid = 2 * np.pi * np.arange(size)[None] / size
-    values = density(grid, active)
-    total, scale = values.mean(axis=-2), np.abs(values).mean(axis=-2)
-    result = np.full(total.shape, np.nan)
-    while True:
-        halfway = density(grid + np.pi / size, active).mean(axis=-2)
-        finer = (total + halfway) / 2
-        settled = _settled(finer - total, scale, judged)
-        result[active[settled]] = finer[settled]
+    size = rule.trapezoid
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
+        return values.mean(axis=-2), np.abs(values).mean(axis=-2)
+
+    def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
+        nonlocal size
+        x = rule.start + 2 * np.pi * (np.arange(size)[None] + 0.5) / size
+        halfway = density(x, active).mean(axis=-2)
         size *= 2
-        more = ~settled & np.isfinite(finer).all(axis=-1)
-        if size >= LAST or not more.any():
+        return (total + halfway) / 2
+
+    result = _refined(begin, doubled, points, (LAST // size).bit_length() - 1, judged)
+    rest = np.nonzero(np.isnan(result).any(axis=1))[0]
+    if len(rest):
+        result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
+    return result
+
+
+def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArray[np.float64]:
+    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns).
+
+    Where intervals become so short that the density is known to fewer digits, fewer are asked for.
+    """
+    nodes, weights = _gauss(16)
+    point = np.repeat(np.arange(points), PARTS)
+    low = np.tile(np.arange(PARTS) / PARTS, points)
+    length = np.full(len(low), 1 / PARTS)
+
+    def integral(point: NDArray, low: NDArray, length: NDArray) -> tuple[NDArray, NDArray]:
+        values = density(2 * np.pi * (low[:, None] + length[:, None] * nodes), point)
+        scaled = (length[:, None] * weights)[..., None]
+        return (scaled * values).sum(axis=1), (scaled * np.abs(values)).sum(axis=1)
+
+    value, size = integral(point, low, length)
+    scale = np.zeros((points, size.shape[1]))
+    np.add.at(scale, point, size)
+    result = np.zeros_like(scale)
+    for halving in range(HALVINGS):
+        asked = ROUNDING if halving < HALVINGS // 2 else FALL * HALF_DIGITS
+        first, _ = integral(point, low, length / 2)
+        second, _ = integral(point, low + length / 2, length / 2)
+        change = np.abs(first + second - value)[:, judged]
+        own = scale[point][:, judged]
+        settled = (change <= asked * np.maximum(own, own.max(axis=-1, keepdims=True))).all(axis=-1)
+        np.add.at(result, point[settled], (first + second)[settled])
+        more = ~settled
+        if not more.any():
             return result
-        active, total, scale = active[more], finer[more], scale[more]
-        grid = 2 * np.pi * np.arange(size)[None] / size
+        if not np.isfinite(change[more]).all():
+            break
+        point, low, length = (
+            np.concatenate([point[more]] * 2),
+            np.concatenate([low[more], low[more] + length[more] / 2]),
+            np.concatenate([length[more] / 2] * 2),
+        )
+        value = np.concatenate([first[more], second[more]])
+    result[point] = np.nan
+    return result
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int, judged: int | None = None
+    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: Judged = EVERY
 ) -> NDArray[np.float64]:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
-    active = np.arange(len(switches))
     size = first
-    coarse = _panels(density, switches, active, size)
-    result = np.full((len(switches), coarse.shape[-1]), np.nan)
-    while True:
+
+    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        x, weights = split_rule(switches[active], size)
+        values = density(x, active)
+        weights = weights[..., None]
+        return (weights * values).sum(axis=1), (weights * np.abs(values)).sum(axis=1)
+
+    def doubled(active: NDArray[np.intp], _: NDArray) -> NDArray:
+        nonlocal size
         size *= 2
-        fine = _panels(density, switches, active, size)
-        value, scale = fine[:, 0], fine[:, 1]
-        settled = _settled(value - coarse[:, 0], scale, judged)
-        result[active[settled]] = value[settled]
-        more = ~settled & np.isfinite(value).all(axis=-1)
-        if size >= GAUSS_LAST or not more.any():
-            return result
-        active, coarse = active[more], fine[more]
+        return begin(active)[0]
+
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
 
 
-def _settled(change: NDArray, scale: NDArray, judged: int | None) -> NDArray[np.bool_]:
-    change, scale = np.abs(change[:, :judged]), scale[:, :judged]
-    noise = ROUNDING * scale.max(axis=-1, keepdims=True)
-    return (change <= np.maximum(HALF_DIGITS * scale, noise)).all(axis=-1)
+def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> NDArray[np.float64]:
+    """Double a rule at the points where it has not settled.
+
+    The error of a rule that converges geometrically is squared by each doubling: a change below half of all
+    digits is the last to be seen, provided that the change before was either much larger, which shows that
+    the rule does converge so, or nothing; one change alone says nothing of a density with symmetries.
+    """
+    active = np.arange(points)
+    value, scale = begin(active)
+    before = np.full((points, 1), np.nan)
+    result = np.full(value.shape, np.nan)
+    for _ in range(doublings):
+        finer = doubled(active, value)
+        size = scale[:, judged]
+        noise = ROUNDING * size.max(axis=-1, keepdims=True)
+        change = np.abs(finer - value)[:, judged]
+        least = np.maximum(ROUNDING * size, noise)
+        convergent = (change <= FALL * before) | (before <= least)
+        settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
+        result[active[settled]] = finer[settled]
+        more = ~settled & np.isfinite(finer).all(axis=-1)
+        if not more.any():
+            break
+        active, value, scale, before = active[more], finer[more], scale[more], change[more]
+    return result
 
 
 def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
@@ -102,15 +180,6 @@ def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArr
     flat = (len(switches), -1)
     return (edges[:, :-1, None] + lengths * nodes).reshape(flat), (lengths * weights / (2 * np.pi)).reshape(
         flat
-    )
-
-
-def _panels(density: Density, switches: NDArray, active: NDArray, size: int) -> NDArray[np.float64]:
-    """Mean and mean modulus (points, 2, columns)."""
-    x, weights = split_rule(switches[active], size)
-    values = density(x, active)
-    return np.stack(
-        [(weights[..., None] * values).sum(axis=1), (weights[..., None] * np.abs(values)).sum(axis=1)], axis=1
     )
 
 
@@ -126,20 +195,55 @@ def find_switches(switching: Density, points: int) -> NDArray[np.float64]:
     `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
     """
     grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
-    everywhere = np.arange(points)
-    values = switching(grid[None], everywhere)
-    count = values.shape[-1] // 2
-    positive = values[..., :count] > 0
+    columns = switching(grid[None], np.arange(points))
+    columns = np.broadcast_to(columns, (points, *columns.shape[1:]))
+    count = columns.shape[-1] // 2
+    positive = columns[..., :count] > 0
     point, cell, which = np.nonzero(positive[:, 1:] != positive[:, :-1])
+    low, high, falling = grid[cell], grid[cell + 1], positive[point, cell, which]
+    pairs = _close_pairs(switching, grid, columns)
+    if pairs is not None:
+        low, high = np.concatenate([low, pairs[0]]), np.concatenate([high, pairs[1]])
+        point, which = np.concatenate([point, pairs[2]]), np.concatenate([which, pairs[3]])
+        falling = np.concatenate([falling, pairs[4]])
     if not len(point):
         return np.full((points, 0), np.nan)
-    root = _refine(switching, grid[cell], grid[cell + 1], point, which, positive[point, cell, which])
+    root = _refine(switching, low, high, point, which, falling)
     order = np.lexsort((root, point))
     point, root = point[order], root[order]
     place = np.arange(len(point)) - np.searchsorted(point, point)
     result = np.full((points, place.max() + 1), np.nan)
     result[point, place] = root
     return result
+
+
+def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[NDArray, ...] | None:
+    """Brackets of two switches between neighbouring nodes: an extremum there that has the other sign."""
+    count = columns.shape[-1] // 2
+    value, slope = columns[..., :count], columns[..., count:]
+    towards = value * slope
+    near = np.abs(value) < 2 * np.abs(slope) * (grid[1] - grid[0])
+    turning = (towards[:, :-1] < 0) & (towards[:, 1:] > 0) & (value[:, :-1] * value[:, 1:] > 0)
+    point, cell, which = np.nonzero(turning & (near[:, :-1] | near[:, 1:]))
+    if not len(point):
+        return None
+    rows = np.arange(len(point))
+    low, high = grid[cell], grid[cell + 1]
+    rising, above = slope[point, cell, which] > 0, value[point, cell, which] > 0
+    for _ in range(50):
+        middle = (low + high) / 2
+        before = (switching(middle[:, None], point)[rows, 0, which + count] > 0) == rising
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    crossed = (switching(low[:, None], point)[rows, 0, which] > 0) != above
+    point, which, at, above = point[crossed], which[crossed], low[crossed], above[crossed]
+    left, right = grid[cell[crossed]], grid[cell[crossed] + 1]
+    return (
+        np.concatenate([left, at]),
+        np.concatenate([at, right]),
+        np.concatenate([point, point]),
+        np.concatenate([which, which]),
+        np.concatenate([above, ~above]),
+    )
 
 
 def _refine(

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging.family import VALUES, Family, local_range, march, members
+from pontryagin.averaging.family import VALUES, Family, local_range
+from pontryagin.averaging.members import march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
@@ -69,6 +70,9 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
     NotConverged
         If one of them is not found.
     """
+    theta = theta[np.abs(theta[:, None] - current.theta).min(axis=1) > 1e-9]
+    if len(theta) == 0:
+        return current
     left = np.clip(np.searchsorted(current.theta, theta, side="right") - 1, 0, len(current.theta) - 2)
     guess = interpolated(current, current.unknowns, left, theta)
     try:
@@ -80,15 +84,18 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
     order = np.argsort(np.concatenate([current.theta, theta]), kind="stable")
     added = [theta, unknowns, *(getattr(shot, name) for name in VALUES)]
     names = ("theta", "unknowns", *VALUES)
-    joined = (np.concatenate([getattr(current, n), new])[order] for n, new in zip(names, added, strict=True))
-    return Family(*joined, current.centre, current.limits)
+    joined = {
+        n: np.concatenate([getattr(current, n), new])[order] for n, new in zip(names, added, strict=True)
+    }
+    return Family(**joined, centre=current.centre, limits=current.limits)
 
 
 def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float) -> tuple[Array, Shot]:
     near = left if angle - current.theta[left] < current.theta[left + 1] - angle else left + 1
     edge = members(problem, current.theta[[near]], current.unknowns[[near]])
-    for _, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
-        return unknowns, shot
+    for reached, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
+        if reached[0] == angle:
+            return unknowns, shot
     raise NotConverged("a member of the family was not found between its neighbours", float(np.abs(angle)))
 
 

@@ -6,11 +6,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.averaging.arrivals import arrivals, fixed_ending
 from pontryagin.averaging.extremal import Extremal, Extremals
 from pontryagin.averaging.family import Family, family
+from pontryagin.averaging.members import nearby_extremal
 from pontryagin.averaging.proof import Proof
 from pontryagin.averaging.refinement import crossings, turns_resolved, with_members
-from pontryagin.averaging.shooting import Shooting, Shot, shooting
+from pontryagin.averaging.shooting import Shooting, Shot, newton_step, shooting
 from pontryagin.averaging.turn import anomaly_at, phase_at
 from pontryagin.errors import NotConverged
 from pontryagin.validation import finite, positive
@@ -19,6 +21,8 @@ Array = NDArray[np.float64]
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""
+SLACK = 1e-6
+"""How far beyond its bracket a root may lie: members, and their signs, are not polished."""
 
 
 @dataclass(frozen=True)
@@ -55,10 +59,11 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
     if not solution.duration > 0:
         raise ValueError("exact takes a problem that is not solved at the start: the target holds there")
     start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
-    problem = shooting(solution, float(small), float(start))
+    held = solution if solution.frame is None else solution.frame(solution)
+    problem = shooting(held, float(small), float(start))
     centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
-    guess = np.concatenate([solution.costate([0.0])[0], np.atleast_1d(solution.multipliers)])
-    traced, found = roots(problem, family(problem, centre, guess))
+    guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
+    traced, found = _found(problem, centre, guess)
     proof = Proof(problem, found.shot)
 
     def phase_of(slow: Array, anomaly: Array) -> Array:
@@ -85,6 +90,17 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
     return Extremals(tuple(items), float(small), float(begin), traced)
 
 
+def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | None, Roots]:
+    if fixed_ending(problem.equations):
+        turns = (centre - problem.anomaly) / (2 * np.pi)
+        shot = arrivals(problem, float(np.sign(guess[0])), turns)
+        return None, Roots(shot, np.full(len(shot.theta), np.inf))
+    try:
+        return roots(problem, family(problem, centre, guess))
+    except NotConverged:
+        return roots(problem, family(problem, *nearby_extremal(problem, centre, guess)))
+
+
 def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
     """Bracket and polish every root of y1; returns the family with the members added on the way.
 
@@ -94,31 +110,29 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
         If y1 does not vanish in the window, or a bracketed root is not found.
     """
     current = turns_resolved(problem, traced)
-    if not (current.y[:-1] * current.y[1:] <= 0).any():
+    if len(_sign_changes(current)) == 0:
         raise NotConverged("the phase's costate does not vanish in the window", float(np.abs(traced.y).min()))
     found: list[Roots] = []
+    solved = np.empty(0)
     for _ in range(10):
-        at = _open_brackets(current, found)
+        at = _sign_changes(current)
+        at = at[~np.isin(current.theta[at], solved)]
         if len(at) == 0:
             return current, _sorted(found)
+        low, high = current.theta[at], current.theta[at + 1]
         theta, unknowns = crossings(current, at)
-        reached, good = _polished(
-            problem, theta, unknowns, current.theta[at], current.theta[at + 1], current.y
-        )
+        reached, good = _polished(problem, theta, unknowns, low, high, current.y)
         found.append(reached)
+        solved = np.append(solved, low[good])
         if not good.all():
             current = with_members(problem, current, theta[~good])
     raise NotConverged("an extremal was bracketed but not found", float(np.abs(current.y[at]).max()))
 
 
-def _open_brackets(current: Family, found: list[Roots]) -> NDArray[np.intp]:
-    """Members after which y1 changes sign with no root found there."""
-    at = np.nonzero(current.y[:-1] * current.y[1:] <= 0)[0]
-    if not found:
-        return at
-    known = np.sort(np.concatenate([each.shot.theta for each in found]))
-    inside = np.searchsorted(known, current.theta[at + 1]) - np.searchsorted(known, current.theta[at])
-    return at[inside == 0]
+def _sign_changes(current: Family) -> NDArray[np.intp]:
+    """Members after which y1 changes sign; a root at a member lies before it."""
+    positive = current.y >= 0
+    return np.nonzero(positive[:-1] != positive[1:])[0]
 
 
 def _polished(
@@ -140,9 +154,9 @@ def _polished(
         slope[i] = slopes.along[1]
         left = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
         for _ in range(4):
-            step = -np.linalg.solve(whole, left[..., None])[..., 0]
+            step = newton_step(whole, left)
             w[i] += step[:, :n]
-            theta[i] = np.clip(theta[i] + step[:, n], low[i], high[i])
+            theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])
             before, left = left, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
             error = np.abs(left).max(axis=1)

@@ -1,11 +1,12 @@
 """Example 1, (3.1): a rotor with a mass and a potential that depend on its angle, sped up or braked."""
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.solution import AveragedSolution, solve_averaged
+from pontryagin.averaging.solution import AveragedSolution, solved
 from pontryagin.validation import finite, positive
 
 if TYPE_CHECKING:
@@ -63,9 +64,10 @@ def rotor(
 
     if (peak is None) == (k is None):
         raise ValueError("exactly one of peak and k must be given")
+    bound = None if peak is None else positive("peak", peak)
+    price = None if k is None else positive("k", k)
     begin = finite("a0", a0, "a number or an array (...)")
     end = finite("a1", a1, "a number or an array (...)")
-    paid = positive("k", k) if peak is None else positive("peak", peak)
     m, V = _of("mass", mass, "x"), _of("potential", potential, "x")
     lightest = _over_a_turn(m).min()
     if not lightest > 0:
@@ -77,10 +79,14 @@ def rotor(
                 f"{name} must exceed the potential's maximum {top:.6g}, for omega vanishes there, "
                 f"got {energy.min():.6g}"
             )
-    system = derived.rotor(
-        m, V, _of("force", force, "xv"), end, paid if k is None else None, paid if peak is None else None
+    f = _of("force", force, "xv")
+    return solved(
+        derived.rotor_model(m, V, f, bound is not None),
+        ("a",),
+        begin[..., None],
+        (end, price if bound is None else bound),
+        lambda: derived.rotor(m, V, f, end, bound, price),
     )
-    return solve_averaged(system, begin[..., None])
 
 
 def _of(name: str, value: Any, letters: str) -> "sp.Expr":
@@ -88,6 +94,7 @@ def _of(name: str, value: Any, letters: str) -> "sp.Expr":
     import sympy as sp
 
     from pontryagin.averaging.derivation import rotor as derivation
+    from pontryagin.averaging.system_checks import require_periodic
 
     if isinstance(value, str):
         raise TypeError(f"{name} must be a SymPy expression or a number, got the text {value!r}")
@@ -103,9 +110,12 @@ def _of(name: str, value: Any, letters: str) -> "sp.Expr":
         raise ValueError(
             f"{name} may hold {' and '.join(known)} only, got unknown symbols {', '.join(unknown)}"
         )
-    return expression.xreplace({symbol: known[str(symbol)] for symbol in expression.free_symbols})
+    mine = expression.xreplace({symbol: known[str(symbol)] for symbol in expression.free_symbols})
+    require_periodic(name, mine, derivation.x, {})
+    return mine
 
 
+@lru_cache(maxsize=64)
 def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
     from pontryagin import compile as compiler
     from pontryagin.averaging.derivation import rotor as derivation

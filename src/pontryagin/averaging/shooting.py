@@ -71,6 +71,14 @@ class Shot:
         return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
 
 
+def newton_step(matrices: Array, residuals: Array) -> Array:
+    """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
+    try:
+        return -np.linalg.solve(matrices, residuals[..., None])[..., 0].astype(np.float64)
+    except np.linalg.LinAlgError:
+        return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
+
+
 @dataclass(frozen=True)
 class Slopes:
     """Derivatives of residual and y of a `Shot` in w and theta."""
@@ -83,7 +91,7 @@ class Slopes:
     @property
     def along(self) -> tuple[Array, Array]:
         """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
-        w = -np.linalg.solve(self.residual_w, self.residual_theta[..., None])[..., 0]
+        w = newton_step(self.residual_w, self.residual_theta)
         return w, self.y_theta + (self.y_w * w).sum(axis=-1)
 
 
@@ -102,6 +110,8 @@ class Shooting:
         epsilon, then the system's numbers.
     scale_a, scale_p, scale_m : (n,), (n,), (r,) array
         Sizes of slow variables, costates and target.
+    price : float
+        Mean running cost J0/tau1, the size of h*.
     """
 
     equations: Canonical
@@ -111,6 +121,7 @@ class Shooting:
     scale_a: Array
     scale_p: Array
     scale_m: Array
+    price: float
 
     def shoot(self, theta: Array, w: Array) -> Shot:
         """Follow the extremals that leave with p0 to the anomalies theta."""
@@ -127,7 +138,7 @@ class Shooting:
         _, *motion = _start(self.equations)(*starts[:, : 2 * n + 1].T, self.anomaly, *self.parameters)
         y0_p = -np.stack(motion[:-1], axis=-1) / motion[-1][:, None]
         by_p = through[..., :n] + through[..., n:] * y0_p[:, None, :]
-        _, _, jacobian, curvature = self._boundary(reached, w)
+        _, _, jacobian, curvature = self.boundary(reached, w)
         shot = self._shot(theta, w, starts, reached)
         count, r = len(w), len(self.scale_m)
         by_w = np.concatenate([by_p, np.zeros((count, by_p.shape[1], r))], axis=-1)
@@ -160,14 +171,19 @@ class Shooting:
         fixed = np.broadcast_to(self.start, (count, n))
         return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
 
-    def _boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
+    def carry(self, starts: Array, begin: float, end: float) -> Array:
+        """States (k, 2n + 3) carried from one anomaly to another, backwards too."""
+        return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
+
+    def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
+        """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
         n = len(self.start)
         return _boundary(self.equations)(*reached[:, :n].T, *w[:, n:].T, *self.parameters)
 
     def missing(self, reached: Array, theta: Array, w: Array) -> tuple[Array, Array, Array]:
         """Scaled residual (k, n + r), J with the terminal cost, and r, at states reached (k, 2n + 3)."""
         n = len(self.start)
-        target, gradient, _, _ = self._boundary(reached, w)
+        target, gradient, _, _ = self.boundary(reached, w)
         missed = target[..., 0] / self.scale_m
         left = (reached[:, n : 2 * n] + gradient[..., 0]) / self.scale_p
         terminal, rate = _terminal(self.equations)(*reached[:, :n].T, theta, *self.parameters)
@@ -202,6 +218,7 @@ def shooting(solution, small: float, anomaly: float) -> Shooting:
         scale_a,
         scale_p,
         np.abs(jacobian) @ scale_a,
+        abs(float(solution.cost / solution.duration)),
     )
 
 

@@ -1,19 +1,23 @@
 """Solutions of the first approximation, (2.17)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.jets import evaluate
+from pontryagin.averaging.mesh import evaluate as evaluate_series
 from pontryagin.averaging.model import Model
 from pontryagin.averaging.solve import extremals
 from pontryagin.averaging.turn import anomaly_at, phase_at
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.validation import finite, times, vectors
+
+if TYPE_CHECKING:
+    from pontryagin.averaging.extremal import Extremals
 
 Array = NDArray[np.float64]
 
@@ -43,6 +47,8 @@ class AveragedSolution:
         psi_0 where the problem says it (`spin_down`), else zero.
     numbers : tuple of (...) arrays
         Values of the system's numbers, in their order.
+    frame : callable or None
+        From this solution to the same one in variables that are regular at the target, if its own are not.
     """
 
     duration: Array
@@ -55,8 +61,10 @@ class AveragedSolution:
     initial_phase: Array
     numbers: tuple[Array, ...]
     model: Model
+    edges: Array
     series: Array
     make_system: Callable[[], object]
+    frame: Callable | None = None
 
     @cached_property
     def system(self):
@@ -69,11 +77,11 @@ class AveragedSolution:
 
     def costate(self, tau: ArrayLike) -> Array:
         """eta at slow times tau (k,) or (..., k), as (..., k, n)."""
-        return self._at(tau)[..., len(self.names) :]
+        return self._z(tau)[..., len(self.names) :]
 
     def frequency(self, tau: ArrayLike) -> Array:
         """omega(xi) at slow times tau (k,) or (..., k), as (..., k)."""
-        return self.model.averaged(self._at(tau), self._numbers)[1].value
+        return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
         """psi_0 + integral of omega d tau / epsilon, right to O(1), as (..., k).
@@ -85,24 +93,18 @@ class AveragedSolution:
         """
         small = _positive_epsilon(epsilon)
         begin = self.initial_phase if phase is None else finite("phase", phase, "a number or an array (...)")
-        s = self._share(tau)
-        degree = self.series.shape[-2] - 1
-        knots = self._at(self.duration[..., None] * chebyshev.points(degree))
-        omega = self.model.averaged(knots, self._numbers)[1].value
-        turned = chebyshev.integrals(degree) @ omega[..., None]
-        series = chebyshev.to_coefficients(degree) @ turned
-        angle = (chebyshev.polynomials(s, degree) @ series)[..., 0]
-        return np.asarray(begin)[..., None] + self.duration[..., None] * angle / small
+        turned = self._at(tau)[..., -1]
+        return np.asarray(begin)[..., None] + self.duration[..., None] * turned / small
 
     def control(self, tau: ArrayLike, anomaly: ArrayLike) -> Array:
-        """u*(xi, x, eta) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
+        """u*(xi, x, eta) of (2.17) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
         x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
-        z = np.moveaxis(self._at(tau), -1, 0)
-        return evaluate(self.model.control, *z, x, np.zeros(()), *self._numbers)
+        z = np.moveaxis(self._z(tau), -1, 0)
+        return evaluate(self.model.control, *z, x, *self._numbers)
 
     def mean_rate(self, tau: ArrayLike) -> Array:
         """d xi / d tau, the mean of f under u*, as (..., k, n)."""
-        z = self._at(tau)
+        z = self._z(tau)
         return self.model.averaged(z, self._numbers)[0].gradient[..., len(self.names) :]
 
     def anomaly(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
@@ -115,19 +117,27 @@ class AveragedSolution:
         x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
         return phase_at(self.model, self.slow(tau), x, self._numbers)
 
-    def correction(self, phase: ArrayLike | None = None) -> Array:
+    def correction(self, phase: ArrayLike | None = None, ending: ArrayLike | None = None) -> Array:
         """J_1, (...): the least cost is cost + epsilon J_1 + O(epsilon^2).
 
         Parameters
         ----------
         phase : (...) array, optional
             psi_0; `initial_phase` by default.
+        ending : (...) array, optional
+            Anomaly at the end; by default the optimum's. It must be given where the trajectory leaves no
+            choice of it (one slow variable in the least time), and J_1 varies with it.
+
+        Raises
+        ------
+        ValueError
+            If kappa is not zero, an argument is not finite, or `ending` must be given.
         """
         from pontryagin.averaging.correction import correction
 
-        return correction(self, self.initial_phase if phase is None else phase)
+        return correction(self, self.initial_phase if phase is None else phase, ending)
 
-    def exact(self, epsilon: float, phase: float | None = None) -> Sequence:
+    def exact(self, epsilon: float, phase: float | None = None) -> "Extremals":
         """All extremals of the unaveraged problem around the optimum, best first; one problem only.
 
         Parameters
@@ -136,24 +146,32 @@ class AveragedSolution:
             Positive.
         phase : float, optional
             psi_0; `initial_phase` by default.
-        """
-        from pontryagin.averaging.roots import extremals
 
-        begin = float(self.initial_phase) if phase is None and not self.duration.shape else phase
-        return extremals(self, _positive_epsilon(epsilon), begin)
+        Raises
+        ------
+        ValueError
+            If epsilon is not positive, or the solution is a stack.
+        """
+        small = _positive_epsilon(epsilon)
+        if self.duration.shape:
+            raise ValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
+        from pontryagin.averaging import roots
+
+        return roots.extremals(self, small, float(self.initial_phase) if phase is None else phase)
 
     @property
     def _numbers(self) -> tuple[Array, ...]:
         return tuple(number[..., None] for number in self.numbers)
 
-    def _share(self, tau: ArrayLike) -> Array:
-        inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
-        whole = self.duration[..., None]
-        return np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+    def _z(self, tau: ArrayLike) -> Array:
+        return self._at(tau)[..., :-1]
 
     def _at(self, tau: ArrayLike) -> Array:
-        s = self._share(tau)
-        return chebyshev.polynomials(s, self.series.shape[-2] - 1) @ self.series
+        """(xi, eta, integral of omega) at slow times, (..., k, 2n + 1)."""
+        inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
+        whole = self.duration[..., None]
+        share = np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+        return evaluate_series(self.edges, self.series, share)
 
 
 def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
@@ -162,7 +180,8 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
     The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
     target along its straight line, or that continues the extremals to nearer levels of the target. It
     satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17).
+    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
+    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
 
     Parameters
     ----------
@@ -203,7 +222,15 @@ def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> Avera
         raise TypeError(f"system must be a PhaseSystem, got {system!r}")
     begin = vectors("start", start, len(system.slow))
     names = tuple(str(symbol) for symbol in system.slow)
-    return solved(system.model, names, begin, tuple(system.numbers.values()), lambda: system, kappa=kappa)
+    numbers = tuple(np.asarray(value) for value in system.numbers.values())
+    return solved(
+        system.model,
+        names,
+        begin,
+        numbers,
+        lambda: system,
+        kappa=kappa,
+    )
 
 
 def solved(
@@ -215,6 +242,7 @@ def solved(
     *,
     kappa: ArrayLike = 0.0,
     initial_phase: ArrayLike = 0.0,
+    frame: Callable | None = None,
 ) -> AveragedSolution:
     """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
     family = finite("kappa", kappa, "a number or an array (...)")
@@ -247,8 +275,10 @@ def solved(
         initial_phase=np.broadcast_to(phase, shape),
         numbers=tuple(each[:-1]),
         model=model,
+        edges=found.edges.reshape(*shape, -1),
         series=found.series.reshape(*shape, *found.series.shape[1:]),
         make_system=make_system,
+        frame=frame,
     )
 
 

@@ -1,4 +1,4 @@
-"""The optimal averaged extremal: a guess, Newton's method, continuation where it fails, degree as needed."""
+"""The optimal averaged extremal: a guess, Newton's method, continuation where it fails, a mesh as needed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,20 +6,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging import chebyshev
 from pontryagin.averaging.certify import certify
 from pontryagin.averaging.collocation import CLOSE, Path, Problem, newton
-from pontryagin.averaging.guess import Guess, straight
+from pontryagin.averaging.guess import Guess, shot, straight
+from pontryagin.averaging.mesh import Mesh
 from pontryagin.averaging.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import Infeasible, NotConverged
 
 Array = NDArray[np.float64]
 
-DEGREES = (12, 24, 48, 96, 192)
+COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
+GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
-LAST_TAIL = 1e-9
-"""What the last coefficients may be at any degree, and at the highest."""
+"""What the last coefficients may be, in shares of the variable."""
+LAST_TAIL, MOST_PANELS = 1e-9, 40
+"""What they may be where the mesh is not refined any more."""
 RESIDUAL = 1e-7
 """The largest residual of the maximum principle that is handed out."""
 LEAST_SHARE = 1e-3
@@ -33,14 +35,17 @@ class Extremals:
 
     Attributes
     ----------
-    series : (s, N + 1, 2n) array
-        Chebyshev coefficients of (xi, eta) in 2 tau / duration - 1.
+    edges : (s, panels + 1) array
+        Of the panels of tau / duration; a stack's members may have panels of no length at the end.
+    series : (s, panels, degree + 1, 2n + 1) array
+        Chebyshev coefficients on each of (xi, eta) and of the integral of omega over tau / duration.
     duration, cost : (s) array
     multipliers : (s, r) array
         alpha.
     certificate : MaximumPrinciple
     """
 
+    edges: Array
     series: Array
     duration: Array
     cost: Array
@@ -60,60 +65,125 @@ def extremals(
     Infeasible, NotConverged
         See `solve_averaged`.
     """
-    parts = []
+    groups: list[tuple[NDArray[np.intp], Extremals]] = []
+    level = np.zeros((len(start), model.target))
+    problem = Problem(model, start, level, kappa, numbers)
     for first in range(0, len(start), AT_ONCE):
-        members = slice(first, first + AT_ONCE)
-        held = tuple(number[members] for number in numbers)
-        level = np.zeros((len(start[members]), model.target))
-        parts.append(_stack(Problem(model, start[members], level, kappa[members], held), names, first))
-    degree = max(part.series.shape[1] for part in parts)
-    series = [np.pad(p.series, [(0, 0), (0, degree - p.series.shape[1]), (0, 0)]) for p in parts]
-    joined = {
-        name: np.concatenate([getattr(part, name) for part in parts])
-        for name in ("duration", "cost", "multipliers")
-    }
-    residuals = {
-        name: np.concatenate([getattr(part.certificate, name) for part in parts])
-        for name in ("boundary", "transversality", "hamiltonian", "maximality")
-    }
-    return Extremals(np.concatenate(series), **joined, certificate=MaximumPrinciple(**residuals))
+        members = np.arange(first, min(first + AT_ONCE, len(start)))
+        groups += [(members[own], found) for own, found in _stack(problem[members], names, first)]
+    return _joined(len(start), groups)
 
 
-def _stack(problem: Problem, names: Sequence[str], first: int) -> Extremals:
-    guess = straight(problem, DEGREES[0])
+def _joined(stack: int, groups: list[tuple[NDArray[np.intp], Extremals]]) -> Extremals:
+    if not groups:
+        raise ValueError("start must hold at least one problem, got an empty stack")
+    panels = max(found.series.shape[1] for _, found in groups)
+    degree = max(found.series.shape[2] for _, found in groups)
+    edges = np.ones((stack, panels + 1))
+    series = np.zeros((stack, panels, degree, groups[0][1].series.shape[-1]))
+    duration, cost = np.empty(stack), np.empty(stack)
+    multipliers = np.empty((stack, groups[0][1].multipliers.shape[-1]))
+    residuals = np.empty((4, stack))
+    for members, found in groups:
+        edges[members, : found.edges.shape[1]] = found.edges
+        series[members, : found.series.shape[1], : found.series.shape[2]] = found.series
+        duration[members], cost[members] = found.duration, found.cost
+        multipliers[members] = found.multipliers
+        of = found.certificate
+        residuals[:, members] = [of.boundary, of.transversality, of.hamiltonian, of.maximality]
+    return Extremals(edges, series, duration, cost, multipliers, MaximumPrinciple(*residuals))
+
+
+def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDArray[np.intp], Extremals]]:
+    """Solve problems side by side; those that end on one mesh make a group."""
+    guess = straight(problem, COARSE)
     there = _already_there(problem)
     _require_sound(problem, guess, names, there, first)
-    path, closeness = newton(problem[~there], guess.path[~there])
-    moving = np.nonzero(~there)[0]
-    result = Path(guess.path.z.copy(), np.where(there, 0.0, guess.path.duration), guess.path.multipliers)
-    result.z[there] = guess.path.z[there][:, :1]
-    for i in np.nonzero(closeness > CLOSE)[0]:
-        one = _continued(problem[[moving[i]]], names, first + int(moving[i]))
-        path.z[i], path.duration[i], path.multipliers[i] = one.z[0], one.duration[0], one.multipliers[0]
-    result.z[moving], result.duration[moving], result.multipliers[moving] = (
-        path.z,
-        path.duration,
-        path.multipliers,
-    )
-    found = _resolved(problem, result, moving, first)
-    certificate = certify(problem, found, names, first)
+    paths = []
+    if there.any():
+        still = guess.path[there]
+        paths.append((np.nonzero(there)[0], Path(COARSE, still.z, 0 * still.duration, still.multipliers)))
+    if not there.all():
+        moving = np.nonzero(~there)[0]
+        path, closeness = newton(problem[moving], guess.path[moving])
+        failed = closeness > CLOSE
+        rest = moving[~failed]
+        paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
+        for member in moving[failed]:
+            one = problem[[member]]
+            again = _tried_harder(one, names, first + int(member))
+            paths += [(np.array([member]), p) for _, p in _resolved(one, again, np.array([first + member]))]
+    return [(members, _extremals(problem[members], path, names, first + members)) for members, path in paths]
+
+
+def _tried_harder(problem: Problem, names: Sequence[str], member: int) -> Path:
+    """Solve one problem (1) that Newton's method did not solve from the first guess."""
+    for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
+        if guess is not None:
+            path, closeness = newton(problem, guess)
+            if closeness[0] <= CLOSE:
+                return path
+    return _continued(problem, names, member)
+
+
+def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]) -> Extremals:
+    """The extremals of paths on one mesh, certified."""
+    n, mesh = problem.model.slow, path.mesh
+    certificate = certify(problem, path, names, members)
     if not certificate.holds(RESIDUAL):
         worst = int(np.argmax(np.nan_to_num(certificate.residual, nan=np.inf)))
         raise NotConverged(
-            f"the averaged extremal does not satisfy the maximum principle{_which(problem, first + worst)}",
+            f"the averaged extremal does not satisfy the maximum principle{_which(problem, members[worst])}",
             float(certificate.residual[worst]),
         )
-    return Extremals(found.z, found.duration, _cost(problem, found), found.multipliers, certificate)
+    h, omega = problem.averaged(path.z)
+    running = np.einsum("ski,ski->sk", path.z[..., n:], h.gradient[..., n:]) - h.value
+    _, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
+    turned = (omega.value @ mesh.integrals.T)[..., None]
+    return Extremals(
+        edges=np.broadcast_to(np.array(mesh.edges), (len(path.z), mesh.panels + 1)),
+        series=mesh.series(np.concatenate([path.z, turned], axis=-1)),
+        duration=path.duration,
+        cost=terminal.value + path.duration * (running @ mesh.integrals[-1]),
+        multipliers=path.multipliers,
+        certificate=certificate,
+    )
 
 
-def _cost(problem: Problem, path: Path) -> Array:
-    """g plus the integral of the mean running cost eta f0 - h0, path being given by its series."""
-    n, degree = problem.model.slow, path.degree
-    z = chebyshev.polynomials(chebyshev.points(degree), degree) @ path.z
-    h, _ = problem.averaged(z)
-    running = np.einsum("ski,ski->sk", z[..., n:], h.gradient[..., n:]) - h.value
-    _, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
-    return terminal.value + path.duration * (running @ chebyshev.integrals(degree)[-1])
+def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[tuple[NDArray[np.intp], Path]]:
+    """Refine the mesh of the members that need it until their series end in rounding."""
+    groups = []
+    active = np.arange(len(path.duration))
+    while len(active):
+        tails = path.tails()
+        last = path.mesh.panels >= MOST_PANELS
+        settled = (tails <= (LAST_TAIL if last else TAIL)).all(axis=1)
+        if settled.any():
+            groups.append((active[settled], path[settled]))
+        active, path, tails = active[~settled], path[~settled], tails[~settled]
+        if not len(active):
+            break
+        if last:
+            raise NotConverged(
+                f"the averaged extremal is not smooth enough for {path.mesh.panels} panels"
+                f"{_which(problem, members[active[0]])}",
+                float(tails.max()),
+            )
+        coarse = path.mesh == COARSE
+        finer = FINE if coarse else path.mesh.bisected(np.asarray((tails > TAIL).any(axis=0)))
+        found, closeness = newton(problem[active], path.on(finer))
+        lost = closeness > CLOSE
+        good = lost & (tails <= LAST_TAIL).all(axis=1)
+        if good.any():
+            groups.append((active[good], path[good]))
+        path, active, lost = found[~good], active[~good], lost[~good]
+        if lost.any():
+            member = members[active[np.argmax(lost)]]
+            raise NotConverged(
+                f"Newton's method lost the extremal on {finer.panels} panels{_which(problem, member)}",
+                float(tails.max()),
+            )
+    return groups
 
 
 def _already_there(problem: Problem) -> NDArray[np.bool_]:
@@ -134,7 +204,7 @@ def _require_sound(
             f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
             f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}"
         )
-    idle = ~(guess.idle[:, 0] < 0)
+    idle = ~(guess.idle < 0)
     if idle.any():
         member = int(np.nonzero(idle)[0][0])
         name = (
@@ -143,7 +213,7 @@ def _require_sound(
             else ("running_cost must be positive on average")
         )
         raise ValueError(
-            f"{name}, at the start the cost rate is {-guess.idle[member, 0]:.6g}"
+            f"{name}, at the start the cost rate is {-guess.idle[member]:.6g}"
             f"{_which(problem, first + member)}"
         )
     stuck = guess.stuck & ~there[:, None]
@@ -191,51 +261,15 @@ def _continued(problem: Problem, names: Sequence[str], member: int) -> Path:
 
 def _predicted(problem: Problem, known: list[tuple[float, Path]], at: float) -> Path:
     if not known:
-        return straight(problem, DEGREES[0]).path
+        return straight(problem, FINE).path
     if len(known) == 1:
         return known[0][1]
     (earlier, first), (later, second) = known
     more = (at - later) / (later - earlier)
     duration = second.duration + more * (second.duration - first.duration)
     return Path(
+        second.mesh,
         second.z + more * (second.z - first.z),
         np.where(duration > 0, duration, second.duration),
         second.multipliers + more * (second.multipliers - first.multipliers),
     )
-
-
-def _resolved(problem: Problem, path: Path, moving: NDArray[np.intp], first: int) -> Path:
-    """Raise the degree of the members that need it until their series end in rounding."""
-    stack = len(path.duration)
-    series = np.zeros((stack, DEGREES[-1] + 1, path.z.shape[-1]))
-    duration, multipliers = path.duration.copy(), path.multipliers.copy()
-    series[:, 0] = path.z[:, 0]
-    active, current = moving, path[moving]
-    used = 0
-    for degree, following in zip(DEGREES, (*DEGREES[1:], 0), strict=True):
-        if not len(active):
-            break
-        tail = current.tail()
-        settled = tail <= (TAIL if following else LAST_TAIL)
-        members = active[settled]
-        series[members, : degree + 1] = chebyshev.to_coefficients(degree) @ current.z[settled]
-        duration[members], multipliers[members] = current.duration[settled], current.multipliers[settled]
-        used = degree if len(members) else used
-        active, current = active[~settled], current[~settled]
-        if not len(active):
-            break
-        if not following:
-            raise NotConverged(
-                f"the averaged extremal is not smooth enough for degree {degree}"
-                f"{_which(problem, first + int(active[0]))}",
-                float(tail.max()),
-            )
-        current, closeness = newton(problem[active], current.refined(following))
-        if (closeness > CLOSE).any():
-            lost = int(active[np.argmax(closeness)])
-            raise NotConverged(
-                f"Newton's method lost the averaged extremal at degree {following}"
-                f"{_which(problem, first + lost)}",
-                float(tail.max()),
-            )
-    return Path(series[:, : used + 1], duration, multipliers)

@@ -57,4 +57,11 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
         numbers,
         lambda: generated.system("spin_down", numbers),
         initial_phase=sense * np.arctan2(w[..., 1], w[..., 0]),
+        frame=_turning,
     )
+
+
+def _turning(solution: AveragedSolution):
+    from pontryagin.averaging.rotating_frame import turning
+
+    return turning(solution)

@@ -66,6 +66,10 @@ class PhaseSystem:
     ...                        slow=[a], control=[u], phase=x, target=[a - 5])
     >>> pendulum.maximiser[0]
     p_a*sqrt(2*a + 2*cos(x))/2
+    >>> from pontryagin.averaging import solve_averaged
+    >>> solution = solve_averaged(pendulum, start=[2.0])
+    >>> f"{solution.duration:.6f} {solution.cost:.6f}"
+    '1.049933 3.849810'
     """
 
     f: Sequence[sp.Expr]

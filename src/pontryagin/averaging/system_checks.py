@@ -1,4 +1,4 @@
-"""What a `PhaseSystem` must satisfy, each refused by the name of its argument."""
+"""What a `PhaseSystem` and its control set must satisfy, each refused by the name of its argument."""
 
 from collections.abc import Mapping, Sequence
 
@@ -46,7 +46,7 @@ def checked(system) -> dict[str, object]:
     periodic = {f"f[{i}]": e for i, e in enumerate(f)} | scalars | frequencies
     for name, expression in periodic.items():
         if expression is not None:
-            _require_periodic(name, expression, phase, numbers)
+            require_periodic(name, expression, phase, numbers)
     system.control_set.require_convex(len(control), numbers)
     return {
         "f": f,
@@ -83,7 +83,7 @@ def _numbers(values: Mapping, taken: set[sp.Symbol]) -> dict[sp.Symbol, NDArray]
     (_symbols("numbers", values) if values else ())
     both = taken & set(values)
     if both:
-        raise ValueError(f"numbers must not hold slow, control or phase symbols, got {_listed(both)}")
+        raise ValueError(f"numbers must not hold slow, control or phase symbols, got {listed(both)}")
     numbers = {symbol: finite(str(symbol), value, "a number or an array") for symbol, value in values.items()}
     common_shape(**{str(symbol): array.shape for symbol, array in numbers.items()})
     return numbers
@@ -105,7 +105,7 @@ def _expression(name: str, value: object, known: set[sp.Symbol]) -> sp.Expr:
     unknown = expression.free_symbols - known
     if unknown:
         raise ValueError(
-            f"{name} holds unknown symbols {_listed(unknown)}; it may hold {_listed(known)} "
+            f"{name} holds unknown symbols {listed(unknown)}; it may hold {listed(known)} "
             f"(symbols of the same name differ if one is declared real and the other is not)"
         )
     return expression
@@ -135,7 +135,7 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
             raise ValueError(f"{name} must be affine in the control, its derivative in {first} is {slope}")
 
 
-def _require_periodic(
+def require_periodic(
     name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Mapping[sp.Symbol, NDArray]
 ) -> None:
     """2 pi-periodic in the phase: by structure, or at random points where structure does not tell."""
@@ -152,5 +152,31 @@ def _require_periodic(
         raise ValueError(f"{name} must be 2 pi-periodic in {phase}, got {expression}")
 
 
-def _listed(symbols: set[sp.Symbol]) -> str:
+def require_count(name: str, values: Sequence, dimension: int) -> None:
+    """One entry for each control, or ValueError."""
+    if len(values) != dimension:
+        raise ValueError(f"{name} must hold one for each of {dimension} controls, got {len(values)}")
+
+
+def require_positive(name: str, values: Sequence, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    """Positive at every member of the stack, or ValueError."""
+    for value in numeric(name, values, numbers):
+        least = value.min()
+        if not (np.isfinite(least) and least > 0):
+            raise ValueError(f"{name} must be positive for a convex set of controls, got {least:g}")
+
+
+def numeric(name: str, values: Sequence, numbers: Mapping[sp.Symbol, NDArray]) -> tuple[NDArray, ...]:
+    """The values as arrays, of the shape that the numbers in them broadcast to."""
+    expressions = [sp.sympify(value) for value in values]
+    held = set().union(*(expression.free_symbols for expression in expressions))
+    if held - set(numbers):
+        raise ValueError(f"{name} holds unknown symbols {listed(held - set(numbers))}")
+    symbols = sorted(held, key=str)
+    evaluate = compiler.function("values", symbols, {f"v{i}": e for i, e in enumerate(expressions)})
+    return evaluate(*(numbers[symbol] for symbol in symbols))
+
+
+def listed(symbols: set[sp.Symbol]) -> str:
+    """Symbols as text."""
     return ", ".join(sorted(map(str, symbols)))

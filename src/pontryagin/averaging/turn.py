@@ -36,7 +36,7 @@ def anomaly_at(model: Model, slow: Array, phase: Array, numbers: tuple[Array, ..
     return x
 
 
-def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> Array:
+def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> NDArray[np.complex128]:
     """Complex Fourier coefficients (..., 1 + harmonics) of dpsi/dx, the mean being one."""
     a = np.moveaxis(slow[..., None, :], -1, 0)
     held = tuple(number[..., None] for number in numbers)
@@ -55,13 +55,13 @@ def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> Arr
     raise NotConverged("the weight dpsi/dx is not smooth", float(np.abs(series[..., -size // 8 :]).max()))
 
 
-def _phase(series: Array, x: Array) -> Array:
+def _phase(series: NDArray[np.complex128], x: Array) -> Array:
     k = np.arange(1, series.shape[-1])
     primitive = series[..., 1:] / (1j * k)
     swing = primitive * (np.exp(1j * np.asarray(x)[..., None] * k) - 1)
     return x + 2 * swing.real.sum(axis=-1)
 
 
-def _weight(series: Array, x: Array) -> Array:
+def _weight(series: NDArray[np.complex128], x: Array) -> Array:
     k = np.arange(1, series.shape[-1])
     return 1 + 2 * (series[..., 1:] * np.exp(1j * x[..., None] * k)).real.sum(axis=-1)

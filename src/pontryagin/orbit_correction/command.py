@@ -32,6 +32,9 @@ def solve(
         typer.Option(metavar="ball|disc|box", help="Impulses: the paper's ball, a disc, a square."),
     ] = "ball",
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    samples: Annotated[
+        int, typer.Option(metavar="N", min=0, help="With --json: state and costate at N times.")
+    ] = 0,
     plot: Annotated[
         File, typer.Option(metavar="FILE", help="Draw deviations and impulses: .svg, .pdf, .png.")
     ] = None,
@@ -63,11 +66,14 @@ def solve(
         _solve_batch(batch, out, engine)
         return
     console.required({"--z0": z0})
+    console.together({"--samples": samples}, "--json", json)
     console.file_names(plot, record, out)
     plan = _planned(console.vector("--z0", str(z0), 3), engine)
     console.require_proof(plan.certificate)
     _files(plan, plot, record)
-    told = transcript.transcript(plan)
+    told: dict[str, Any] = transcript.transcript(plan)
+    if samples:
+        told["samples"] = transcript.samples(plan, samples)
     if json:
         typer.echo(console.to_json(told))
     else:

@@ -10,6 +10,8 @@ from math import fabs, sqrt
 import numpy as np
 
 STEPS = 80
+GAP = 1e-12
+CONTINUATION = 12
 
 
 def cholesky_solve(matrix, right):
@@ -103,6 +105,22 @@ def gauge_of(factors, gram_factor, b, psi, controls):
         return 0.0, 0.0
     newton(factors, b, psi, 0.0)
     return bounds(factors, gram_factor, b, psi, controls)
+
+
+def gauge_by_continuation(factors, gram_factor, b, psi, controls):
+    """`gauge_of` for sets that are all but flat, where Newton's method alone ends short."""
+    continuation(factors, gram_factor, b, psi)
+    return bounds(factors, gram_factor, b, psi, controls)
+
+
+def continuation(factors, gram_factor, b, psi):
+    """Newton's method on support functions rounded off less and less."""
+    least_energy_start(factors, gram_factor, b, psi)
+    smoothing = support(factors, psi, 0.0) / factors.shape[0]
+    for _ in range(CONTINUATION):
+        smoothing *= 0.1
+        newton(factors, b, psi, smoothing)
+    newton(factors, b, psi, 0.0)
 
 
 def least_energy_start(factors, gram_factor, b, psi):
@@ -199,10 +217,26 @@ def bounds(factors, gram_factor, b, psi, parts):
     return lower, sqrt(upper)
 
 
-def gauge_stack(factors, gram_factor, targets, costates, results):
-    """`gauge_of` for each row of targets (states, n), into costates (states, n) and results (states, 2)."""
-    controls = np.empty((factors.shape[0], factors.shape[2]))
+def gauge_stack(factors, targets, costates, results):
+    """Bounds on the gauge and what the controls miss, for each row of targets (states, n).
+
+    Factors are whitened: the sum of G_k G_k' is the identity. Results are (states, 3), costates (states, n).
+    """
+    steps, n, m = factors.shape
+    controls = np.empty((steps, m))
+    identity = np.eye(n)
     for row in range(targets.shape[0]):
-        results[row, 0], results[row, 1] = gauge_of(
-            factors, gram_factor, targets[row], costates[row], controls
-        )
+        lower, upper = gauge_of(factors, identity, targets[row], costates[row], controls)
+        if upper - lower > GAP * upper:
+            lower, upper = gauge_by_continuation(factors, identity, targets[row], costates[row], controls)
+        results[row, 0], results[row, 1], results[row, 2] = lower, upper, 0.0
+        size = 0.0
+        for i in range(n):
+            miss = targets[row, i]
+            size = max(size, fabs(miss))
+            for k in range(steps):
+                for j in range(m):
+                    miss -= factors[k, i, j] * controls[k, j]
+            results[row, 2] = max(results[row, 2], fabs(miss))
+        if size > 0.0:
+            results[row, 2] /= size

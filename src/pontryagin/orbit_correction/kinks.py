@@ -9,12 +9,10 @@ from math import sqrt
 
 import numpy as np
 
-from pontryagin.orbit_correction.ellipsoids import bounds, gauge_of, least_energy_start, newton, support
+from pontryagin.orbit_correction.ellipsoids import GAP, bounds, continuation, gauge_of, support
 from pontryagin.orbit_correction.zonotope import cross, dot
 
-GAP = 1e-12
 CANDIDATES = 8
-CONTINUATION = 12
 
 
 def flat_gauge(factors, gram_factor, b, psi, controls):
@@ -24,12 +22,7 @@ def flat_gauge(factors, gram_factor, b, psi, controls):
         return lower, upper
     if at_a_kink(factors, b, psi, controls):
         return bounds_at(factors, b, psi, controls)
-    least_energy_start(factors, gram_factor, b, psi)
-    smoothing = support(factors, psi, 0.0) / factors.shape[0]
-    for _ in range(CONTINUATION):
-        smoothing *= 0.1
-        newton(factors, b, psi, smoothing)
-    newton(factors, b, psi, 0.0)
+    continuation(factors, gram_factor, b, psi)
     if at_a_kink(factors, b, psi, controls):
         return bounds_at(factors, b, psi, controls)
     return bounds(factors, gram_factor, b, psi, controls)

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible
-from pontryagin.orbit_correction.thrust import THRUSTS, Gauges, Thrust
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.orbit_correction.proof import CLOSED, require_closed, unit
+from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
 from pontryagin.validation import positive, vectors
 
 ROUNDING = 1e-12
@@ -61,10 +62,10 @@ class Plan:
     @cached_property
     def impulses(self) -> NDArray[np.float64]:
         """Radial and transverse impulse at the start of each interval, (..., M, 2)."""
-        components = self.step_controls.reshape(*self.steps.shape, -1)
-        missing = components.shape[-1] % 2
-        padded = np.concatenate([components, np.zeros((*components.shape[:-1], missing))], axis=-1)
-        return padded.reshape(*self.steps.shape, -1, 2)
+        count = self.step_controls.shape[-2] * self.step_controls.shape[-1]
+        components = self.step_controls.reshape(*self.steps.shape, count)
+        padded = np.concatenate([components, np.zeros((*components.shape[:-1], count % 2))], axis=-1)
+        return padded.reshape(*self.steps.shape, -(-count // 2), 2)
 
     @cached_property
     def controls(self) -> NDArray[np.float64]:
@@ -118,7 +119,9 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
         If an argument is invalid, with its name.
     pontryagin.Infeasible
         If no number of impulses brings a state back: at intervals of whole revolutions every impulse acts
-        at the same place and none changes the radius.
+        at the same place and none changes the radius. Also if a million steps do not.
+    pontryagin.NotConverged
+        If rounding leaves a plan without its proof.
 
     Examples
     --------
@@ -139,43 +142,61 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     steps, shorter = fewest_steps(engine, rows)
     found = engine.gauges(rows, steps)
     residual = engine.miss(rows, steps, found.controls)
-    shape = states.shape[:-1]
-    lengths = np.linalg.norm(found.costates, axis=-1, keepdims=True)
-    costates = np.divide(found.costates, lengths, out=np.zeros_like(found.costates), where=lengths > 0)
-    return Plan(
+    most, shape = int(steps.max(initial=0)), states.shape[:-1]
+    controls = found.controls[:, :most].reshape(*shape, most, found.controls.shape[2])
+    plan = Plan(
         engine,
         states,
         steps.reshape(shape),
         shorter.reshape(shape),
-        costates.reshape(*shape, 3),
-        engine.peak * found.controls[:, : steps.max(initial=0)].reshape(*shape, -1, found.controls.shape[2]),
+        unit(found.costates).reshape(*shape, 3),
+        engine.peak * controls,
         Certificate(residual.reshape(shape), found.upper.reshape(shape), found.lower.reshape(shape)),
     )
+    require_closed(plan.certificate, "the plan")
+    return plan
 
 
 def fewest_steps(thrust: Thrust, rows: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """N_min of the states (rows, 3), and what proves that one step fewer does not do.
 
-    alpha(N) falls strictly and N alpha(N) tends to a constant, so that N alpha(N), rounded up, is a good
-    next guess; it is kept between the largest N known to be too few and the smallest known to do.
+    alpha(N) falls strictly and N alpha(N) tends to a constant, so that N alpha(N) is a good next guess; it
+    is moved on further from try to try. Between a number too few and one that does, log alpha is
+    interpolated in log N; in the long run every third try is the middle, so that the search is bounded.
     """
     moving = rows.any(axis=1)
     too_few = np.where(moving, thrust.fewest - 1, 0)
     enough = np.where(moving, MOST_STEPS + 1, 0)
-    proof = np.full(len(rows), np.inf)
-    guess = np.maximum(too_few + 1, 1)
+    proof, reaching = np.full(len(rows), np.inf), np.full(len(rows), np.nan)
+    guess, following, tries = too_few + 1, too_few.astype(float), 0
     while (open_rows := np.flatnonzero(enough - too_few > 1)).size:
         count = guess[open_rows]
-        found: Gauges = thrust.gauges(rows[open_rows], count)
-        reached = found.upper <= 1 + ROUNDING
+        lower, upper = thrust.bounds(rows[open_rows], count)
+        reached = ~(lower > 1 + ROUNDING)
+        if (reached & ~(upper <= 1 + CLOSED)).any():
+            raise NotConverged("the gauge could not be proved: lost to rounding", float(upper[reached].max()))
         enough[open_rows] = np.where(reached, count, enough[open_rows])
+        reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
         too_few[open_rows] = np.where(reached, too_few[open_rows], count)
-        proof[open_rows] = np.where(reached, proof[open_rows], found.lower)
-        following = np.ceil(count * np.minimum(found.lower, 100.0)).astype(np.int64)
-        guess[open_rows] = np.clip(following, too_few[open_rows] + 1, np.maximum(enough[open_rows] - 1, 1))
+        proof[open_rows] = np.where(reached, proof[open_rows], lower)
         if (too_few >= MOST_STEPS).any():
             worst = rows[int(np.argmax(too_few))]
             raise Infeasible(
                 f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}"
             )
+        following[open_rows] = count * np.minimum(lower, 100.0)
+        between = _between(too_few, proof, enough, reaching, middle=tries > 9 and tries % 3 == 0)
+        onwards = np.where(enough > MOST_STEPS, np.maximum(following, too_few + 2.0**tries), between)
+        guess = np.clip(np.ceil(onwards), too_few + 1, np.maximum(enough - 1, 1)).astype(np.int64)
+        tries += 1
     return enough, proof
+
+
+def _between(
+    low: NDArray, above: NDArray, high: NDArray, below: NDArray, middle: bool
+) -> NDArray[np.float64]:
+    """Where log alpha, linear in log N, is 0 between alpha(low) > 1 and alpha(high) <= 1; or the middle."""
+    with np.errstate(all="ignore"):
+        share = np.log(above) / np.log(above / below)
+        found = np.exp(np.log(low) + share * np.log(high / low))
+    return np.where(np.isfinite(found) & np.logical_not(middle), found, (low + high) / 2)

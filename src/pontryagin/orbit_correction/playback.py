@@ -14,14 +14,25 @@ from numpy.typing import NDArray
 from pontryagin.orbit_correction import satellite, sets
 from pontryagin.orbit_correction.flight import fly_plan, single
 from pontryagin.orbit_correction.plan import Plan, correct
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, RED, SKY
-from pontryagin.recording import Events, Plot, Recording, Scene, View, record
+from pontryagin.plotting import BLUE, GREEN, ORANGE, RED, SKY
+from pontryagin.recording import Events, Plot, Point, Recording, Scene, View, record
 
 Z0 = (-0.0037787, -0.0039109, 0.0141512)
 SAMPLES = 13
 PACE = 10.0
+BLINK = 0.06
+"""Seconds that a jump takes in a plot: the player averages the values of one pixel."""
+
+HOLD = 0.5
+"""Seconds that an impulse is shown."""
+
 RADIUS = 10.0
 """Radius of the orbit as drawn."""
+
+LENGTH = 4.0
+"""Length of an arrow for an impulse at its bound."""
+
+NEAR_THE_SET = ((1.1, -1.3, 0.7), (0.0, 0.0, 0.0))
 
 SIDES = (("radial", RED), ("transverse", GREEN))
 STATES = (("dr", BLUE), ("dvR", RED), ("dvT", GREEN))
@@ -38,7 +49,7 @@ def orbit_correction(path: Path) -> None:
 
     Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
     Below, the states from which the impulses still to come lead back to the circle, a set that shrinks around
-    the state; the state keeps its gauge.
+    the state (red arrow, grey path); the state keeps its gauge until it is home.
     """
     record_plan(correct(Z0, thrust="ball"), path)
 
@@ -48,7 +59,7 @@ def orbit_correction_square(path: Path) -> None:
 
     Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
     Below, the zonotope of states from which the impulses still to come lead back, which loses one impulse's
-    parallelogram after the other.
+    parallelogram after the other; the state is the red arrow, its path grey.
     """
     record_plan(correct(Z0, thrust="box"), path)
 
@@ -73,12 +84,14 @@ def record_plan(plan: Plan, path: Path) -> None:
     factor = magnification(plan)
     plots: list[View] = [
         Plot("deviation of the true flight, thousandths", "state"),
-        Plot("impulse over its bound", "impulse"),
-        Plot("gauge of the state in the remaining set", "gauge"),
+        Plot("impulse over its bound", "impulse", span=(-1.1, 1.1)),
+        Plot("gauge of the state in the remaining set; home at or below 1", "gauge", span=(0.0, 1.1)),
     ]
     scenes: list[View] = [
-        Scene(f"the orbit, deviation of the radius times {factor:g}, {PACE:g} s a radian", "orbit"),
-        Scene("states that the remaining impulses bring back, stretched to unit size", "sets"),
+        Scene(
+            f"the orbit, deviation of the radius times {factor:g}, {PACE:g} s a radian", "orbit", _above(plan)
+        ),
+        Scene("states that the remaining impulses bring back, stretched to unit size", "sets", NEAR_THE_SET),
         Events("impulses", "events"),
     ]
     with record(path, f"orbit correction, {plan.thrust.name}", [scenes, plots]) as recording:
@@ -101,10 +114,20 @@ def magnification(plan: Plan) -> float:
     return float(max(step for step in (1, 2, 5) if step * power <= wanted) * power)
 
 
+def _above(plan: Plan) -> tuple[Point, Point]:
+    """Above the arc that is flown, or above the whole circle where that is long."""
+    arc = float(fly_plan(plan).angles[-1])
+    if arc > 2:
+        return (0.0, -1.6 * RADIUS, 2.6 * RADIUS), (0.0, 0.0, 0.0)
+    x, y = RADIUS * np.cos(arc / 2), RADIUS * np.sin(arc / 2)
+    return (1.1 * x, 1.1 * y, 0.7 * RADIUS), (0.88 * x, 0.88 * y, 0.0)
+
+
 def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
     flight = fly_plan(plan)
     instants, states, angles = flight.path(SAMPLES)
     t = PACE * instants
+    t[1:] += BLINK * (np.diff(t) == 0)
     along = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(t))])
     across = np.column_stack([-np.sin(angles), np.cos(angles), np.zeros(len(t))])
     places = RADIUS * (1 + factor * states[:, :1]) * along
@@ -114,23 +137,22 @@ def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
     recording.path("orbit/flown", places, BLUE)
     recording.ellipsoid("orbit/planet", t[:1], [[2.0] * 3], [[0.0] * 3], [[1.0, 0, 0, 0]], SKY)
     attitude = np.column_stack([np.cos(angles / 2), np.zeros((len(t), 2)), np.sin(angles / 2)])
-    recording.body("orbit/satellite", t, attitude, (0.7, 1.2, 0.4), places)
-    fired = _flash(plan, len(t))
-    arrows = 3 * (fired[:, :1] * along + fired[:, 1:] * across)
+    recording.body("orbit/satellite", t, attitude, (0.45, 0.8, 0.3), places)
+    fired = _flash(plan, t)
+    arrows = LENGTH * (fired[:, :1] * along + fired[:, 1:] * across)
     recording.arrow("orbit/impulse", t, arrows, ORANGE, places)
     for (name, colour), values in zip(STATES, states.T, strict=True):
         recording.curve(f"state/{name}", t, 1e3 * values, name, colour)
-    for (name, colour), values in zip(SIDES, fired.T, strict=True):
-        recording.curve(f"impulse/{name}", t, values, name, colour)
+    dense = np.unique(np.concatenate([t, *(t + shift for shift in (HOLD, HOLD + BLINK))]))
+    for (name, colour), values in zip(SIDES, _flash(plan, dense).T, strict=True):
+        recording.curve(f"impulse/{name}", dense[dense <= t[-1]], values[dense <= t[-1]], name, colour)
 
 
-def _flash(plan: Plan, count: int) -> NDArray[np.float64]:
-    """Each impulse over its bound, shown for the first third of its interval, (k, 2)."""
-    shown = np.zeros((count, 2))
-    for j, impulse in enumerate(plan.impulses / plan.thrust.peak):
-        first = 1 + j * SAMPLES
-        shown[first : first + SAMPLES // 3] = impulse
-    return shown
+def _flash(plan: Plan, t: NDArray) -> NDArray[np.float64]:
+    """Impulses over their bound at the times (k,), each shown while it is held, (k, 2)."""
+    since = t[:, None] - PACE * plan.thrust.interval * np.arange(len(plan.impulses))
+    shown = (since > 0) & (since < HOLD + BLINK / 2)
+    return np.asarray(shown @ (plan.impulses / plan.thrust.peak))
 
 
 @dataclass(frozen=True)
@@ -188,8 +210,9 @@ def _sets(recording: Recording, plan: Plan) -> None:
     recording.net("sets/meridians", times, np.moveaxis(grid, 2, 1), BLUE)
     recording.net("sets/parallels", times, grid[:, 1:-1], SKY)
     recording.arrow("sets/state", times, path, RED)
-    recording.path("sets/flown", path, INK)
-    recording.curve("gauge/alpha", times[: len(gauges)], np.array(gauges), "alpha", BLUE)
+    recording.path("sets/flown", path, GREY)
+    home = [times[len(gauges) - 1] + BLINK, times[-1]]
+    recording.curve("gauge/alpha", times[: len(gauges)] + home, [*gauges, 0.0, 0.0], "alpha", BLUE)
 
 
 def _proved(plan: Plan, held: NDArray, left: Remaining, square: bool) -> float:

@@ -1,5 +1,7 @@
 """The satellite near its circular orbit: transition, impulse columns and the regrouped steps, section 7."""
 
+from math import atan2, cos, pi, sin
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -18,6 +20,19 @@ def transition(time: ArrayLike) -> NDArray[np.float64]:
     """
     time = np.asarray(time, dtype=float)[..., None, None]
     return np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR)
+
+
+def phase(interval: float) -> float:
+    """The interval less whole revolutions, within half a one of 0.
+
+    Multiples of it are as good as multiples of the interval, and exact close to whole revolutions.
+
+    Examples
+    --------
+    >>> phase(0.25), round(phase(2 * np.pi - 1e-9) * 1e9, 5)
+    (0.25, -1.0)
+    """
+    return interval if interval <= pi else atan2(sin(interval), cos(interval))
 
 
 def impulse_columns(intervals: int, interval: float) -> NDArray[np.float64]:

@@ -10,13 +10,20 @@ from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible
 from pontryagin.jit import compiled
 from pontryagin.orbit_correction.ellipsoids import gauge_stack
+from pontryagin.orbit_correction.proof import require_closed, unit
 from pontryagin.validation import finite, vectors
 
 Matrices = Sequence[ArrayLike] | NDArray | Callable[[int], ArrayLike]
 
-SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
+SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
 COMPILE_FROM = 40
 """States times steps from which loading the compiled kernel pays."""
+
+FLAT = 1e-13
+"""Least width, relative to the largest, of a set that is not flat; axes measured by the reach along them."""
+
+VANISHING = 1e-100
+"""What steps less than this share of the reach add is lost, and their squares would not be numbers."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,13 +53,16 @@ class DiscreteSystem:
     A: Matrices
     H: Matrices
     _known: list[tuple[NDArray, NDArray]] = field(default_factory=list, init=False, repr=False)
+    _stacks: dict[str, NDArray] = field(default_factory=dict, init=False, repr=False)
 
     def step(self, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """A(k) and the factor L(k) of the ellipsoid, L L' = H(k)^-1, both (n, n)."""
         while len(self._known) <= k:
             index = len(self._known)
-            dynamics = _square("A", self.A, index)
-            shape = _square("H", self.H, index)
+            dynamics, shape = self._matrix("A", index), self._matrix("H", index)
+            if index and all(self._stacks.get(name, np.empty(0)).ndim == 2 for name in "AH"):
+                self._known.append(self._known[0])
+                continue
             if shape.shape != dynamics.shape:
                 raise ValueError(f"H({index}) must be {dynamics.shape} like A({index}), got {shape.shape}")
             if index and dynamics.shape != self._known[0][0].shape:
@@ -64,32 +74,38 @@ class DiscreteSystem:
             self._known.append((dynamics, _ellipsoid_factor(shape, index)))
         return self._known[k]
 
+    def _matrix(self, name: str, k: int) -> NDArray[np.float64]:
+        """A(k) or H(k), checked to be square and finite."""
+        given = getattr(self, name)
+        if callable(given):
+            return _square(f"{name}({k})", finite(f"{name}({k})", given(k), "an (n, n) matrix"))
+        if name not in self._stacks:
+            self._stacks[name] = finite(
+                name, given, "an (n, n) matrix, a sequence of them, or a callable of k"
+            )
+        stack = self._stacks[name]
+        if stack.ndim not in (2, 3):
+            raise ValueError(f"{name} must be (n, n) or (steps, n, n), got shape {stack.shape}")
+        if stack.ndim == 3 and k >= len(stack):
+            raise ValueError(f"{name} must hold a matrix for step {k}, got {len(stack)} matrices")
+        return _square(f"{name}({k})", stack if stack.ndim == 2 else stack[k])
+
     def factors(self, steps: int) -> NDArray[np.float64]:
         """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) = sum of G_k B, Lemma 1."""
         inverse, result = None, []
         for k in range(steps):
             dynamics, factor = self.step(k)
-            inverse = np.linalg.inv(dynamics) if inverse is None else inverse @ np.linalg.inv(dynamics)
-            result.append(inverse @ factor)
+            with np.errstate(all="ignore"):
+                inverse = np.linalg.inv(dynamics) if inverse is None else inverse @ np.linalg.inv(dynamics)
+                result.append(inverse @ factor)
+            if not np.isfinite(result[-1]).all():
+                raise ValueError(f"A: the inverse of A({k}) ... A(0) is beyond the range of floating numbers")
         return np.array(result)
 
 
-def _square(name: str, matrices: Matrices, k: int) -> NDArray[np.float64]:
-    if callable(matrices):
-        value = matrices(k)
-    else:
-        stack = finite(name, matrices, "an (n, n) matrix, a sequence of them, or a callable of k")  # type: ignore[arg-type]
-        if stack.ndim == 2:
-            value = stack
-        elif stack.ndim != 3:
-            raise ValueError(f"{name} must be (n, n) or (steps, n, n), got shape {stack.shape}")
-        elif k >= len(stack):
-            raise ValueError(f"{name} must hold a matrix for step {k}, got {len(stack)} matrices")
-        else:
-            value = stack[k]
-    matrix = finite(f"{name}({k})", value, "an (n, n) matrix")
-    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
-        raise ValueError(f"{name}({k}) must be an (n, n) matrix, got shape {matrix.shape}")
+def _square(name: str, matrix: NDArray) -> NDArray[np.float64]:
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.size:
+        raise ValueError(f"{name} must be an (n, n) matrix, got shape {matrix.shape}")
     return matrix
 
 
@@ -144,31 +160,58 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
     pontryagin.Infeasible
         If the controls span less than the whole space.
     """
-    if not isinstance(steps, int | np.integer) or steps < 1:
+    if not isinstance(system, DiscreteSystem):
+        raise TypeError(f"system must be a DiscreteSystem, got {type(system).__name__}")
+    if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 1:
         raise ValueError(f"steps must be a positive whole number, got {steps!r}")
     n = system.step(0)[0].shape[0]
     return gauge_of_factors(system.factors(int(steps)), vectors("x0", x0, n))
 
 
 def gauge_of_factors(factors: NDArray[np.float64], x0: NDArray[np.float64]) -> Gauge:
-    """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m)."""
-    n = factors.shape[1]
-    gram = np.einsum("kij,klj->il", factors, factors)
-    scale = np.sqrt(np.diag(gram))
-    if (scale == 0).any() or np.linalg.cond(gram / np.outer(scale, scale)) > 1e26:
-        raise Infeasible("the controls do not span the state space: some states cannot be reached at all")
-    targets = np.ascontiguousarray(-x0.reshape(-1, n))
-    costates, bounds = np.empty_like(targets), np.empty((len(targets), 2))
-    run = compiled(gauge_stack, SIGNATURE) if len(targets) * len(factors) > COMPILE_FROM else gauge_stack
-    run(
-        np.ascontiguousarray(factors),
-        np.ascontiguousarray(np.linalg.cholesky(gram)),
-        targets,
-        costates,
-        bounds,
-    )
-    shape = x0.shape[:-1]
-    size = np.linalg.norm(costates, axis=-1, keepdims=True)
-    unit = np.divide(costates, size, out=np.zeros_like(costates), where=size > 0)
-    lower, upper = bounds[:, 0].reshape(shape), bounds[:, 1].reshape(shape)
-    return Gauge(lower, unit.reshape(*shape, n), Certificate(np.zeros(shape), upper, lower))
+    """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
+
+    A flat sum is taken as a set of the plane that it spans: states there have a gauge, others none.
+    """
+    n, shape = factors.shape[1], x0.shape[:-1]
+    reach = np.abs(factors).max(axis=(0, 2))
+    reach = np.where(reach > 0, reach, reach.max(initial=0.0))
+    if not (reach > 0).all():
+        raise Infeasible("the controls do nothing: only the zero state needs none")
+    scaled = factors / reach[:, None]
+    scaled[np.abs(scaled).max(axis=(1, 2)) < VANISHING] = 0.0
+    rows = -x0.reshape(int(np.prod(shape)), n)
+    size = np.abs(rows).max(axis=1, initial=0.0)
+    targets = rows / np.where(size > 0, size, 1.0)[:, None] / reach
+    longest = np.abs(targets).max(axis=1, initial=0.0)
+    targets /= np.where(longest > 0, longest, 1.0)[:, None]
+    axes, widths, _ = np.linalg.svd(np.moveaxis(scaled, 0, 1).reshape(n, -1), full_matrices=False)
+    thick = widths > FLAT * widths[0]
+    axes, widths = axes[:, thick], widths[thick]
+    whitening = (axes / widths).T
+    within = whitening @ targets.T
+    _require_reachable(targets - within.T @ (axes * widths).T, x0)
+    costates, results = np.empty(within.T.shape), np.empty((len(targets), 3))
+    run = compiled(gauge_stack, SIGNATURE, len(targets) * len(factors) > COMPILE_FROM)
+    with np.errstate(all="ignore"):
+        run(
+            np.ascontiguousarray(whitening @ scaled),
+            np.ascontiguousarray(within.T),
+            costates,
+            results,
+        )
+        scale = size * longest
+        lower, upper = (results[:, i].reshape(shape) * scale.reshape(shape) for i in range(2))
+    proof = Certificate(results[:, 2].reshape(shape), upper, lower)
+    require_closed(proof, "the gauge")
+    return Gauge(lower, unit(costates @ whitening / reach).reshape(*shape, n), proof)
+
+
+def _require_reachable(left: NDArray[np.float64], x0: NDArray[np.float64]) -> None:
+    outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
+    if outside.any():
+        state = x0.reshape(left.shape)[int(np.argmax(outside))]
+        raise Infeasible(
+            f"the controls do not span the state space: x0 = {state.tolist()} is out of their reach, "
+            "whatever their size"
+        )

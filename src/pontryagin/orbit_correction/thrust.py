@@ -6,6 +6,7 @@ box     each component within the peak: two engines, and the paper's own constra
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import fabs
 
 import numpy as np
@@ -28,6 +29,15 @@ MISS_SIGNATURE = (
 )
 COMPILE_FROM = 60
 """States times steps from which loading the compiled kernel pays."""
+
+FIRST = 2
+"""Steps whose impulses span the space, for every thrust."""
+
+KEPT = 1024
+"""Up to this many steps the factors are kept for the next call: they are most of what one state costs."""
+
+CHUNK = 1_000_000
+"""States times steps for which controls are kept at a time."""
 
 
 def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, results):
@@ -93,6 +103,28 @@ class Gauges:
 
 
 @dataclass(frozen=True)
+class Scaled:
+    """Factors of steps in units of their reach along each axis, and what their sums need.
+
+    Attributes
+    ----------
+    reach : (n,) array
+        That of the first steps: a state's answer does not depend on what else is in the stack.
+    factors : (steps, n, components) array
+    gram_factors : (steps, n, n) array
+        Cholesky factors of the Gramians after each step, zero where they are singular.
+    """
+
+    reach: NDArray[np.float64]
+    factors: NDArray[np.float64]
+    gram_factors: NDArray[np.float64]
+
+    def first(self, steps: int) -> "Scaled":
+        """The same for fewer steps."""
+        return Scaled(self.reach, self.factors[:steps], self.gram_factors[:steps])
+
+
+@dataclass(frozen=True)
 class Thrust:
     """What the impulses of a step do to the initial state, for as many steps as asked.
 
@@ -109,9 +141,17 @@ class Thrust:
     peak: float
 
     @property
+    def phase(self) -> float:
+        """The interval less whole revolutions."""
+        return satellite.phase(self.interval)
+
+    @property
     def whole_revolutions(self) -> bool:
-        """Whether every impulse acts at the same place of the orbit; then none changes the radius there."""
-        return abs(np.sin(self.interval / 2)) < 1e-9
+        """Whether every impulse acts at the same place of the orbit; then none changes the radius there.
+
+        An interval is that when no number of its size is closer to whole revolutions.
+        """
+        return abs(self.phase) <= min(np.finfo(float).eps * self.interval, 1e-9)
 
     @property
     def fewest(self) -> int:
@@ -120,51 +160,74 @@ class Thrust:
 
     def factors(self, steps: int) -> NDArray[np.float64]:
         """G_k, (steps, 3, components)."""
+        return self.peak * self.unit_factors(steps)
+
+    def unit_factors(self, steps: int) -> NDArray[np.float64]:
+        """G_k for a peak of 1."""
         make = satellite.step_factors if self.name == "ball" else satellite.impulse_columns
-        return self.peak * make(steps, self.interval)
+        return make(steps, self.phase)
 
     def step_transition(self, k: int) -> NDArray[np.float64]:
         """A(k), (3, 3)."""
         if self.name == "ball":
-            return satellite.step_transition(k, self.interval)
-        return satellite.transition(self.interval)
+            return satellite.step_transition(k, self.phase)
+        return satellite.transition(self.phase)
 
     def step_input(self, k: int) -> NDArray[np.float64]:
         """B(k), (3, components)."""
         if self.name == "ball":
-            return satellite.step_input(k, self.interval)
-        return satellite.transition(self.interval)[:, 1:]
+            return satellite.step_input(k, self.phase)
+        return satellite.transition(self.phase)[:, 1:]
 
     def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> NDArray[np.float64]:
         """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
-        transitions = np.stack([self.step_transition(k) for k in range(2)])
-        inputs = self.peak * np.stack([self.step_input(k) for k in range(2)])
+        transitions, inputs = _motion(self)
         results = np.empty(len(z0))
-        small = len(z0) * controls.shape[1] <= COMPILE_FROM
-        run = misses_of if small else compiled(misses_of, MISS_SIGNATURE)
+        run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
         run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
         return results
 
+    def bounds(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+        """Lower and upper bounds on the gauges, as `gauges` gives them, whatever the size of the stack."""
+        lower, upper = np.empty(len(z0)), np.empty(len(z0))
+        order = np.argsort(counts, kind="stable")
+        while order.size:
+            fitting = np.flatnonzero(np.arange(1, order.size + 1) * counts[order] <= CHUNK)
+            size = int(fitting[-1]) + 1 if fitting.size else 1
+            now, order = order[:size], order[size:]
+            found = self.gauges(z0[now], counts[now])
+            lower[now], upper[now] = found.lower, found.upper
+        return lower, upper
+
     def gauges(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> Gauges:
         """Gauges of the states (rows, 3) for their numbers of steps (rows,)."""
-        if self.whole_revolutions:
-            return self._gauges_of_speeds(z0, counts)
-        return self._gauges(z0, counts, self.factors(max(int(counts.max(initial=0)), self.fewest)))
+        with np.errstate(all="ignore"):
+            if self.whole_revolutions:
+                return self._gauges_of_speeds(z0, counts)
+            most = max(int(counts.max(initial=0)), FIRST)
+            if most > KEPT:
+                return self._gauges(z0, counts, scaled(self.unit_factors(most), self.fewest))
+            return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).first(most))
 
-    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], factors: NDArray) -> Gauges:
+    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
+        """Solved in units of the state and of the impulses' reach along each axis: both may be tiny."""
+        reach, factors, gram_factors = steps.reach, steps.factors, steps.gram_factors
         most = len(factors)
-        factors = np.ascontiguousarray(factors)
-        gram = np.cumsum(np.einsum("kij,klj->kil", factors, factors), axis=0)
-        gram_factors = np.zeros_like(gram)
-        gram_factors[self.fewest - 1 :] = np.linalg.cholesky(gram[self.fewest - 1 :])
         size = np.abs(z0).max(axis=1, initial=0.0)
-        targets = -z0 / np.where(size > 0, size, 1.0)[:, None]
+        targets = -z0 / np.where(size > 0, size, 1.0)[:, None] / reach
+        longest = np.abs(targets).max(axis=1, initial=0.0)
+        targets /= np.where(longest > 0, longest, 1.0)[:, None]
         costates, results = np.zeros_like(targets), np.zeros((len(targets), 2))
         controls = np.zeros((len(targets), most, factors.shape[2]))
-        small = len(targets) * most <= COMPILE_FROM
-        run = gauges_of if small else compiled(gauges_of, SIGNATURE)
+        run = compiled(gauges_of, SIGNATURE, len(targets) * most > COMPILE_FROM)
         run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
-        return Gauges(results[:, 0] * size, results[:, 1] * size, costates, controls * size[:, None, None])
+        scale = size / self.peak * longest
+        return Gauges(
+            results[:, 0] * scale,
+            results[:, 1] * scale,
+            costates / reach,
+            controls * scale[:, None, None],
+        )
 
     def _gauges_of_speeds(self, z0: NDArray, counts: NDArray[np.int64]) -> Gauges:
         """Impulses that all act at one place: they change the speeds alone, and share the work equally."""
@@ -174,17 +237,39 @@ class Thrust:
                 f"of the orbit and leave the radius as it is; z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
                 "cannot be corrected"
             )
-        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), 1)
+        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), FIRST)
         if self.name == "ball":
-            found = self._gauges(speeds, counts, self.factors(most)[:, 1:])
+            found = self._gauges(speeds, counts, scaled(self.unit_factors(most)[:, 1:], self.fewest))
             costates = np.pad(found.costates, ((0, 0), (1, 0)))
             return Gauges(found.lower, found.upper, costates, found.controls)
-        share = -speeds / (self.peak * np.maximum(counts, 1)[:, None])
+        share = -speeds / self.peak / np.maximum(counts, 1)[:, None]
         acting = np.arange(most) < counts[:, None]
         if self.name == "disc":
-            alpha, costates = np.linalg.norm(share, axis=1), share
+            alpha, costates = np.hypot(*share.T), share
         else:
             alpha = np.abs(share).max(axis=1)
             costates = np.where(np.abs(share) == alpha[:, None], share, 0.0)
         controls = share[:, None] * acting[..., None]
         return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)
+
+
+def scaled(factors: NDArray[np.float64], fewest: int) -> Scaled:
+    """What the gauges need of the factors (steps, n, components), with Gramians from `fewest` steps on."""
+    reach = np.maximum(np.abs(factors[:FIRST]).max(axis=(0, 2)), 1e-300)
+    units = np.ascontiguousarray(factors / reach[:, None])
+    gram = np.cumsum(np.einsum("kij,klj->kil", units, units), axis=0)
+    gram_factors = np.zeros_like(gram)
+    gram_factors[fewest - 1 :] = np.linalg.cholesky(gram[fewest - 1 :])
+    return Scaled(reach, units, gram_factors)
+
+
+@lru_cache(maxsize=32)
+def _kept(thrust: Thrust, steps: int) -> Scaled:
+    return scaled(thrust.unit_factors(steps), thrust.fewest)
+
+
+@lru_cache(maxsize=32)
+def _motion(thrust: Thrust) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A(k) and B(k) of an even and an odd step, in units of the peak."""
+    transitions = np.stack([thrust.step_transition(k) for k in range(2)])
+    return transitions, thrust.peak * np.stack([thrust.step_input(k) for k in range(2)])

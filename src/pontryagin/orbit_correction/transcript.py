@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin import formula
+from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.plan import Plan
 
 Report = dict[str, dict[str, Any]]
@@ -51,6 +52,26 @@ def transcript(plan: Plan) -> Report:
         "states": {"start": plan.states[0], "end": plan.states[-1]},
         "certificate": {name: getattr(plan.certificate, name) for name in PROOF},
     }
+
+
+def samples(plan: Plan, count: int) -> dict[str, NDArray[np.float64]]:
+    """Linear motion and costate at evenly spaced times: ``t`` (k,), ``state`` and ``costate`` (k, 3).
+
+    At the instant of an impulse the state is that after it.
+
+    Examples
+    --------
+    >>> from pontryagin.orbit_correction import correct
+    >>> told = samples(correct([0.0, 0.0, 0.004]), 3)
+    >>> told["t"].tolist(), bool(abs(told["state"][-1]).max() < 1e-15)
+    ([0.0, 0.375, 0.75], True)
+    """
+    starts = plan.thrust.interval * np.arange(len(plan.impulses))
+    t = np.linspace(0.0, plan.thrust.interval * len(starts), count)
+    kicks = np.einsum("jab,jb->ja", satellite.transition(-starts)[:, :, 1:], plan.impulses)
+    held = plan.z0 + (starts <= t[:, None]) @ kicks
+    state = np.einsum("tab,tb->ta", satellite.transition(t), held)
+    return {"t": t, "state": state, "costate": plan.initial_costate @ satellite.transition(-t)}
 
 
 def conclusion(plan: Plan) -> str:

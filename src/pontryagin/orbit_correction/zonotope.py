@@ -24,6 +24,41 @@ def dot(u, v):
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
+def turning_place(times, rates, crossed, used, slope):
+    """Place in ``crossed[:used]`` of the segment at which the slope stops being negative, or -1.
+
+    Crossing segment k adds 2 |rates[k]|. ``crossed`` is rearranged: what is crossed earlier comes first. A
+    selection, not a sort, so that an edge costs time in proportion to the number of segments.
+    """
+    low, high = 0, used
+    while low < high:
+        first, middle, end = times[crossed[low]], times[crossed[(low + high) // 2]], times[crossed[high - 1]]
+        pivot = max(min(first, middle), min(max(first, middle), end))
+        below, above, place, gain = low, high, low, 0.0
+        while place < above:
+            k = crossed[place]
+            if times[k] < pivot:
+                gain += 2.0 * fabs(rates[k])
+                crossed[place], crossed[below] = crossed[below], k
+                below, place = below + 1, place + 1
+            elif times[k] > pivot:
+                above -= 1
+                crossed[place], crossed[above] = crossed[above], k
+            else:
+                place += 1
+        if below > low and slope + gain >= 0.0:
+            high = below
+            continue
+        slope += gain
+        for place in range(below, above):
+            slope += 2.0 * fabs(rates[crossed[place]])
+            if slope >= 0.0:
+                return place
+        low = above
+    # Sums in another order may differ by rounding; then the slope vanishes where the last piece ends.
+    return high - 1 if high < used else -1
+
+
 def slide(segments, psi, direction, slope, held, leaving, values, signs):
     """Move psi along an edge to the least of the sum; returns the segment that stops it, or -1.
 
@@ -33,32 +68,27 @@ def slide(segments, psi, direction, slope, held, leaving, values, signs):
     just been let go.
     """
     count = segments.shape[0]
-    rates, times = np.empty(count), np.empty(count)
+    rates, times, crossed = np.empty(count), np.empty(count), np.empty(count, np.int64)
     size, largest = 0.0, 0.0
     for k in range(count):
         rates[k] = 0.0 if k == held else dot(segments[k], direction)
         size, largest = max(size, fabs(rates[k])), max(largest, fabs(values[k]))
     used = 0
     for k in range(count):
-        times[k] = 1e300
         if fabs(values[k]) <= 1e-13 * largest:
             values[k] = 0.0
         if fabs(rates[k]) <= 1e-13 * size or k == leaving:
             continue
         if signs[k] * rates[k] < 0.0:
             times[k] = max(0.0, -values[k] / rates[k])
+            crossed[used] = k
             used += 1
-    order = np.argsort(times)
-    stop = -1
-    for place in range(used):
-        k = order[place]
-        slope += 2.0 * fabs(rates[k])
-        if slope >= 0.0:
-            stop = k
-            break
-        signs[k] = -signs[k]
-    if stop < 0:
-        return stop
+    last = turning_place(times, rates, crossed, used, slope)
+    if last < 0:
+        return -1
+    stop = crossed[last]
+    for place in range(last):
+        signs[crossed[place]] = -signs[crossed[place]]
     length = times[stop]
     for i in range(3):
         psi[i] += length * direction[i]

@@ -38,4 +38,10 @@ PAPERS = (
         "Time-optimal correction of a satellite's orbit",
         "D. N. Ibragimov, 2017 (in Russian)",
     ),
+    Paper(
+        "Akulenko 1977",
+        "averaging",
+        "Asymptotic solution of some nonlinear time-optimal control problems",
+        "L. D. Akulenko, 1977 (in Russian)",
+    ),
 )

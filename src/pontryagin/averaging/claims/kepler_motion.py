@@ -20,7 +20,6 @@ from pontryagin.averaging.derivation.kepler import (
     v_radial,
     v_transverse,
 )
-from pontryagin.averaging.derivation.kepler_phase import phase
 from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
 
@@ -209,15 +208,24 @@ def full_turn():
 
 @claim("(3.5)", "the true anomaly in terms of the mean anomaly ψ", verdict="holds")
 def true_and_mean_anomaly():
-    y = sp.Symbol("y", real=True)
-    bracket = (1 - e**2) ** R(3, 2) / (1 + e * sp.cos(y)) ** 2 - 1
-    printed = {
-        "x": phase - sp.Integral(bracket, (y, 0, anomaly)),
-        r"\psi": 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME,
-    }
-    return Equality(
-        printed,
-        lambda: {"x": kepler_phase.anomaly_from_phase(), r"\psi": kepler_phase.mean_anomaly()},
+    keys = (r"d(x - \psi)/dx", r"\psi")
+    bracket = (1 - e**2) ** R(3, 2) / (1 + e * sp.cos(anomaly)) ** 2 - 1
+    printed = (-bracket, 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME)
+
+    def argument() -> Steps:
+        psi = kepler_phase.mean_of_true()
+        yield (
+            "x and ψ vanish together, at the pericentre: the integral starts at 0",
+            psi.subs(anomaly, 0) == 0,
+        )
+        yield "and t + δ with them", kepler.time_of_flight().subs(eccentric, 0) == 0
+
+    def derived():
+        return dict(zip(keys, (1 - kepler.weight(), kepler_phase.mean_anomaly()), strict=True))
+
+    return Proof(
+        argument,
+        Equality(dict(zip(keys, printed, strict=True)), derived),
         display=r"x = \psi - \int_0^x \left[\frac{(1 - e^2)^{3/2}}{(1 + e\cos y)^2} - 1\right] dy,\quad "
         r"\psi = \frac{2\pi}{T}(t + \delta)",
     )

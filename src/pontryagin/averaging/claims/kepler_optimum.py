@@ -158,7 +158,7 @@ def duration_of_the_optimum():
     "(3.9): ρ",
     "the constant ρ with its sign",
     verdict="holds",
-    remark="ρ > 0 on the way down (|E1| > |E0|): p_E < 0, the thrust brakes.",
+    remark="For E1 ≠ E0. ρ > 0 on the way down (|E1| > |E0|): p_E < 0, the thrust brakes.",
 )
 def rho_with_its_sign():
     def argument() -> Steps:

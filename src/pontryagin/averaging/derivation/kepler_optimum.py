@@ -135,11 +135,12 @@ def ripple() -> sp.Expr:
     return sp.factor(primitive - mean / (2 * sp.pi))
 
 
-def first_correction() -> sp.Expr:
+def first_correction(kind: int = 1) -> sp.Expr:
     """J1 with J = J0 + epsilon J1 + O(epsilon^2), for a start at the eccentric anomaly xi.
 
-    J1 is the ripple over omega at the start less the largest at the end, where the ending phase is free.
+    J1 is the ripple over omega at the start less that at the end, where the phase is free: there it is
+    largest for the minima (`kind` 1) and least for the maxima (-1), both at an end of the minor axis.
     """
-    at_the_end = ripple().subs(eccentric, sp.pi / 2) / mean_motion().subs(energy, energy1)
+    at_the_end = ripple().subs(eccentric, kind * sp.pi / 2) / mean_motion().subs(energy, energy1)
     at_the_start = ripple() / mean_motion().subs(energy, energy0)
     return sp.simplify(at_the_start) - sp.simplify(at_the_end)

@@ -7,8 +7,11 @@ import sympy as sp
 
 from pontryagin.averaging.derivation.kepler import (
     CONTROL,
+    affine,
     anomaly,
     conic,
+    element_rates,
+    epsilon,
     gamma,
     in_slow_variables,
     phi,
@@ -16,6 +19,7 @@ from pontryagin.averaging.derivation.kepler import (
     v_radial,
     v_transverse,
 )
+from pontryagin.averaging.derivation.kepler_phase import true_from_eccentric
 from pontryagin.averaging.derivation.kepler_principle import maximiser
 
 
@@ -43,3 +47,19 @@ def velocity() -> sp.ImmutableMatrix:
 def thrust() -> sp.ImmutableMatrix:
     """u* of (3.8) in fixed axes (2, 1), from E, K, gamma, x, p_E, p_K; with p_K = 0 along the velocity."""
     return in_the_plane(*(maximiser()[u] for u in CONTROL))
+
+
+def any_thrust() -> sp.ImmutableMatrix:
+    """A thrust (u_r, u_phi) in fixed axes (2, 1), from E, K, gamma, x, u_r, u_phi."""
+    return in_the_plane(*CONTROL)
+
+
+def true_anomaly() -> sp.Expr:
+    """x in a turn, from E, K and the eccentric anomaly xi."""
+    parts = {part: in_slow_variables(seen) for part, seen in true_from_eccentric().items()}
+    return sp.atan2(parts[sp.sin(anomaly)], parts[sp.cos(anomaly)])
+
+
+def pericentre_rate() -> sp.Expr:
+    """gamma' per epsilon, from E, K, x, u_r, u_phi: the pericentre turns under thrust alone."""
+    return in_slow_variables(affine(element_rates()[gamma] / epsilon))

@@ -17,7 +17,6 @@ from pontryagin.averaging.derivation.kepler import (
     weight,
 )
 
-phase = sp.Symbol("psi", real=True)
 eccentricity_rate, pericentre_rate = sp.symbols("e^{\\cdot} gamma^{\\cdot}", real=True)
 
 
@@ -48,12 +47,6 @@ def eccentric_of_true() -> sp.Expr:
 def mean_of_true() -> sp.Expr:
     """psi as a smooth function of e and x for all x."""
     return mean_anomaly().subs({sp.sin(eccentric): eccentric_sine(), eccentric: eccentric_of_true()})
-
-
-def anomaly_from_phase() -> sp.Expr:
-    """x in terms of psi and x, (3.5): dpsi = weight dx integrated from the pericentre, less the mean 1."""
-    y = sp.Symbol("y", real=True)
-    return phase - sp.Integral(weight().subs(anomaly, y) - 1, (y, 0, anomaly))
 
 
 def from_eccentric(expression: sp.Expr) -> sp.Expr:

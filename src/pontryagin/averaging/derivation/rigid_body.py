@@ -12,6 +12,8 @@ lx, ly, lz      semi-axes of the ellipsoid of controls; l, h radius and half-hei
 Rates of the slow variables are per epsilon; psi' = (d - 1) c + epsilon F.
 """
 
+from functools import cache
+
 import sympy as sp
 
 w = sp.Matrix(sp.symbols("omega_x omega_y omega_z", real=True))
@@ -34,13 +36,15 @@ NEARLY_SYMMETRIC = {
 """Equatorial moments that differ from I_z / d by shares epsilon alpha and epsilon beta."""
 
 
-def euler_rates() -> sp.Matrix:
+@cache
+def euler_rates() -> sp.ImmutableMatrix:
     """w' in the principal axes of any body, from (I w)' + w x I w = epsilon I u."""
     inertia = sp.diag(*moments)
-    return (epsilon * u - inertia.inv() * w.cross(inertia * w)).applyfunc(sp.simplify)
+    return sp.ImmutableMatrix((epsilon * u - inertia.inv() * w.cross(inertia * w)).applyfunc(sp.simplify))
 
 
-def symmetric_rates() -> sp.Matrix:
+@cache
+def symmetric_rates() -> sp.ImmutableMatrix:
     """w' for I_x = I_y, I_z = d I_x."""
     return euler_rates().subs(SYMMETRIC).applyfunc(lambda rate: sp.expand(sp.simplify(rate)))
 
@@ -53,25 +57,32 @@ def in_polar(rates: sp.Matrix) -> sp.Matrix:
     return polar.applyfunc(lambda rate: sp.expand(sp.simplify(sp.expand(rate))))
 
 
+@cache
+def polar_rates() -> sp.ImmutableMatrix:
+    """(a', c', psi') of the symmetric body."""
+    return sp.ImmutableMatrix(in_polar(symmetric_rates()))
+
+
 def slow_rates() -> sp.Matrix:
     """(a', c') per epsilon: the f of (1.1)."""
-    return sp.expand(in_polar(symmetric_rates())[:2, :] / epsilon)
+    return sp.expand(sp.Matrix(polar_rates()[:2, :]) / epsilon)
 
 
 def anomaly_rate() -> sp.Expr:
     """psi' at epsilon = 0: the frequency, of the sign of (d - 1) c."""
-    return sp.factor(in_polar(symmetric_rates())[2].subs(epsilon, 0))
+    return sp.factor(polar_rates()[2].subs(epsilon, 0))
 
 
 def phase_rate() -> sp.Expr:
     """F: psi' - (d - 1) c per epsilon."""
-    return sp.expand((in_polar(symmetric_rates())[2] - anomaly_rate()) / epsilon)
+    return sp.expand((polar_rates()[2] - anomaly_rate()) / epsilon)
 
 
-def asymmetry() -> sp.Matrix:
+@cache
+def asymmetry() -> sp.ImmutableMatrix:
     """What a nearly symmetric body adds to (a', c', psi') per epsilon at epsilon -> 0, without control."""
     free = in_polar(euler_rates().subs(NEARLY_SYMMETRIC).subs(dict.fromkeys(u, 0)))
-    return free.diff(epsilon).subs(epsilon, 0).applyfunc(sp.simplify)
+    return sp.ImmutableMatrix(free.diff(epsilon).subs(epsilon, 0).applyfunc(sp.simplify))
 
 
 def switching() -> sp.Matrix:
@@ -108,6 +119,37 @@ def braking() -> sp.Matrix:
 def deceleration() -> sp.Expr:
     """R(psi) = -a' per epsilon under `braking`."""
     return sp.simplify(ellipsoid_support(switching().subs({p_a: -1, p_c: 0, p_psi: 0})))
+
+
+def mean_of_root(square: sp.Expr) -> sp.Expr:
+    """Mean over a turn of sqrt(A (1 - k sin^2 psi)): E of the parameter k, by quarters."""
+    first = square.subs(psi, 0)
+    parameter = sp.factor(1 - square.subs(psi, sp.pi / 2) / first)
+    if sp.simplify(square - first * (1 - parameter * sp.sin(psi) ** 2)) != 0:
+        raise ArithmeticError(f"{square} is not of the form A (1 - k sin^2 psi)")
+    return 2 / sp.pi * sp.sqrt(first) * sp.elliptic_e(parameter)
+
+
+def mean_deceleration() -> sp.Expr:
+    """<R>, real for every l_y: parameter 1 - l_y^2/l_x^2, between 0 and 1 where l_y <= l_x."""
+    return mean_of_root(deceleration() ** 2)
+
+
+def mean_deceleration_turned() -> sp.Expr:
+    """<R> with psi counted from the y axis: parameter 1 - l_x^2/l_y^2, between 0 and 1 where l_x <= l_y."""
+    return mean_of_root((deceleration() ** 2).subs(psi, sp.pi / 2 - psi))
+
+
+def mean(quantity: sp.Expr) -> sp.Expr:
+    """Average over the phase."""
+    return sp.simplify(sp.integrate(sp.expand(quantity), (psi, 0, 2 * sp.pi)) / (2 * sp.pi))
+
+
+def with_free_motion(rates: sp.Matrix, angle: sp.Expr) -> sp.Matrix:
+    """Rate of (w_x, w_y) seen in axes turned by an angle that grows with (d - 1) w_z."""
+    back = sp.Matrix([[sp.cos(angle), sp.sin(angle)], [-sp.sin(angle), sp.cos(angle)]])
+    turning = (d - 1) * w[2] * back.diff(angle) * sp.Matrix(w[:2])
+    return (turning + back * sp.Matrix(rates[:2])).applyfunc(sp.simplify)
 
 
 def cylinder_maximiser() -> sp.Matrix:

@@ -101,8 +101,8 @@ def over_a_turn(integrand: sp.Expr) -> sp.Expr:
 
 def mean(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
     """Average over the phase at a fixed energy, by dpsi = omega dx/x'."""
-    inverse = sp.simplify(quantity.subs(v, speed(mass, potential)) / speed(mass, potential))
-    return frequency(mass, potential) / (2 * sp.pi) * over_a_turn(inverse)
+    over_speed = sp.expand(quantity / v).subs(v, speed(mass, potential))
+    return frequency(mass, potential) / (2 * sp.pi) * over_a_turn(over_speed)
 
 
 def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
@@ -110,10 +110,15 @@ def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr 
     return over_a_turn(quantity.subs(v, speed(mass, potential))) / (2 * sp.pi)
 
 
+def period_slope(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
+    """-d/da of the time of a turn 2 pi/omega: the integral of 1/(m x'^3), positive for every rotor."""
+    return over_a_turn(-(1 / speed(mass, potential)).diff(a))
+
+
 def averaged_rate(
     mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
 ) -> sp.Expr:
-    """d xi/d tau for a control that does not depend on the phase: the average of `slow_rate`, term by term."""
+    """d xi/d tau for a control that does not depend on the phase: `slow_rate` averaged, term by term."""
     return sum((mean(v * term, mass, potential) for term in (control, force)), sp.S.Zero)
 
 

@@ -99,5 +99,11 @@ def along(quantity: sp.Expr) -> sp.Expr:
 
 
 def at_optimum(quantity: sp.Expr) -> sp.Expr:
-    """A quantity at kappa = 0, k expressed by T there: k = gap^2 / T^2."""
+    """A quantity at kappa = 0 in terms of tau_1 and gap: there (2.12) reads k = gap^2/tau_1^2."""
     return sp.simplify(quantity.subs(kappa, 0).subs(k, gap**2 / T**2))
+
+
+def optimal_slope() -> sp.Expr:
+    """d tau_1 / d kappa at kappa = 0 in terms of k: in its denominator gap^2 is k tau_1^2."""
+    by_kappa, by_duration = (transversality().diff(part).subs(kappa, 0) for part in (kappa, T))
+    return sp.factor(-by_kappa / by_duration.subs(gap**2, k * T**2))

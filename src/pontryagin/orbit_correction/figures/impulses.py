@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
+from matplotlib.patheffects import withStroke
 
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.alternatives import Alternative, least_energy, least_fuel, least_peak
@@ -82,7 +83,10 @@ def hodograph(plans: Sequence[Plan]) -> Figure:
         ax.plot(*points.T, color=labels.COLOURS[name], linewidth=0.7, alpha=0.6)
         ax.plot(*points.T, labels.MARKERS[name], color=labels.COLOURS[name], markersize=5)
         for place, words in _numbered(points).items():
-            ax.annotate(words, place, (4, 3), textcoords="offset points", fontsize=8.5)
+            words_at = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 8.5}
+            ax.annotate(
+                words, place, path_effects=[withStroke(linewidth=2.5, foreground="#f3f3f3")], **words_at
+            )
         ax.set_title(f"{labels.NAMES[name]}: {len(points)} impulses", color=labels.COLOURS[name])
         ax.set_xlabel(r"radial, $w_1/\alpha_{\max}$")
     axes[0, 0].set_ylabel(r"transverse, $w_2/\alpha_{\max}$")

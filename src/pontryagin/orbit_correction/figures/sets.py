@@ -1,20 +1,27 @@
-"""Controllable sets in space, in a frame that stretches them to unit size."""
+"""Controllable sets: in space, stretched to unit size, and to scale, seen along the supporting planes."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import NDArray
 
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.flight import single
 from pontryagin.orbit_correction.plan import Plan
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
 
 SHADES = (PURPLE, GREEN, BLUE, SKY, RED, INK)
+PERCENT = 100.0
+VIEWS = ((1, 0), (1, 2))
+"""Pairs of axes of the plane views: horizontal, vertical."""
 
 
 @styled
 def controllable_sets(plan: Plan) -> Figure:
     """The sets X(1, 0) ... X(N, 0), the states of the plan and their adjoint vectors -psi.
+
+    Left in space, right their outlines as seen along two of the axes.
 
     Parameters
     ----------
@@ -29,27 +36,36 @@ def controllable_sets(plan: Plan) -> Figure:
     steps = _steps(plan)
     square, factors = plan.thrust.name == "box", plan.thrust.factors(steps)
     frame = sets.frame_of(factors, square)
-    figure = Figure(figsize=(WIDTH, 4.6))
+    figure = Figure(figsize=(WIDTH, 4.9))
     figure.set_layout_engine("none")
-    ax = Axes3D(figure, (-0.06, 0.0, 0.78, 1.0), computed_zorder=False)
-    figure.add_axes(ax)
-    normals = frame.back(sets.sphere_grid(20, 40))
+    space = Axes3D(figure, (-0.05, 0.13, 0.68, 0.81), computed_zorder=False)
+    figure.add_axes(space)
+    planes = [figure.add_axes((0.7, 0.63 - 0.48 * row, 0.29, 0.35)) for row in range(2)]
+    normals = frame.back(sets.sphere_grid(40, 80))
     for count in range(steps, 0, -1):
-        surface = frame.points(sets.support_points(factors[:count], normals, square))
         shade = SHADES[(count - 1) % len(SHADES)]
-        name = rf"$X({count}, 0)$"
-        _net(ax, surface, shade, name, 0.8)
-    path = frame.points(plan.states)
-    _arrows(ax, path[:-1], -frame.normals(plan.costates), 0.55)
-    ax.plot(*path.T, "o-", color=INK, markersize=4, linewidth=1.4, label=r"states $x^*(k)$")
+        surface = frame.points(sets.support_points(factors[:count], normals, square))
+        x, y, z = np.moveaxis(surface, -1, 0)
+        space.plot_surface(x, y, z, color=shade, alpha=0.16, linewidth=0, rcount=40, ccount=80)
+        for ax, (across, up) in zip(planes, VIEWS, strict=True):
+            outline = _outline(factors[:count], frame.back(np.eye(3)[[across, up]]), square)
+            ax.fill(*frame.points(outline)[:, [across, up]].T, facecolor=shade, alpha=0.16)
+            ax.plot(*frame.points(outline)[:, [across, up]].T, color=shade, linewidth=1.2)
+        space.plot([], [], color=shade, linewidth=5, alpha=0.6, label=rf"$X({count}, 0)$")
+    path, towards = frame.points(plan.states), -0.55 * frame.normals(plan.costates)
+    space.quiver(*path[:-1].T, *towards.T, color=ORANGE, linewidth=1.8, arrow_length_ratio=0.25, zorder=9)
+    space.plot(*path.T, "o-", color=INK, markersize=4, linewidth=1.4, label=r"states $x^*(k)$")
+    space.plot([], [], color=ORANGE, linewidth=1.8, label=r"$-\psi(k)$")
+    for ax, view in zip(planes, VIEWS, strict=True):
+        _plane(ax, path[:, view], towards[:, view])
+        ax.set(xlabel=f"axis {view[0] + 1}", ylabel=f"axis {view[1] + 1}")
     for k, (x, y, z) in enumerate(path):
-        ax.text(x + 0.06, y, z + 0.06, f"{k}", color=INK)
-    ax.plot([], [], color=ORANGE, linewidth=1.8, label=r"$-\psi(k)$, normal")
-    _dress(ax)
-    ax.view_init(20, -50)
-    handles, names = ax.get_legend_handles_labels()
-    figure.legend(handles, names, loc="upper left", bbox_to_anchor=(0.7, 0.9))
-    figure.text(0.7, 0.36, _description(frame), va="top", fontsize=9.5, linespacing=1.5)
+        space.text(x - 0.16, y, z + 0.03, f"{k}", color=INK)
+    _dress(space)
+    space.view_init(20, -50)
+    handles, names = space.get_legend_handles_labels()
+    figure.legend(handles, names, loc="upper left", bbox_to_anchor=(0.0, 1.01), ncols=2, columnspacing=1.0)
+    figure.text(0.02, 0.115, _description(frame), va="top", fontsize=9.5, linespacing=1.35)
     return figure
 
 
@@ -57,12 +73,12 @@ def controllable_sets(plan: Plan) -> Figure:
 def remaining_sets(plan: Plan) -> Figure:
     """At each step the set alpha X(N - k, k), the state on its boundary, and the normal -psi(k) there.
 
-    Each panel has a frame of its own, in which its set has unit size.
+    Each is seen along its supporting plane at the state, all to one scale.
 
     Parameters
     ----------
     plan : Plan
-        Of one state, with one to six steps, under the ball.
+        Of one state, with one to six steps.
 
     Raises
     ------
@@ -70,29 +86,62 @@ def remaining_sets(plan: Plan) -> Figure:
         If the plan is that of a stack, or its number of steps is another.
     """
     steps = _steps(plan)
-    if steps > 6 or plan.thrust.name != "ball":
-        raise ValueError(f"plan must be for the ball and of at most 6 steps, got {plan.thrust.name}, {steps}")
-    figure = Figure(figsize=(WIDTH, 2.5 * -(-steps // 4)), layout="constrained")
-    normals = sets.sphere_grid(12, 24)
-    for k in range(steps):
-        ax = figure.add_subplot(-(-steps // 4), min(steps, 4), k + 1, projection="3d", computed_zorder=False)
-        factors = plan.gauge * _at_step(plan, steps, k)
-        frame = sets.frame_of(factors, square=False)
-        surface = frame.points(sets.support_points(factors, frame.back(normals), False))
-        ax.plot_surface(*np.moveaxis(surface, -1, 0), color=SKY, alpha=0.25, linewidth=0, shade=False)
-        _net(ax, surface, BLUE, "", 0.5)
-        state, normal = frame.points(plan.states[k]), -frame.normals(plan.costates[k])
-        _arrows(ax, state[None], normal[None], 0.9)
-        ax.plot(*state[:, None], "o", color=INK, markersize=4)
-        _dress(ax)
-        ax.set(xticklabels=[], yticklabels=[], zticklabels=[], xlabel="", ylabel="", zlabel="")
-        sides = [f"${_power(value)}$" for value in frame.extents]
-        ax.set_title(f"$k = {k}$: half-widths\n{sides[0]},\n{sides[1]},\n{sides[2]}", fontsize=9)
-        ax.view_init(22, *_towards(normal))
+    if steps > 6:
+        raise ValueError(f"plan must be of at most 6 steps, got {steps}")
+    figure, grid = subplots(1, steps, height=3.25, sharey=True, squeeze=False)
+    axes, square = grid[0], plan.thrust.name == "box"
+    for k, ax in enumerate(axes):
+        factors = _at_step(plan, steps, k)
+        seen = edge_on(factors, -plan.costates[k])
+        whole = PERCENT * _outline(factors, seen, square) @ seen.T
+        state = PERCENT * plan.states[k] @ seen.T
+        ax.plot(*whole.T, "--", color=BLUE, linewidth=0.9, label="$X(N - k, k)$")
+        ax.fill(*(plan.gauge * whole).T, facecolor=SKY, edgecolor=BLUE, label=r"$\alpha X(N - k, k)$")
+        ax.axvline(state[0], color=INK, linewidth=0.8)
+        look = {"arrowstyle": "-|>", "color": ORANGE, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+        ax.annotate("", (state[0] + 0.7, state[1]), state, arrowprops=look)
+        ax.plot(*state, "o", color=INK, markersize=4, label="$x^*(k)$")
+        ax.plot([], [], color=ORANGE, label=r"$-\psi(k)$")
+        ax.set(aspect="equal", title=f"$k = {k}$", xlabel=rf"along $-\psi({k})$, $10^{{-2}}$")
+    reach = max(ax.get_xlim()[1] for ax in axes) + 0.65
+    for ax in axes:
+        ax.set_xlim(-reach, reach)
+    axes[0].set_ylabel("across, $10^{-2}$")
+    handles, names = axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside upper center", ncols=4)
     return figure
 
 
-def _at_step(plan: Plan, steps: int, k: int) -> np.ndarray:
+def edge_on(factors: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Two unit vectors (2, 3): along the normal, and across it where the sum of G_k U is widest.
+
+    Examples
+    --------
+    >>> edge_on(np.diag([1.0, 3.0, 2.0])[None], np.array([0.0, 2.0, 0.0])).round(12).tolist()
+    [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    along = normal / np.linalg.norm(normal)
+    flat = factors - along[:, None] * np.einsum("i,kij->kj", along, factors)[:, None]
+    across = np.linalg.eigh(np.einsum("kij,klj->il", flat, flat))[1][:, -1]
+    return np.stack([along, across * np.sign(across[np.abs(across).argmax()])])
+
+
+def _outline(factors: NDArray, plane: NDArray, square: bool) -> NDArray[np.float64]:
+    """Support points (361, 3) with normals in a plane: where a set, seen across the plane, ends."""
+    turn = np.linspace(0, 2 * np.pi, 361)
+    return sets.support_points(factors, np.column_stack([np.cos(turn), np.sin(turn)]) @ plane, square)
+
+
+def _plane(ax: Axes, path: NDArray, towards: NDArray) -> None:
+    ax.plot(*path.T, "o-", color=INK, markersize=3, linewidth=1.1)
+    for k, (start, step) in enumerate(zip(path, towards, strict=False)):
+        look = {"arrowstyle": "-|>", "color": ORANGE, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", start + step, start, arrowprops=look)
+        ax.annotate(f"{k}", start - 0.19 * step / np.linalg.norm(step), ha="center", va="center", fontsize=8)
+    ax.set(aspect="equal", xlim=(-1.15, 1.25), ylim=(-1.15, 1.15), xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+
+
+def _at_step(plan: Plan, steps: int, k: int) -> NDArray[np.float64]:
     """Factors whose sum is X(N - k, k) as the paper counts its steps."""
     carried = np.eye(3)
     for before in range(k):
@@ -107,19 +156,6 @@ def _steps(plan: Plan) -> int:
     return steps
 
 
-def _net(ax: Axes3D, surface: np.ndarray, colour: str, name: str, alpha: float) -> None:
-    x, y, z = np.moveaxis(surface, -1, 0)
-    ax.plot_wireframe(x, y, z, rcount=10, ccount=16, color=colour, linewidth=0.5, alpha=alpha)
-    if name:
-        ax.plot([], [], color=colour, label=name)
-
-
-def _arrows(ax: Axes3D, starts: np.ndarray, directions: np.ndarray, length: float) -> None:
-    ax.quiver(
-        *starts.T, *(length * directions).T, color=ORANGE, linewidth=1.8, arrow_length_ratio=0.25, zorder=9
-    )
-
-
 def _dress(ax: Axes3D) -> None:
     ax.set_box_aspect((1, 1, 1))
     ax.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), zlim=(-1.1, 1.1))
@@ -132,15 +168,10 @@ def _description(frame: sets.Frame) -> str:
     lines = []
     for number, (row, extent) in enumerate(zip(frame.axes, frame.extents, strict=True), start=1):
         direction = ", ".join(f"{value:.2f}".replace("-", "−") for value in row)
-        lines += [f"axis {number}: along ({direction}),", f"    1 is ${_power(extent)}$"]
+        lines.append(f"axis {number}: along ({direction}), 1 is ${_power(extent)}$")
     return "\n".join(lines)
 
 
 def _power(value: float) -> str:
     mantissa, exponent = f"{value:.1e}".split("e")
     return rf"{mantissa}\cdot 10^{{{int(exponent)}}}"
-
-
-def _towards(normal: np.ndarray) -> tuple[float]:
-    """Azimuth from which the normal is seen from the side."""
-    return (float(np.degrees(np.arctan2(normal[1], normal[0]))) + 65,)

@@ -41,7 +41,7 @@ def impulses_over_interval(
     ):
         below.plot(fine, values, color=colour, label=name)
     below.set(yscale="log", ylim=(1e-3, 20), ylabel="singular values\nof four impulses")
-    below.legend(ncols=3, loc="lower left")
+    below.legend(loc=(0.62, 0.04))
     for ax in (above, below):
         for turn in (np.pi, 2 * np.pi):
             ax.axvline(turn, color="#888888", linewidth=0.8, linestyle=":")

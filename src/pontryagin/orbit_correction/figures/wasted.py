@@ -5,7 +5,10 @@ from matplotlib.figure import Figure
 
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.waste import Waste
-from pontryagin.plotting import BLUE, styled, subplots
+from pontryagin.plotting import BLUE, INK, styled, subplots
+
+AREA = 5.0
+"""Of a dot that stands for one state, in square points."""
 
 
 @styled
@@ -20,13 +23,16 @@ def wasted_impulses(found: Waste) -> Figure:
     figure, (left, right) = subplots(1, 2, height=3.1, width_ratios=(1.3, 1))
     ball, saved = found.counts["ball"], found.wasted("box")
     pairs, counts = np.unique(np.column_stack([ball, saved]), axis=0, return_counts=True)
-    left.scatter(*pairs.T, s=9 * counts, color=BLUE, alpha=0.75, linewidths=0)
+    left.scatter(*pairs.T, s=AREA * counts, color=BLUE, alpha=0.75, linewidths=0)
+    for number in (1, 10, 50):
+        left.scatter([], [], s=AREA * number, color=BLUE, alpha=0.75, linewidths=0, label=f"{number}")
+    left.legend(title="states", loc="upper left", labelspacing=0.8)
     size = np.array([0, 1.02 * ball.max()])
     share = float(saved.sum() / ball.sum())
-    left.plot(size, share * size, color="#555555", linewidth=0.9)
-    words = f"line: {100 * share:.0f} % of all impulses"
-    left.annotate(words, (size[1], 0.1), ha="right")
-    left.set(xlabel="impulses of the ball", ylabel="saved by the square")
+    left.plot(size, share * size, color=INK, linewidth=0.9)
+    left.annotate(f"line: {100 * share:.0f} % of all impulses", (size[1], 0.1), ha="right")
+    left.set(xlabel="impulses fired under the ball", ylabel="impulses saved by the square")
+    labels.whole_numbers(left)
     numbers = np.arange(0, saved.max() + 1)
     for name, shift in (("disc", -0.2), ("box", 0.2)):
         shares = [(found.wasted(name) == number).mean() for number in numbers]

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks import problems
 from benchmarks.clock import repeated
 from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.triple_integrator import problems
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 
 Solver = Callable[[NDArray, NDArray], float]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.optimize import Bounds, LinearConstraint, milp
 
-from benchmarks.fixed_time import Peer, Solver
 from benchmarks.peers import absent
+from benchmarks.triple_integrator.fixed_time import Peer, Solver
 
 
 def peak_rows(cells: int) -> NDArray:

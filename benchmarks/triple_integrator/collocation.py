@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
-from benchmarks.fixed_time import Peer, Solver
 from benchmarks.peers import absent
+from benchmarks.triple_integrator.fixed_time import Peer, Solver
 
 NODES = 100
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from benchmarks import problems
 from benchmarks.clock import repeated, take_turns
+from benchmarks.triple_integrator import problems
 from pontryagin.triple_integrator import (
     Maneuver,
     impulse,

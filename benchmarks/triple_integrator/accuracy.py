@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from benchmarks import problems, propagation
 from benchmarks.contest import worst
-from benchmarks.problems import MOMENT_CLASSES, TRANSFER_CLASSES
-from benchmarks.transfers import by_pontryagin
+from benchmarks.triple_integrator import problems, propagation
+from benchmarks.triple_integrator.problems import MOMENT_CLASSES, TRANSFER_CLASSES
+from benchmarks.triple_integrator.transfers import by_pontryagin
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 from pontryagin.triple_integrator import time as least_time
 

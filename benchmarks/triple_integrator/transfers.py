@@ -8,10 +8,10 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks import problems, propagation
 from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
 from benchmarks.peers import absent
-from benchmarks.problems import Transfers
+from benchmarks.triple_integrator import problems, propagation
+from benchmarks.triple_integrator.problems import Transfers
 from pontryagin.triple_integrator import minimum_time
 from pontryagin.triple_integrator import time as least_time
 

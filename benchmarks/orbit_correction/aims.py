@@ -1,0 +1,119 @@
+"""Our solvers against the aims, with what their certificates say."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.clock import Timing, repeated, take_turns
+from benchmarks.contest import worst
+from benchmarks.orbit_correction.states import INTERVAL, PEAK, states, thrust
+from pontryagin.orbit_correction import correct
+from pontryagin.orbit_correction.thrust import THRUSTS
+
+AIMS = {"plans of 1000 states": 0.1, "gauge in 10000 steps": 0.02, "plan of 10000 steps": 0.1}
+"""Seconds on one core."""
+
+MANY = 10_000
+FAR = 5
+"""States whose gauges in `MANY` steps are measured one by one."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A task: what runs, how many states make it up, its worst gap and the worst that remains."""
+
+    run: Callable[[], int]
+    states: int
+    gap: float
+    miss: float | None
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Seconds of each task beside its aim: the median of the rounds; of single states the slowest one's."""
+    large = 5_000 if quick else 100_000
+    rows: list[tuple] = []
+    for name in THRUSTS:
+        tasks = _tasks(name, large)
+        entries = {f"{task} {i}": entry for task, found in tasks.items() for i, entry in enumerate(found)}
+        timings = take_turns({label: entry.run for label, entry in entries.items()}, 2 if quick else 7)
+        for task, found in tasks.items():
+            taken = [timings[f"{task} {i}"] for i in range(len(found))]
+            slowest: Timing = max(taken, key=lambda timing: timing.typical)
+            misses = [entry.miss for entry in found if entry.miss is not None]
+            count = found[0].states
+            rows.append(
+                (
+                    task,
+                    name,
+                    AIMS.get(task),
+                    slowest.typical * count,
+                    slowest.least * count,
+                    1e6 * slowest.typical,
+                    max(entry.gap for entry in found),
+                    max(misses) if misses else None,
+                )
+            )
+    headings = (
+        "task",
+        "impulses",
+        "aim, s",
+        "seconds",
+        "fastest round",
+        "microseconds a state",
+        "worst gap",
+        "worst miss",
+    )
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def far_states(name: str) -> NDArray[np.float64]:
+    """States (FAR, 3) for which N_min is `MANY`: halfway between the gauges of `MANY` and one step fewer."""
+    directions, counts = states(FAR), np.full(FAR, MANY)
+    enough, too_few = (thrust(name).gauges(directions, counts - fewer).upper for fewer in (0, 1))
+    return directions * (2 / (enough + too_few))[:, None]
+
+
+def _tasks(name: str, large: int) -> dict[str, list[Entry]]:
+    far = far_states(name)
+    return {
+        "plans of 1000 states": [_plans(name, states(1000), 3)],
+        f"plans of {large} states": [_plans(name, states(large), 1)],
+        "plan of one state, one by one": [_single(name, states(100))],
+        f"gauge in {MANY} steps": [_gauge(name, state) for state in far],
+        f"plan of {MANY} steps": [_plans(name, state[None], 1) for state in far],
+    }
+
+
+def _plans(name: str, stack: NDArray, times: int) -> Entry:
+    certificate = correct(stack, INTERVAL, PEAK, name).certificate
+    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+
+    def run() -> int:
+        correct(stack, INTERVAL, PEAK, name)
+        return len(stack)
+
+    return Entry(repeated(run, times), len(stack), gap, worst(certificate.primal_residual))
+
+
+def _single(name: str, stack: NDArray) -> Entry:
+    together = _plans(name, stack, 1)
+
+    def run() -> int:
+        for state in stack:
+            correct(state, INTERVAL, PEAK, name)
+        return len(stack)
+
+    return Entry(run, 1, together.gap, together.miss)
+
+
+def _gauge(name: str, state: NDArray) -> Entry:
+    engine, counts = thrust(name), np.full(1, MANY)
+    found = engine.gauges(state[None], counts)
+
+    def run() -> int:
+        engine.gauges(state[None], counts)
+        return 1
+
+    return Entry(run, 1, worst(1 - found.lower / found.upper), None)

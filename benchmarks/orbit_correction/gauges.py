@@ -1,0 +1,133 @@
+"""The gauge for a given number of steps, and the fewest steps with their plan: ours, certified, and peers."""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.clock import repeated
+from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.orbit_correction import cones, linear, modelled
+from benchmarks.orbit_correction.states import INTERVAL, PEAK, Peer, Solver, states, thrust
+from benchmarks.peers import absent
+from pontryagin.orbit_correction import Plan, correct
+
+STEPS = 8
+"""Steps for which gauges are compared: about what the states need."""
+
+STACK_SIZE = 1000
+"""States solved together, the aim's number."""
+
+REACHED = 1 + 1e-7
+"""A gauge that a peer finds is enough up to this, which covers its tolerance."""
+
+
+def peers(name: str, quick: bool) -> dict[str, Peer]:
+    """The peers that fit a set of impulses."""
+    many, few = (20, 4) if quick else (200, 40)
+    found: dict[str, Peer] = {}
+    if not absent("clarabel"):
+        found["Clarabel, impulses"] = Peer(cones.impulses, many)
+        found["Clarabel, costate"] = Peer(cones.costate, many)
+    if not (absent("cvxpy") or absent("clarabel")):
+        found["CVXPY + Clarabel"] = Peer(modelled.by_cvxpy, few)
+    if name == "box":
+        found["HiGHS, linprog"] = Peer(linear.by_linprog, few)
+        if not absent("highspy"):
+            found["HiGHS, highspy"] = Peer(linear.by_highspy, many)
+    return found
+
+
+def given_steps(name: str, opponents: Mapping[str, Peer], count: int, rounds: int) -> list[Row]:
+    """Gauges in `STEPS` steps, one by one and in a stack of `STACK_SIZE`."""
+    engine, stack = thrust(name), states(STACK_SIZE)
+    counts, alone = np.full(STACK_SIZE, STEPS), np.full(1, STEPS)
+    exact = engine.gauges(stack, counts)
+
+    def one_by_one() -> int:
+        for state in stack[:count]:
+            engine.gauges(state[None], alone)
+        return count
+
+    def together() -> int:
+        return len(engine.gauges(stack, counts).upper)
+
+    gap = worst(1 - exact.lower / exact.upper)
+    entrants = {CALL: Contestant(one_by_one, gap, 1.0), STACK: Contestant(repeated(together, 3), gap, 1.0)}
+    for method, peer in opponents.items():
+        solver = peer.make(name, STEPS)
+        entrants[method] = _gauge_entrant(solver, stack[: peer.count], exact.upper)
+    return contest(f"gauge in {STEPS} steps, {name}", entrants, rounds)
+
+
+def _gauge_entrant(solver: Solver, some: NDArray, exact: NDArray) -> Contestant:
+    scaled = some / PEAK
+
+    def run() -> int:
+        for state in scaled:
+            solver(state)
+        return len(scaled)
+
+    values = np.array([solver(state) for state in scaled])
+    found = np.isfinite(values)
+    return Contestant(run, worst((values / exact[: len(values)] - 1)[found]), float(found.mean()))
+
+
+def fewest_steps(name: str, opponents: Mapping[str, Peer], count: int, rounds: int) -> list[Row]:
+    """N_min and the gauge there, one by one and in a stack of `STACK_SIZE`; peers search as we do."""
+    stack = states(STACK_SIZE)
+    exact = correct(stack, INTERVAL, PEAK, name)
+
+    def one_by_one() -> int:
+        for state in stack[:count]:
+            correct(state, INTERVAL, PEAK, name)
+        return count
+
+    def together() -> int:
+        return len(correct(stack, INTERVAL, PEAK, name).steps)
+
+    certificate = exact.certificate
+    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+    sound = float(((certificate.primal_residual <= 1e-12) & (exact.shorter_gauge > 1)).mean())
+    entrants = {
+        CALL: Contestant(one_by_one, gap, sound),
+        STACK: Contestant(repeated(together, 3), gap, sound),
+    }
+    for method, peer in opponents.items():
+        entrants[method] = _search_entrant(name, peer, exact)
+    return contest(f"fewest steps, {name}", entrants, rounds)
+
+
+def _search_entrant(name: str, peer: Peer, exact: Plan) -> Contestant:
+    made, scaled = cache(lambda steps: peer.make(name, steps)), exact.z0[: peer.count] / PEAK
+    least = thrust(name).fewest
+
+    def run() -> int:
+        for state in scaled:
+            search(made, state, least)
+        return len(scaled)
+
+    answers = [search(made, state, least) for state in scaled]
+    steps, alpha = (np.array(column) for column in zip(*answers, strict=True))
+    right = steps == exact.steps[: len(steps)]
+    return Contestant(run, worst((alpha / exact.gauge[: len(steps)] - 1)[right]), float(right.mean()))
+
+
+def search(made: Callable[[int], Solver], state: NDArray, least: int) -> tuple[int, float]:
+    """N_min and the gauge there by a peer's gauges, searched as we search; (0, nan) where it fails."""
+    too_few, enough, best, guess = least - 1, None, float("nan"), least
+    while enough is None or enough - too_few > 1:
+        alpha = made(guess)(state)
+        if not alpha >= 0:
+            return 0, float("nan")
+        following = ceil(guess * min(alpha, 100.0))
+        if alpha <= REACHED:
+            enough, best = guess, alpha
+        else:
+            too_few = guess
+        guess = max(following, too_few + 1)
+        if enough is not None:
+            guess = min(guess, max(enough - 1, 1))
+    return enough, best

@@ -1,0 +1,164 @@
+"""SciPy's root finders on the paper's system (11), with alpha as the fourth unknown.
+
+alpha sum of G_k G_k'psi / |G_k'psi| = -z0 and (psi, psi) = 1. Besides the costate and the gauge it has the
+spurious root (-psi, -alpha). A finder starts at alpha = 1 and at a psi drawn from the sphere, or along -z0.
+"""
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import root
+
+from benchmarks.clock import take_turns
+from benchmarks.contest import CALL, worst
+from benchmarks.orbit_correction.states import INTERVAL, PEAK, SEED, states, thrust, unit_factors
+from pontryagin.orbit_correction import correct
+
+FINDERS: dict[str, dict] = {
+    "hybr": {},
+    "hybr, Jacobian": {"jac": True},
+    "lm": {},
+    "lm, Jacobian": {"jac": True},
+    "broyden1": {"options": {"maxiter": 100}},
+    "anderson": {"options": {"maxiter": 100}},
+    "krylov": {"options": {"maxiter": 100}},
+    "df-sane": {},
+}
+"""Methods of `scipy.optimize.root` and what they are given; tolerances are their own.
+
+Those that would go on for thousands of iterations get 100; ten times as many let few more starts end.
+"""
+
+SAME = 1e-4
+"""A root counts as right, or spurious, within this of plus, or minus, the gauge."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """The system (11) of one state, its gauge, and where to start, rows (starts, 4)."""
+
+    factors: NDArray[np.float64]
+    state: NDArray[np.float64]
+    gauge: float
+    starts: NDArray[np.float64]
+
+    def equations(self, unknowns: NDArray) -> NDArray[np.float64]:
+        """What is zero at a root (psi, alpha)."""
+        psi, alpha = unknowns[:3], unknowns[3]
+        along = np.einsum("kij,i->kj", self.factors, psi)
+        unit = along / np.linalg.norm(along, axis=1)[:, None]
+        point = np.einsum("kij,kj->i", self.factors, unit)
+        return np.append(alpha * point + self.state, psi @ psi - 1)
+
+    def with_jacobian(self, unknowns: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The equations and their derivative, (4,) and (4, 4)."""
+        psi, alpha = unknowns[:3], unknowns[3]
+        along = np.einsum("kij,i->kj", self.factors, psi)
+        size = np.linalg.norm(along, axis=1)[:, None]
+        points = np.einsum("kij,kj->ki", self.factors, along / size)
+        spread = np.einsum("kij,klj->kil", self.factors, self.factors) - points[:, :, None] * points[:, None]
+        jacobian = np.zeros((4, 4))
+        jacobian[:3, :3] = alpha * (spread / size[:, :, None]).sum(axis=0)
+        jacobian[:3, 3] = points.sum(axis=0)
+        jacobian[3, :3] = 2 * psi
+        return np.append(alpha * points.sum(axis=0) + self.state, psi @ psi - 1), jacobian
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where a method ended: numbers of starts, and the worst relative error of alpha at right roots."""
+
+    right: int
+    spurious: int
+    starts: int
+    error: float
+
+
+def tasks(count: int, starts: int) -> list[Task]:
+    """States with N_min of more than one step, each with random starts; with 0 starts, the one along -z0."""
+    stack = states(2 * count)
+    plan = correct(stack, INTERVAL, PEAK)
+    chosen = np.flatnonzero(plan.steps > 1)[:count]
+    rng = np.random.default_rng(SEED)
+    found = []
+    for i in chosen:
+        psi = rng.standard_normal((starts, 3)) if starts else -stack[i : i + 1]
+        psi /= np.linalg.norm(psi, axis=1)[:, None]
+        begin = np.column_stack([psi, np.ones(len(psi))])
+        factors = unit_factors("ball", int(plan.steps[i]))
+        found.append(Task(factors, stack[i] / PEAK, float(plan.gauge[i]), begin))
+    return found
+
+
+def attempt(task: Task, start: NDArray, method: str) -> float:
+    """alpha where the finder claims a root, else nan."""
+    function = task.with_jacobian if "jac" in FINDERS[method] else task.equations
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            found = root(function, start, method=method.split(",")[0], **FINDERS[method])
+        except (ValueError, ArithmeticError, np.linalg.LinAlgError):
+            return float("nan")
+        ended = found.success and np.abs(task.equations(found.x)).max() < 1e-4
+    return float(found.x[3]) if ended else float("nan")
+
+
+def ends(work: Sequence[Task], method: str) -> Ends:
+    """All starts of all tasks."""
+    shares = np.array([attempt(task, x, method) / task.gauge for task in work for x in task.starts])
+    right, spurious = np.abs(shares - 1) < SAME, np.abs(shares + 1) < SAME
+    return Ends(int(right.sum()), int(spurious.sum()), len(shares), worst(shares[right] - 1))
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Every method: from random starts, and from -z0; times beside our own call for the same states."""
+    states_, starts, rounds = (4, 2, 1) if quick else (40, 10, 2)
+    rows = []
+    for label, work in (("random", tasks(states_, starts)), ("along -z0", tasks(2 * states_, 0))):
+        timings = take_turns({CALL: _ours(work), **{m: _runs(work, m) for m in FINDERS}}, rounds)
+        ours = 1e6 * timings[CALL].typical
+        for method in FINDERS:
+            end, taken = ends(work, method), 1e6 * timings[method].typical
+            a_root = taken * end.starts / end.right if end.right else float("nan")
+            none = 1 - (end.right + end.spurious) / end.starts
+            shares = (end.right / end.starts, end.spurious / end.starts, none)
+            rows.append((label, method, end.starts, *shares, end.error, taken, a_root, a_root / ours))
+    headings = (
+        "start",
+        "method",
+        "starts",
+        "right root",
+        "spurious root",
+        "no root",
+        "worst relative error",
+        "microseconds a start",
+        "microseconds a right root",
+        "times our call",
+    )
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def _runs(work: Sequence[Task], method: str) -> Callable[[], int]:
+    def run() -> int:
+        for task in work:
+            for start in task.starts:
+                attempt(task, start, method)
+        return sum(len(task.starts) for task in work)
+
+    return run
+
+
+def _ours(work: Sequence[Task]) -> Callable[[], int]:
+    """The gauge, costate and controls of the same states for the same numbers of steps."""
+    engine = thrust("ball")
+    counts = [np.array([len(task.factors)]) for task in work]
+
+    def run() -> int:
+        for task, steps in zip(work, counts, strict=True):
+            engine.gauges(PEAK * task.state[None], steps)
+        return len(work)
+
+    return run

@@ -1,0 +1,168 @@
+"""The paper's examples as the command line and tables ask for them: options, columns and solvers."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pontryagin import console, formula, rows
+
+VECTORS = {"omega0": ("omega_x", "omega_y", "omega_z"), "semiaxes": ("l_x", "l_y", "l_z")}
+"""Options of three numbers, and the columns of a table that hold them."""
+
+FORMULAS = {"mass": ("x",), "potential": ("x",), "force": ("x", "v")}
+"""Options that hold formulas, and the variables of those."""
+
+Given = Mapping[str, str | None]
+
+
+@dataclass(frozen=True)
+class Example:
+    """An example of the paper as it is asked for.
+
+    Attributes
+    ----------
+    solver : str
+        Name of the function of `pontryagin.averaging`.
+    title : str
+    required : tuple of str
+        Its arguments; on the command line each has two hyphens before it.
+    optional : mapping of str to str
+        Arguments that may be left out, and what they are then.
+    either : tuple of str
+        Arguments of which exactly one is asked for.
+    phase : bool
+        Whether the phase at the start may be chosen.
+    """
+
+    solver: str
+    title: str
+    required: tuple[str, ...]
+    optional: Mapping[str, str] = field(default_factory=dict)
+    either: tuple[str, ...] = ()
+    phase: bool = True
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """All arguments."""
+        return (*self.required, *self.optional, *self.either)
+
+    def read(self, given: Given) -> dict[str, Any]:
+        """Values of the arguments for one problem.
+
+        Raises
+        ------
+        pontryagin.console.Refusal
+            If one is missing or is not what it should be.
+        """
+        console.required({option(name): given[name] for name in self.required})
+        self._require_one([name for name in self.either if given[name] is not None])
+        texts = {name: given[name] or self.optional.get(name) for name in self.options}
+        return {name: value(name, text) for name, text in texts.items() if text is not None}
+
+    def stack(self, given: Given, path: Path) -> tuple[rows.Rows, dict[str, Any]]:
+        """A row of a table for each problem, and the arguments' values: its columns, or options for all."""
+        wanted = [name for name in self.required if given[name] is None]
+        possible = [name for name in self.options if name not in FORMULAS and name not in self.required]
+        with console.reading("--batch", path):
+            read = rows.read(path, _columns(wanted), _columns(possible))
+        both = [name for name in self.options if given[name] and set(columns(name)) & set(read.header)]
+        console.excluded(f"a column of {path}", {option(name): True for name in both})
+        held = {name: self._column(read, name) for name in (*wanted, *possible) if given[name] is None}
+        there = {name: column for name, column in held.items() if column is not None}
+        texts = {name: given[name] or self.optional.get(name) for name in self.options if name not in there}
+        values = {name: value(name, text) for name, text in texts.items() if text is not None}
+        self._require_one([name for name in self.either if name in there or name in values])
+        return read, there | values
+
+    def _column(self, read: rows.Rows, name: str) -> Any:
+        if not set(columns(name)) <= set(read.columns):
+            return None
+        return np.stack([read.columns[part] for part in columns(name)], axis=-1).reshape(
+            -1, *([3] if name in VECTORS else [])
+        )
+
+    def _require_one(self, chosen: list[str]) -> None:
+        if self.either and not chosen:
+            raise console.Refusal(option(self.either[0]), f"is missing, or {option(self.either[1])}")
+        if len(chosen) > 1:
+            raise console.Refusal(option(chosen[0]), f"does not go with {option(chosen[1])}")
+
+
+EXAMPLES = {
+    "kepler": Example("kepler", "Energy of a Kepler orbit changed by small thrust", ("E0", "K0", "E1", "l")),
+    "smooth": Example(
+        "smooth_example",
+        "A speed changed under a ripple",
+        ("v0", "v1"),
+        {"k": "1", "ripple": "0"},
+    ),
+    "rotor": Example(
+        "rotor",
+        "A rotor of changing mass and potential sped up or braked",
+        ("a0", "a1"),
+        {"mass": "1", "potential": "0", "force": "0"},
+        ("peak", "k"),
+    ),
+    "spin-down": Example(
+        "spin_down",
+        "A symmetric rigid body freed of its precession",
+        ("omega0", "semiaxes", "ratio"),
+        phase=False,
+    ),
+}
+
+
+def option(name: str) -> str:
+    """An argument's name as it is typed.
+
+    Examples
+    --------
+    >>> option("E0")
+    '--E0'
+    """
+    return f"--{name}"
+
+
+def columns(name: str) -> tuple[str, ...]:
+    """The columns of a table that hold an argument.
+
+    Examples
+    --------
+    >>> columns("semiaxes"), columns("ratio")
+    (('l_x', 'l_y', 'l_z'), ('ratio',))
+    """
+    return VECTORS.get(name, (name,))
+
+
+def _columns(names: list[str]) -> list[str]:
+    return [column for name in names for column in columns(name)]
+
+
+def value(name: str, text: str) -> Any:
+    """What an argument's text stands for: a number, three, or an expression.
+
+    Examples
+    --------
+    >>> value("ratio", "1/2"), value("semiaxes", "1,1,0.5"), value("mass", "1 + 0.2*cos(x)")
+    (0.5, [1.0, 1.0, 0.5], cos(x)/5 + 1)
+    """
+    if name in VECTORS:
+        return console.vector(option(name), text, 3)
+    if name not in FORMULAS:
+        return console.number(option(name), text)
+    try:
+        return formula.expression(text, *FORMULAS[name])
+    except ValueError as reason:
+        raise console.Refusal(option(name), f": {reason}") from None
+
+
+def solve(example: Example, values: Mapping[str, Any]) -> Any:
+    """The averaged solution of a problem or of a stack."""
+    from pontryagin import averaging
+
+    blamed = {name: option(name) for name in example.options} | {"leading": "--batch", "omega": "--example"}
+    with console.solving(blamed):
+        return getattr(averaging, example.solver)(**values)

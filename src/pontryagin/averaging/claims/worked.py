@@ -1,0 +1,159 @@
+"""The rippled smooth example in numbers: every extremal of the unaveraged problem, seen twice.
+
+v' = eps (u + cos(x)/2), x' = v, b' = eps (1 + u^2); v rises from 1 to 2, x(0) = 0, b(t1) is to be least. On
+H = 0 with v as the independent variable nothing has to be solved for: a start costate p is one member of
+the family (2.1), and q(t1) = 0 picks the extremals. Those that the solver finds are flown anew with SciPy,
+and counted against the sign changes of h* along the family.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import solve_ivp
+
+from pontryagin.averaging import smooth_example
+from pontryagin.averaging.derivation import ripple
+
+Array = NDArray[np.float64]
+
+START, END, PAY, RIPPLE = 1.0, 2.0, 1.0, 0.5
+EPSILONS = (0.1, 0.05, 0.02)
+NUMBERS = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1, ripple.rise: 1, ripple.c: ripple.sp.Rational(1, 2)}
+LOW, HIGH = 1.6, 2.8
+"""Start costates between which v rises all the way and the window of kappa lies."""
+
+FINE, RESIDUAL = 1e-11, 1e-8
+"""Tolerance of the integration, and of h* at a root."""
+
+
+@dataclass(frozen=True)
+class Members:
+    """Members of the family at the end: start costates (n,), and there x, p, b, tau and h* (n,)."""
+
+    start: Array
+    phase: Array
+    costate: Array
+    cost: Array
+    duration: Array
+    level: Array
+
+    @property
+    def phase_costate(self) -> Array:
+        """q(t1) per epsilon: -h*/v on H = 0."""
+        return -self.level / END
+
+
+def level(x: Array, p: Array) -> Array:
+    """h* at q = 0: the largest p (u + cos(x)/2) - 1 - u^2."""
+    return p**2 / 4 + RIPPLE * p * np.cos(x) - PAY
+
+
+def _motion(start: Array, epsilon: float, tolerance: float, at: Array | None = None) -> Array:
+    """x, p, b, tau of the members at speeds `at` (or at the end): (4, n, k)."""
+    n = start.size
+
+    def rates(v: float, y: Array) -> Array:
+        x, p, _, _ = y.reshape(4, n)
+        force = p / 2 + RIPPLE * np.cos(x)
+        return np.concatenate(
+            [v / (epsilon * force), level(x, p) / (v * force), (PAY + p**2 / 4) / force, 1 / force]
+        )
+
+    begin = np.concatenate([np.zeros(n), start, np.zeros(2 * n)])
+    done = solve_ivp(
+        rates, (START, END), begin, "DOP853", t_eval=at, rtol=tolerance, atol=tolerance
+    )  # fmt: skip
+    if not done.success:
+        raise ArithmeticError(done.message)
+    return done.y.reshape(4, n, -1)
+
+
+def members(start: ArrayLike, epsilon: float, tolerance: float = FINE) -> Members:
+    """Members of the family by their start costates (n,)."""
+    begin = np.atleast_1d(np.asarray(start, dtype=float))
+    x, p, b, tau = _motion(begin, epsilon, tolerance)[..., -1]
+    return Members(begin, x, p, b, tau, level(x, p))
+
+
+@cache
+def family(epsilon: float) -> Members:
+    """Members all over the window, several to each half turn of the end's phase."""
+    return members(np.linspace(LOW, HIGH, int(2 / epsilon) + 20), epsilon, 1e-8)
+
+
+@cache
+def roots(epsilon: float) -> Members:
+    """All extremals by the phase they end at, as the solver finds them, flown anew here.
+
+    A start costate is let through only with h* = 0 at the end, and all of them only if `family` changes sign
+    as often as there are extremals.
+    """
+    found = smooth_example(START, END, k=PAY, ripple=RIPPLE).exact(epsilon, 0.0)
+    start = np.array([float(one.costate(np.zeros(1))[0, 0]) for one in found])
+    flown = members(start, epsilon)
+    signs = np.sign(family(epsilon).level)
+    if np.abs(flown.level).max() > RESIDUAL or (signs[1:] != signs[:-1]).sum() != start.size:
+        raise ArithmeticError(f"epsilon = {epsilon}: {start.size} extremals do not stand up to a second look")
+    order = np.argsort(flown.phase)
+    return Members(*(getattr(flown, name)[order] for name in Members.__dataclass_fields__))
+
+
+def best(epsilon: float) -> int:
+    """Which of the roots costs least."""
+    return int(roots(epsilon).cost.argmin())
+
+
+@cache
+def optimum(epsilon: float, samples: int = 4001) -> dict[str, Array]:
+    """The optimal motion at equidistant speeds: v, x, p, b, tau (samples,)."""
+    v = np.linspace(START, END, samples)
+    start = roots(epsilon).start[[best(epsilon)]]
+    x, p, b, tau = _motion(start, epsilon, FINE, v)[:, 0]
+    return {"v": v, "x": x, "p": p, "b": b, "tau": tau}
+
+
+def averaged(form: ripple.sp.Expr, kappa: ArrayLike) -> Array:
+    """A closed form of `ripple` (by A0 and A1) at values of kappa."""
+    function = ripple.sp.lambdify(ripple.kappa, ripple.of_kappa(form).subs(NUMBERS))
+    return np.asarray(function(np.asarray(kappa, dtype=float)))
+
+
+@cache
+def window() -> tuple[float, float]:
+    """kappa' and kappa''."""
+    low, high = (float(end.subs(NUMBERS)) for end in ripple.window())
+    return low, high
+
+
+def predicted_roots(epsilon: float) -> float:
+    """(Psi(kappa'') - Psi(kappa'))/(pi epsilon)."""
+    return float(ripple.roots_in_the_window().subs(NUMBERS)) / epsilon
+
+
+def kappa_of(duration: ArrayLike) -> Array:
+    """The averaged member of a duration: tau_1(kappa) rises, and is inverted by a table."""
+    low, high = window()
+    kappa = np.linspace(2 * low, (high + PAY / END) / 2, 20001)
+    return np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa)
+
+
+def in_window(epsilon: float) -> Members:
+    """Members of `family` whose averaged kappa lies in the window."""
+    scan = family(epsilon)
+    kappa = kappa_of(scan.duration)
+    inside = (window()[0] < kappa) & (kappa < window()[1])
+    return Members(*(getattr(scan, name)[inside] for name in Members.__dataclass_fields__))
+
+
+def deviations(epsilon: float) -> dict[str, float]:
+    """Largest distance at the end of members in the window from the averaged ones of their durations."""
+    scan = in_window(epsilon)
+    kappa = kappa_of(scan.duration)
+    expected = {
+        "phase": averaged(ripple.turned(), kappa) / epsilon,
+        "costate": averaged(2 * ripple.A1, kappa),
+        "cost": averaged(ripple.cost(), kappa),
+    }
+    return {name: float(np.abs(getattr(scan, name) - value).max()) for name, value in expected.items()}

@@ -1,0 +1,85 @@
+"""The cost over the end time for any problem: the exact family, its extremals, the averaged family."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from pontryagin.averaging.extremal import Extremals
+from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
+from pontryagin.averaging.solution import AveragedSolution, solve_averaged
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.plotting import styled, subplots
+
+Array = NDArray[np.float64]
+
+PER_TURN = 60
+
+
+@styled
+def landscape(solution: AveragedSolution, epsilons: Sequence[float]) -> Figure:
+    """J of the exact family against its end time, with its minima and maxima, over the averaged family.
+
+    Parameters
+    ----------
+    solution : AveragedSolution
+        Of one problem.
+    epsilons : sequence of float
+        A panel each.
+    """
+    figure, axes = subplots(len(epsilons), sharex=True, height=1.0 + 1.7 * len(epsilons))
+    for ax, epsilon in zip(np.atleast_1d(axes), epsilons, strict=True):
+        found = solution.exact(epsilon)
+        tau, cost = curve(found)
+        ax.plot(tau, cost, color=EXACT, linewidth=1.1, label="$J$, exact")
+        low, high = (kappa_at(found, end) for end in (0, -1))
+        mean = averaged_family(solution, low, high)
+        ax.plot(*mean, color=MEAN, label="$J_0$, averaged")
+        for kind, style in KINDS.items():
+            chosen = [one for one in found if one.kind == kind]
+            at, values = [one.duration for one in chosen], [one.cost for one in chosen]
+            ax.plot(at, values, label=f"{kind[:-2]}a", **style)
+        best, worst = min(one.cost for one in found), max(one.cost for one in found)
+        margin = 0.1 * (worst - best)
+        ends = [one.duration for one in found]
+        reach = 0.08 * (max(ends) - min(ends))
+        ax.set(ylim=(best - margin, worst + margin), xlim=(min(ends) - reach, max(ends) + reach))
+        ax.set(ylabel="cost $J$")
+        ax.set_title(rf"$\varepsilon = {epsilon:g}$", loc="left")
+    ax.set_xlabel(END_TIME)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    return figure
+
+
+def curve(found: Extremals) -> tuple[Array, Array]:
+    """End time and cost along the exact family, sampled finely."""
+    family = found.traced
+    theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
+    tau, cost = (CubicSpline(family.theta, column)(theta) for column in (family.duration, family.cost))
+    return tau, cost
+
+
+def kappa_at(found: Extremals, end: int) -> float:
+    """kappa of the exact family's first or last turn: minus the mean of y over it."""
+    family = found.traced
+    edge = family.theta[end]
+    turn = np.abs(family.theta - edge) <= 2 * np.pi
+    return -float(np.trapezoid(family.y[turn], family.theta[turn]) / np.ptp(family.theta[turn]))
+
+
+def averaged_family(solution: AveragedSolution, low: float, high: float) -> tuple[Array, Array]:
+    """tau_1 and J_0 of the averaged family between two kappas, where it exists, by rising tau_1."""
+    members = [_member(solution, kappa) for kappa in np.linspace(min(low, high), max(low, high), 41)]
+    found = [(float(one.duration), float(one.cost)) for one in members if one is not None]
+    tau, cost = np.array(sorted(found)).T
+    return tau, cost
+
+
+def _member(solution: AveragedSolution, kappa: float) -> AveragedSolution | None:
+    """One of the family; None beyond the kappa at which the frequency's price exceeds the cost's rate."""
+    try:
+        return solve_averaged(solution.system, solution.start, kappa=kappa)
+    except (ValueError, NotConverged, Infeasible):
+        return None

@@ -1,0 +1,104 @@
+"""Figures 1 and 2 of the paper: the end condition and the cost against the end time.
+
+The paper gives no system for its two figures. Here they are those of the smooth example with a ripple,
+whose phase and speed are one: h* at the end is -y v1, and the averaged family has a closed end.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from pontryagin.averaging.extremal import Extremals
+from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
+from pontryagin.averaging.smooth import smooth_example
+from pontryagin.averaging.solution import solve_averaged
+from pontryagin.plotting import INK, styled, subplots
+
+Array = NDArray[np.float64]
+
+V0, V1, K, RIPPLE = 1.0, 2.0, 1.0, 0.5
+PER_TURN = 60
+
+
+@styled
+def end_condition(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25) -> Figure:
+    """Figure 1: h* at the end and its mean over the phase, each against the end time; the roots marked.
+
+    Parameters
+    ----------
+    epsilons : sequence of float
+        A panel each.
+    around : float
+        How far the end time reaches on either side of the averaged optimum, in slow time.
+    """
+    figure, axes = subplots(len(epsilons), sharex=True, height=4.4)
+    for ax, epsilon in zip(axes, epsilons, strict=True):
+        found = _extremals(epsilon)
+        tau, h, mean, _ = _family(found)
+        ax.plot(tau, h, color=EXACT, linewidth=1.1, label=r"$h^*$ at the end")
+        ax.plot(tau, mean, color=MEAN, label=r"its mean $\langle h^*\rangle$ over the phase")
+        ax.axhline(0.0, color=INK, linewidth=0.8)
+        for kind, style in KINDS.items():
+            at = [one.duration for one in found if one.kind == kind]
+            ax.plot(at, np.zeros(len(at)), label=f"roots: {kind[:-2]}a of $J$", **style)
+        centre = float(_averaged().duration)
+        ax.set(xlim=(centre - around, centre + around), ylabel=r"$h^*$", ylim=(-2.2, 2.2))
+        ax.set_title(rf"$\varepsilon = {epsilon:g}$", loc="left")
+    ax.set_xlabel(END_TIME)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4, columnspacing=1.2)
+    return figure
+
+
+@styled
+def cost_over_end(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25) -> Figure:
+    """Figure 2: the cost of the exact and of the averaged family against the end time; the roots marked."""
+    figure, axes = subplots(len(epsilons), sharex=True, height=4.4)
+    tau0, cost0 = averaged_family()
+    for ax, epsilon in zip(axes, epsilons, strict=True):
+        found = _extremals(epsilon)
+        tau, _, _, cost = _family(found)
+        ax.plot(tau, cost, color=EXACT, linewidth=1.1, label="$J$, exact")
+        ax.plot(tau0, cost0, color=MEAN, label="$J_0$, averaged")
+        for kind, style in KINDS.items():
+            chosen = [one for one in found if one.kind == kind]
+            at, values = [one.duration for one in chosen], [one.cost for one in chosen]
+            ax.plot(at, values, label=f"{kind[:-2]}a", **style)
+        centre, base = float(_averaged().duration), float(_averaged().cost)
+        ax.set(xlim=(centre - around, centre + around), ylim=(base - 0.06, base + 0.16), ylabel="cost $J$")
+        ax.set_title(rf"$\varepsilon = {epsilon:g}$", loc="left")
+    ax.set_xlabel(END_TIME)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    return figure
+
+
+def averaged_family(reach: float = 0.8, size: int = 81) -> tuple[Array, Array]:
+    """tau_1 and J_0 of the members kappa of the averaged family, |kappa| <= reach, by rising tau_1."""
+    kappas = np.linspace(-reach, 0.45 * reach, size)
+    members = solve_averaged(_averaged().system, [V0], kappa=kappas)
+    order = np.argsort(members.duration)
+    return members.duration[order], members.cost[order]
+
+
+def _averaged():
+    return smooth_example(V0, V1, k=K, ripple=RIPPLE)
+
+
+@lru_cache
+def _extremals(epsilon: float) -> Extremals:
+    return _averaged().exact(epsilon)
+
+
+def _family(found: Extremals) -> tuple[Array, Array, Array, Array]:
+    """tau_1, h*, its mean and J, sampled finely along the family."""
+    family = found.traced
+    theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
+    tau, y, cost, multiplier = (
+        CubicSpline(family.theta, values)(theta)
+        for values in (family.duration, family.y, family.cost, family.unknowns[:, -1])
+    )
+    mean = -K + multiplier**2 / 4
+    return tau, -V1 * y, mean, cost

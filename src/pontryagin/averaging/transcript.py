@@ -1,0 +1,118 @@
+"""An averaged solution and its exact extremals in words and numbers: a table, JSON, columns of CSV."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+Report = dict[str, dict[str, Any]]
+
+PROOF = ("boundary", "transversality", "hamiltonian", "maximality")
+SHOWN = 6
+"""Extremals that a table lists; JSON holds all."""
+
+
+def transcript(
+    problem: Mapping[str, Any],
+    solution: Any,
+    epsilon: float | None = None,
+    phase: float | None = None,
+    exact: Any = None,
+) -> Report:
+    """One solution as headings with their quantities, named as the attributes of the library.
+
+    Parameters
+    ----------
+    problem : mapping
+        What was asked.
+    solution : AveragedSolution
+        Of one problem.
+    epsilon : float, optional
+        With it the correction is told, and the exact extremals.
+    phase : float, optional
+        Phase at the start.
+    exact : Extremals, optional
+        Best first; beside epsilon. Where they leave no choice of the anomaly at the end, the correction is
+        that for the best one's.
+
+    Examples
+    --------
+    >>> from pontryagin.averaging import smooth_example
+    >>> told = transcript({"example": "smooth"}, smooth_example(1.0, 2.0))
+    >>> told["averaged"]["slow_end"].round(12).tolist()
+    [2.0]
+    """
+    ends = np.array([0.0, float(solution.duration)])
+    slow, costate = solution.slow(ends), solution.costate(ends)
+    told: Report = {
+        "problem": dict(problem),
+        "averaged": {
+            "duration": solution.duration,
+            "cost": solution.cost,
+            "slow_names": list(solution.names),
+            "slow_end": slow[-1],
+            "initial_costate": costate[0],
+            "multipliers": solution.multipliers,
+        },
+        "certificate": {name: getattr(solution.certificate, name) for name in PROOF},
+    }
+    if epsilon is None or exact is None:
+        return told
+    correction = solution.correction(phase, exact[0].ending_anomaly if exact.family is None else None)
+    told["corrected"] = {"correction": correction, "cost": solution.cost + epsilon * correction}
+    told["exact"] = {
+        "count": len(exact),
+        "minima": sum(extremal.kind == "minimum" for extremal in exact),
+        "kind": [extremal.kind for extremal in exact],
+        "cost": [float(extremal.cost) for extremal in exact],
+        "duration": [float(extremal.duration) for extremal in exact],
+        "residual": [float(extremal.certificate.residual) for extremal in exact],
+    }
+    return told
+
+
+def shown(told: Report) -> Report:
+    """The same for a table: an extremal a line, the best `SHOWN` of them."""
+    if "exact" not in told:
+        return told
+    exact = told["exact"]
+    lines: dict[str, Any] = {"extremals": exact["count"], "of them minima": exact["minima"]}
+    columns = zip(exact["kind"], exact["cost"], exact["duration"], exact["residual"], strict=True)
+    for place, (kind, cost, duration, residual) in enumerate(columns, start=1):
+        if place <= SHOWN:
+            lines[f"{place}"] = f"{kind}: cost {cost:.8g}, time {duration:.6g}, residual {residual:.0e}"
+    if exact["count"] > SHOWN:
+        lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
+    rest = {heading: quantities for heading, quantities in told.items() if heading != "exact"}
+    return rest | {"exact, best first": lines}
+
+
+def conclusion(told: Report) -> str:
+    """What the numbers say about the cost.
+
+    Examples
+    --------
+    >>> from pontryagin.averaging import smooth_example
+    >>> conclusion(transcript({"example": "smooth"}, smooth_example(1.0, 2.0)))
+    'The least cost is 2 + O(epsilon).'
+    """
+    averaged = float(told["averaged"]["cost"])
+    if "exact" not in told:
+        return f"The least cost is {averaged:.12g} + O(epsilon)."
+    best, corrected = told["exact"]["cost"][0], float(told["corrected"]["cost"])
+    count = told["exact"]["count"]
+    found = f"The best of {count} extremals" if count > 1 else "The extremal found"
+    return (
+        f"{found} costs {best:.10g}: {best - averaged:+.2e} from the "
+        f"averaged cost, {best - corrected:+.2e} from the corrected one. "
+        "Extremals satisfy necessary conditions; no bound from below is claimed."
+    )
+
+
+def answers(solution: Any, epsilon: float | None = None, phase: float | None = None) -> dict[str, Any]:
+    """Columns of a stack of solutions: each (n,)."""
+    told = {"duration": solution.duration, "cost": solution.cost}
+    if epsilon is not None:
+        correction = solution.correction(phase)
+        told |= {"correction": correction, "corrected_cost": solution.cost + epsilon * correction}
+    return told | {"residual": solution.certificate.residual}

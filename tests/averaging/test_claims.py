@@ -1,0 +1,200 @@
+"""The ledger of Akulenko 1977: sections 1 and 2 entry by entry, and the whole of it in order.
+
+Section 3's entries are checked by the tests of its examples.
+"""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from pontryagin.averaging.claims import (
+    ENTRIES,
+    approximation,
+    averaged,
+    discontinuous,
+    family,
+    instances,
+    integral,
+    optimum,
+    principle,
+    roots,
+    statement,
+    window,
+    worked,
+)
+from pontryagin.averaging.derivation import optimum as derived_optimum
+from pontryagin.averaging.derivation import principle as derived_principle
+from pontryagin.averaging.derivation import ripple
+from pontryagin.evidence import Misprint, Refutation
+from pontryagin.ledger import VERDICTS, Unsupported, counts
+
+R = sp.Rational
+
+PARTS = (
+    statement,
+    principle,
+    family,
+    roots,
+    averaged,
+    window,
+    integral,
+    optimum,
+    approximation,
+    discontinuous,
+)
+OWN = [entry for part in PARTS for entry in part.claim]
+WITH_PRINT = [entry for entry in OWN if entry.printed is not None]
+REFUTED = [entry for entry in OWN if hasattr(entry.evidence, "counterexample")]
+
+
+@pytest.mark.parametrize("entry", OWN, ids=lambda entry: entry.label)
+def test_the_verdict_is_earned_and_no_other(entry):
+    entry.check()
+    found = entry.evidence.finding()
+    assert found == entry.verdict
+    for verdict in set(VERDICTS) - {entry.verdict}:
+        with pytest.raises(Unsupported):
+            replace(entry, verdict=verdict, remark="altered", build=lambda: Found(found)).check()
+
+
+class Found:
+    """Evidence that has been checked: it finds again what it found."""
+
+    def __init__(self, verdict):
+        self.verdict = verdict
+
+    def finding(self):
+        return self.verdict
+
+
+def altered_prints(evidence):
+    """The evidence with one printed right-hand side altered at a time."""
+    if getattr(evidence, "formula", None):
+        for left, formula in altered_prints(evidence.formula):
+            yield left, replace(evidence, formula=formula)
+        return
+    for left, side in evidence.printed.items():
+        yield left, replace(evidence, printed={**evidence.printed, left: side + 1})
+        yield left, replace(evidence, printed={**evidence.printed, left: -side - R(1, 7)})
+
+
+@pytest.mark.parametrize("entry", WITH_PRINT, ids=lambda entry: entry.label)
+def test_any_other_print_changes_the_verdict(entry):
+    altered = list(altered_prints(entry.evidence))
+    assert altered
+    for _, evidence in altered:
+        with pytest.raises(Unsupported):
+            evidence.finding()
+
+
+@pytest.mark.parametrize(
+    "entry", [e for e in OWN if isinstance(e.evidence, Misprint)], ids=lambda entry: entry.label
+)
+def test_a_corrected_print_is_no_misprint(entry):
+    corrected = replace(entry.evidence, printed=entry.evidence.derivation())
+    with pytest.raises(Unsupported, match="no misprint"):
+        corrected.finding()
+
+
+@pytest.mark.parametrize("entry", REFUTED, ids=lambda entry: entry.label)
+def test_a_counterexample_is_needed_and_names_numbers(entry):
+    def nothing():
+        yield from ()
+
+    with pytest.raises(Unsupported):
+        replace(entry.evidence, counterexample=nothing).finding()
+    steps = list(entry.evidence.counterexample())
+    assert len(steps) >= 2
+    assert any(re.search(r"\d", words) for words, _ in steps)
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "wrong", "label"),
+    [
+        (instances, "THREE", instances.TOUCHING, "after (2.13): minimisation"),
+        (instances, "THREE", -instances.THREE, "after (2.16): optimal κ"),
+        (instances, "TOUCHING", instances.THREE, "after (2.6): neighbourhood"),
+        (instances, "ROOT_OF_MASS", sp.S.One, "(2.5): a, p"),
+        (discontinuous, "WAVE", sp.sin(discontinuous.phi), "end of section 2: theorem [12]"),
+        (discontinuous, "CHIRP", sp.sin(discontinuous.t), "end of section 2: sharper estimate"),
+        (averaged, "PRINTED_RATE", sp.S.Zero, "(2.3)"),
+        (worked, "predicted_roots", lambda eps: 0.5 / eps, "after (2.2): number of roots"),
+        (worked, "deviations", lambda eps: {"phase": 0.1 / eps}, "(2.5): ψ"),
+        (ripple, "cost", lambda: ripple.turned(), "(2.14)"),
+        (derived_principle, "leading_h", lambda: sp.Symbol("h"), "after (2.1): q"),
+        (derived_optimum, "exact_identity", lambda: sp.S.One, "Figure 2"),
+    ],
+)
+def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, label):
+    entry = next(entry for entry in OWN if entry.label == label)
+    monkeypatch.setattr(module, name, wrong)
+    if label == "after (2.1): q":
+        monkeypatch.setattr(family, "first", sp.Symbol("h"))
+    with pytest.raises(Unsupported):
+        replace(entry).check()
+
+
+def test_every_numbered_formula_is_there_in_the_papers_order():
+    numbered = [re.match(r"\((\d)\.(\d+)\)", entry.label) for entry in ENTRIES]
+    order = [(int(found[1]), int(found[2])) for found in numbered if found]
+    assert order == sorted(order)
+    expected = {(1, k) for k in range(1, 9)} | {(2, k) for k in range(1, 18)} | {(3, k) for k in range(1, 11)}
+    assert set(order) == expected
+    assert {"Figure 1", "Figure 2"} <= {entry.label for entry in ENTRIES}
+
+
+def test_labels_are_unique_and_what_fails_has_a_remark():
+    labels = [entry.label for entry in ENTRIES]
+    assert len(set(labels)) == len(labels)
+    assert all(len(entry.statement) > 10 or entry.printed_latex for entry in ENTRIES)
+    assert all(entry.remark for entry in ENTRIES if entry.verdict != "holds")
+
+
+def test_the_tally():
+    tally = counts(OWN)
+    assert tally["not checked"] == 0
+    failing = {entry.label for entry in OWN if entry.verdict == "misprint"}
+    assert failing == {
+        "section 1: range of ε", "(1.6): p(t1)", "(2.1): p'", "(2.3)", "(2.4)", "(2.5): q"
+    }  # fmt: skip
+    assert tally["conditional"] >= 10
+    assert not any(isinstance(e.evidence, Refutation | Misprint) for e in OWN if e.verdict == "holds")
+
+
+@pytest.mark.parametrize("epsilon", worked.EPSILONS)
+def test_the_extremals_survive_a_finer_integration_and_miss_none(epsilon):
+    found = worked.roots(epsilon)
+    finer = worked.members(found.start, epsilon, 1e-12)
+    assert np.abs(finer.level).max() < 2 * worked.RESIDUAL
+    assert np.abs(finer.cost - found.cost).max() < 1e-7
+    slopes = worked.members(found.start + 1e-5 * epsilon, epsilon, 1e-12).level
+    assert np.all(np.diff(np.sign(slopes)) != 0)
+    gaps = np.diff(found.phase)
+    assert gaps.max() < 2 * np.pi
+
+
+def test_extremals_obey_hamiltons_equations_in_time():
+    from scipy.integrate import solve_ivp
+
+    epsilon = 0.1
+    found, best = worked.roots(epsilon), worked.best(epsilon)
+
+    def rates(_, y):
+        v, x, p, q = y
+        force = worked.RIPPLE * np.cos(x)
+        return [
+            epsilon * (p / 2 + force),
+            v,
+            -q,
+            epsilon * p * worked.RIPPLE * np.sin(x),
+        ]
+
+    p0 = found.start[best]
+    start = [worked.START, 0.0, p0, -epsilon * worked.level(0.0, p0) / worked.START]
+    end = solve_ivp(
+        rates, (0, found.duration[best] / epsilon), start, "LSODA", rtol=1e-10, atol=1e-12
+    ).y[:, -1]  # fmt: skip
+    assert end == pytest.approx([worked.END, found.phase[best], found.costate[best], 0.0], abs=1e-5)
