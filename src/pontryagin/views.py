@@ -33,6 +33,8 @@ class Scene(View):
 
     Attributes
     ----------
+    title, entity, share
+        As in `View`.
     eye : (Point, Point), optional
         Where one looks from at first, and at what; by default rerun chooses.
     trails : tuple of str
@@ -52,6 +54,8 @@ class Plot(View):
 
     Attributes
     ----------
+    title, entity, share
+        As in `View`.
     span : (lowest, highest), optional
         Of the values shown; by default rerun chooses, and shows the noise of what is constant.
     whole : bool

@@ -35,6 +35,8 @@ def switched_ends(
     ----------
     modes : tuple of (sympy.Symbol, sympy.Expr)
         Modes and the functions whose signs they are, in states, parameters, clock and earlier modes.
+    states, rates, parameters, clock, wrt, taylor
+        As there.
 
     Examples
     --------

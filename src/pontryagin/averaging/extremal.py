@@ -38,6 +38,14 @@ class Extremal:
         d^2 J / dtheta^2 along the family, epsilon dy/dtheta: the sign decides `kind`.
     initial : (2n + 3,) array
         (a, p, p_x/epsilon, tau, J) at the start.
+    equations : Canonical
+        What it solves.
+    parameters : array
+        epsilon, then the system's numbers.
+    certify : callable
+        Makes the certificate, when it is asked for.
+    turn_to_phase : callable
+        psi of the slow variables (k, n) and the anomalies (k,).
     """
 
     cost: float

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.averaging.members import chord, march, members
+from pontryagin.averaging.members import FAR, chord, march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
@@ -144,9 +144,8 @@ def _turn_about(problem: Shooting, theta: float, unknowns: Array, angles: Array,
         middle = members(problem, angles[[centre]], unknowns[None])
         up = list(march(problem, angles[centre], middle, angles[centre + 1 :]))
         down = list(march(problem, angles[centre], middle, angles[:centre][::-1]))
-        above = "" if _complete(up, angles[centre + 1 :]) else "no solution"
-        if not _complete(down, angles[:centre][::-1]):
-            below = _short_of(problem, float(down[-1][0][0]) if down else angles[centre])
+        above = "" if _complete(up, angles[centre + 1 :]) else _reason(problem, up, 1)
+        below = below if _complete(down, angles[:centre][::-1]) else _reason(problem, down, -1)
         return _joined([*reversed(down), (angles[[centre]], *middle), *up], (below, above))
 
 
@@ -162,7 +161,8 @@ def _outwards(
         angles = _angles(problem, theta, size, sense * (len(found) + 1))
         following = _next_turn(problem, history, angles, size, sense)
         if following is None:
-            return found, _short_of(problem, last.theta[0]) if sense < 0 else "no solution"
+            near = sense < 0 and last.theta[0] - problem.anomaly < np.pi
+            return found, "start" if near else "no solution"
         found.append(following)
         history = [*history[-2:], following]
         quiet = 0 if _has_root(last, following, sense) else quiet + 1
@@ -196,8 +196,8 @@ def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int
         if not marched:
             return None
         if not _complete(marched, angles[::sense]):
-            reached = float(marched[-1][0][0])
-            ends = (_short_of(problem, reached), "") if sense < 0 else ("", "no solution")
+            reason = _reason(problem, marched, sense)
+            ends = (reason, "") if sense < 0 else ("", reason)
         return _joined(marched[::sense], ends)
 
 
@@ -205,9 +205,13 @@ def _complete(marched: list, angles: Array) -> bool:
     return len(angles) == 0 or (len(marched) > 0 and marched[-1][0][0] == angles[-1])
 
 
-def _short_of(problem: Shooting, theta: float) -> str:
-    """What stopped a search downwards: hardly half a turn is left to the start, or something else."""
-    return "start" if theta - problem.anomaly < np.pi else "no solution"
+def _reason(problem: Shooting, marched: list, sense: int) -> str:
+    """What stopped a march: h* far off zero, hardly half a turn left to the start, or something else."""
+    if marched and abs(float(marched[-1][2].hamiltonian[0])) > FAR * problem.price:
+        return "no further root"
+    if sense < 0 and marched and float(marched[-1][0][0]) - problem.anomaly < np.pi:
+        return "start"
+    return "no solution"
 
 
 def _has_root(last: _Turn, following: _Turn, sense: int) -> bool:

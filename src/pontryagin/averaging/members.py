@@ -16,7 +16,7 @@ SWEEPS, QUICK = 20, 6
 """Newton steps allowed from a rough guess, and from a neighbour."""
 SHORTEST = 1e-4
 """Step, in shares of that between members, at which the family counts as ended."""
-FAR = 30.0
+FAR = 10.0
 """Size of h* at the end, in units of the mean running cost, beyond which no root is looked for."""
 
 

@@ -84,7 +84,7 @@ def rotor(
         derived.rotor_model(m, V, f, bound is not None),
         ("a",),
         begin[..., None],
-        (end, price if bound is None else bound),
+        (end, *(x for x in (bound, price) if x is not None)),
         lambda: derived.rotor(m, V, f, end, bound, price),
     )
 

@@ -47,6 +47,14 @@ class AveragedSolution:
         psi_0 where the problem says it (`spin_down`), else zero.
     numbers : tuple of (...) arrays
         Values of the system's numbers, in their order.
+    model : Model
+        The averaged system, compiled.
+    edges : array
+        Ends of the pieces of (0, tau_1), as shares of it.
+    series : array
+        Chebyshev coefficients of xi and eta on the pieces.
+    make_system : callable
+        Makes the `PhaseSystem`, when it is asked for.
     frame : callable or None
         From this solution to the same one in variables that are regular at the target, if its own are not.
     """

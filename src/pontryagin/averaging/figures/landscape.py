@@ -70,11 +70,27 @@ def kappa_at(found: Extremals, end: int) -> float:
 
 
 def averaged_family(solution: AveragedSolution, low: float, high: float) -> tuple[Array, Array]:
-    """tau_1 and J_0 of the averaged family between two kappas, where it exists, by rising tau_1."""
-    members = [_member(solution, kappa) for kappa in np.linspace(min(low, high), max(low, high), 41)]
+    """tau_1 and J_0 of the averaged family between two kappas, where it exists, by rising tau_1.
+
+    tau_1 grows without bound towards the largest kappa, so the members are taken closer together there.
+    """
+    least, most = (_reached(solution, kappa) for kappa in sorted((low, high)))
+    shares = 1 - (1 - np.linspace(0, 1, 61)) ** 3
+    members = [_member(solution, least + (most - least) * share) for share in shares]
     found = [(float(one.duration), float(one.cost)) for one in members if one is not None]
     tau, cost = np.array(sorted(found)).T
     return tau, cost
+
+
+def _reached(solution: AveragedSolution, kappa: float, halvings: int = 20) -> float:
+    """kappa, or how far from zero towards it the averaged family exists."""
+    inside, outside = 0.0, kappa
+    if _member(solution, kappa) is not None:
+        return kappa
+    for _ in range(halvings):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if _member(solution, middle) is not None else (inside, middle)
+    return inside
 
 
 def _member(solution: AveragedSolution, kappa: float) -> AveragedSolution | None:
