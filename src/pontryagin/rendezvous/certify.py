@@ -26,12 +26,16 @@ SAMPLES = 201
 class RendezvousCertificate(MaximumPrinciple):
     """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on other controls' cost.
 
-    ``boundary`` is that of (5), ``transversality`` that of (16) and, at a free duration, of the law for the
-    thrust at the end. ``hamiltonian`` is |H|, or at a fixed duration its change, and with ``maximality`` in
-    units of the largest running cost.
-
     Parameters
     ----------
+    boundary : () array
+        That of (5).
+    transversality : () array
+        That of (16) and, at a free duration, of the law for the thrust at the end.
+    hamiltonian : () array
+        |H|, or at a fixed duration its change, in units of the largest running cost.
+    maximality : () array
+        As in `MaximumPrinciple`, in units of the largest running cost.
     attitude : () array
         |vect(lambda~ o lambda*)| of (6) at the meeting, with lambda carried by its own equation.
     agreement : () array

@@ -33,6 +33,8 @@ class Flight:
 
     Attributes
     ----------
+    scaled : Scaled
+        The problem.
     costates : (6,) array
         rho, s1, e, nu1, nu2, nu3 at t0.
     duration : float
@@ -49,6 +51,8 @@ class Flight:
         r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3, chi, p_max at the end.
     slopes : (12, 7) array
         Derivatives of the end in the costates and in p_max.
+    taylor : bool or None
+        As for `pontryagin.flow.flow`.
     """
 
     scaled: Scaled

@@ -41,6 +41,8 @@ class Setting:
         revolution that the craft is to make beyond those it makes at 0.
     duration : float or None
         t_k where fixed.
+    taylor : bool or None
+        As for `pontryagin.flow.flow`.
     """
 
     scaled: Scaled

@@ -30,6 +30,8 @@ class Extremal:
     ----------
     problem : Rendezvous
         What was asked for.
+    root : Root
+        The roots of the shooting equations, in the solver's units.
     others : tuple of Extremal
         The other extremals found, by cost; only the best one has them.
     searched : Search
