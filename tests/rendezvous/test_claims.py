@@ -62,7 +62,7 @@ TRUE, CHEAP, *OTHERS = meetings.COPLANAR
 def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, label):
     entry = next(entry for entry in ENTRIES if entry.label == label)
     monkeypatch.setattr(module, name, wrong)
-    with pytest.raises(Unsupported):
+    with pytest.raises((Unsupported, ArithmeticError)):
         replace(entry).check()
 
 
