@@ -86,3 +86,11 @@ def test_bad_systems_are_refused_by_name():
         flow([x, v], [v, -m * x], [k])
     with pytest.raises(ValueError, match="got symbols t"):
         ends([x], [t * x])
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_parameters_that_the_rates_do_not_hold_change_nothing(taylor):
+    grow = ends([x], [x * k], [m, k, v], taylor=taylor)
+    assert_allclose(grow([[1.0]], 0.0, 3.0, [9.0, 0.5, 7.0])[0], [[np.exp(1.5)]], rtol=1e-13)
+    fall = flow([x], [-x], [k], taylor=taylor)
+    assert_allclose(fall([1.0], [0.0, 2.0], [5.0])[-1], [np.exp(-2.0)], rtol=1e-12)

@@ -182,15 +182,22 @@ def compact(rates: Sequence) -> bool:
     return sp.count_ops(list(rates)) > SMALL
 
 
+def _counted(rates: Sequence, parameters: Sequence) -> int:
+    """How many parameters heyoka counts: up to the last that the rates hold."""
+    used = {symbol for rate in rates for symbol in rate.free_symbols}
+    return max((i for i, symbol in enumerate(parameters, 1) if symbol in used), default=0)
+
+
 def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Flow:
     import heyoka as hy
 
     system, _ = heyoka_system(states, rates, parameters, clock)
+    held = _counted(rates, parameters)
     integrator = hy.taylor_adaptive(
         system,
         [0.0] * len(states),
         tol=TOLERANCE,
-        pars=[0.0] * len(parameters),
+        pars=[0.0] * held,
         compact_mode=compact(rates),
     )
 
@@ -198,7 +205,7 @@ def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Fl
         grid = np.asarray(times, dtype=float)
         integrator.time = grid[0]
         integrator.state[:] = start
-        integrator.pars[:] = values
+        integrator.pars[:] = np.asarray(values, dtype=float)[:held]
         outcome, *_, states_at = integrator.propagate_grid(grid, max_steps=STEPS)
         if outcome != hy.taylor_outcome.time_limit:
             raise NotConverged(f"the Taylor integrator stopped: {outcome}", float(grid[-1] - integrator.time))
@@ -213,13 +220,14 @@ def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, 
 
     system, table = heyoka_system(states, rates, parameters, clock)
     lanes, n, m = hy.recommended_simd_size(), len(states), len(wrt)
+    held = _counted(rates, parameters)
     if wrt:
         system = hy.var_ode_sys(system, [table[symbol] for symbol in wrt], order=1)
     integrator = hy.taylor_adaptive_batch(
         system,
         np.zeros((n, lanes)),
         tol=tolerance,
-        pars=np.zeros((len(parameters), lanes)),
+        pars=np.zeros((held, lanes)),
         compact_mode=bool(wrt) or compact(rates),
     )
     identity = np.array(integrator.state[n:])
@@ -232,7 +240,7 @@ def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, 
             integrator.set_time(begin[chosen])
             integrator.state[:n] = start[chosen].T
             integrator.state[n:] = identity
-            integrator.pars[:] = values[chosen].T
+            integrator.pars[:] = values[chosen, :held].T
             integrator.propagate_until(end[chosen], max_steps=STEPS)
             worst = [outcome for outcome, *_ in integrator.propagate_res]
             if any(outcome != hy.taylor_outcome.time_limit for outcome in worst):

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 import sympy as sp
+from numpy.testing import assert_allclose
 from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
 
 from pontryagin.averaging import kepler, rotor, smooth_example, spin_down
 
@@ -126,3 +128,25 @@ def test_times_outside_are_refused(orbit):
         orbit.costate(float("nan"))
     with pytest.raises(ValueError, match="anomaly must be"):
         orbit.control(0.1, float("inf"))
+
+
+def test_the_exact_spin_down_is_handed_out_in_the_paper_s_variables():
+    """H of the paper's own system vanishes along it, psi leads to the rates, and a falls to rest."""
+    solution = spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6)
+    best = solution.exact(0.1)[0]
+    tau = np.linspace(0, best.duration, 200)
+    a, p, psi, u = best.slow(tau), best.costate(tau), best.phase(tau), best.control(tau)
+    assert_allclose(a[0], solution.start)
+    assert psi[0] == pytest.approx(float(solution.initial_phase)) and a[-1, 0] < 1e-9
+    system = solution.system
+    whole = system.hamiltonian * best.epsilon + system.phase_costate * system.rate
+    arguments = [*system.slow, *system.costates, system.phase, system.phase_costate, *system.numbers]
+    numbers = [float(number) for number in solution.numbers]
+    value = sp.lambdify(arguments, whole)(
+        *a[:-1].T, *p[:-1].T, psi[:-1], best.phase_costate(tau)[:-1], *numbers
+    )
+    assert np.abs(value).max() < 1e-9 * best.epsilon
+    slope = CubicSpline(tau, a)(tau, 1)[3:-3]
+    rate = sp.lambdify([*system.slow, system.phase, *system.control, *system.numbers], list(system.f))
+    expected = np.stack(np.broadcast_arrays(*rate(*a.T, psi, *u.T, *numbers)), axis=1)[3:-3]
+    assert_allclose(slope, expected, atol=1e-4)

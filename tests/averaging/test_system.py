@@ -153,3 +153,15 @@ def test_the_smooth_example_has_its_ripple():
     system = smooth_example(1.0, 2.0, ripple=0.5).system
     ripple = next(symbol for symbol in system.numbers if str(symbol) == "ripple")
     assert system.f[0] == system.control[0] + ripple * sp.cos(system.phase)
+
+
+def test_rates_frequency_and_controls_may_be_given_in_order():
+    rest = {name: GOOD[name] for name in ("slow", "control", "phase", "target")}
+    system = PhaseSystem(GOOD["f"], GOOD["omega"], GOOD["control_set"], **rest)
+    assert system.hamiltonian == PhaseSystem(**GOOD).hamiltonian
+
+
+@pytest.mark.parametrize("value", [None, 3, Quadratic])
+def test_a_control_set_is_asked_for(value):
+    with pytest.raises(TypeError, match="control_set must be a set of controls"):
+        PhaseSystem(**GOOD | {"control_set": value})

@@ -32,34 +32,26 @@ The costate of the cost is -1 throughout, and the costs that the paper carries a
 are integrals here, so that a system's slow variables are its physical ones.
 """
 
-from importlib import import_module
+from pontryagin import lazy
 
-_HOMES = {
-    "PhaseSystem": "system",
-    "solve_averaged": "solution",
-    "smooth_example": "smooth",
-    "rotor": "rotor_example",
-    "kepler": "kepler_example",
-    "spin_down": "spin_down_example",
-    "AveragedSolution": "solution",
-    "Quadratic": "control_sets",
-    "Ball": "control_sets",
-    "Ellipsoid": "control_sets",
-    "Box": "control_sets",
-    "BoundedQuadratic": "control_sets",
-    "Custom": "control_sets",
-}
-
-__all__ = list(_HOMES)
-
-
-def __getattr__(name: str):
-    """Public names load their module at first use, so that an import costs nothing it does not need."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = _HOMES[name]
-    return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
-
-
-def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+__getattr__, __dir__, __all__ = lazy.attach(
+    __name__,
+    {
+        "PhaseSystem": "system",
+        "solve_averaged": "solution",
+        "smooth_example": "smooth",
+        "rotor": "rotor_example",
+        "kepler": "kepler_example",
+        "spin_down": "spin_down_example",
+        "AveragedSolution": "solution",
+        "Quadratic": "control_sets",
+        "Ball": "control_sets",
+        "Ellipsoid": "control_sets",
+        "Box": "control_sets",
+        "BoundedQuadratic": "control_sets",
+        "Custom": "control_sets",
+        "derivation": "",
+        "figures": "",
+        "playback": "",
+    },
+)

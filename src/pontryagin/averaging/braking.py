@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
-import sympy as sp
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
+from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin import compile as compiler
 from pontryagin.averaging.derivation import rigid_body
@@ -17,7 +17,8 @@ Array = NDArray[np.float64]
 
 STOPPED = 1e-6
 """Share of the first transverse rate at which the body counts as stopped: the synthesis has no value at 0."""
-PER_TURN = 96
+PER_TURN, FEWEST = 96, 400
+"""Samples a turn, and at least."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +57,10 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
     Raises
     ------
     ValueError
-        If an argument is not finite, wrongly shaped, or not positive where it has to be.
+        If an argument is not finite, wrongly shaped, or not positive where it has to be, or there is nothing
+        to brake.
     NotConverged
-        If the integrator stops short.
+        If the body does not stop.
 
     Examples
     --------
@@ -69,42 +71,58 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
     start, axes = vectors("omega0", omega0, 3), vectors("semiaxes", semiaxes, 3)
     for name, value in (("semiaxes", axes), ("ratio", ratio), ("epsilon", epsilon)):
         positive(name, value)
-    low = STOPPED * float(np.hypot(*start[:2]))
+    if not np.hypot(*start[:2]) > 0:
+        raise ValueError(
+            f"omega0 must have w_x or w_y other than 0, or there is nothing to brake, got {start}"
+        )
+    path, last = fly(start, axes, ratio, epsilon)
+    turns = max(abs((ratio - 1) * start[2]), float(np.hypot(*start[:2]))) * last / (2 * np.pi)
+    even = np.linspace(0.0, last, max(FEWEST, int(PER_TURN * turns)))
+    t = np.union1d(even, path.ts[path.ts < last])  # towards rest w turns to an axis of the ellipse in no time
+    rates = path(t).T
+    return Braking(epsilon * t, rates, synthesis(rates, axes))
 
-    def stopped(t: float, w: Array) -> float:
-        return float(np.hypot(w[0], w[1])) - low
 
-    stopped.terminal = True  # type: ignore[attr-defined]
-    longest = 2 * float(np.hypot(*start[:2])) / float(axes[:2].min()) / epsilon
-    step = 2 * np.pi / (PER_TURN * max(abs((ratio - 1) * start[2]), 1e-3))
-    flown = solve_ivp(
-        lambda t, w: np.array(_rates()(*w, *axes, ratio, epsilon)),
+def fly(start: Array, semiaxes: Array, ratio: float, epsilon: float) -> tuple[OdeSolution, float]:
+    """omega as a function of time, (k,) to (3, k), under the synthesis, and the time at which it rests.
+
+    Raises
+    ------
+    NotConverged
+        If the body does not come to rest in twice the time that the weaker semiaxis alone would take.
+    """
+    first = float(np.hypot(*start[:2]))
+    constants = (*semiaxes[:2], ratio, epsilon)
+
+    def rest(_: float, w: Array) -> float:
+        return float(np.hypot(w[0], w[1])) - STOPPED * first
+
+    rest.terminal = True  # type: ignore[attr-defined]
+    longest = 2 * first / float(semiaxes[:2].min()) / epsilon
+    run = solve_ivp(
+        lambda _, w: _synthesis()(*w, *constants)[0][..., 0],
         (0.0, longest),
         start,
-        events=stopped,
-        max_step=step,
+        method="DOP853",
         rtol=1e-10,
         atol=1e-12,
+        events=rest,
+        dense_output=True,
     )
-    if not flown.success or not flown.t_events or flown.t_events[0].size == 0:
-        raise NotConverged(f"the body did not stop: {flown.message}", float(np.hypot(*flown.y[:2, -1])))
-    control = np.stack(np.broadcast_arrays(*_control()(*flown.y, *axes)), axis=-1)
-    return Braking(epsilon * flown.t, flown.y.T, control)
+    if run.status != 1:
+        raise NotConverged(f"the body does not come to rest: {run.message}", rest(0.0, run.y[:, -1]))
+    return cast(OdeSolution, run.sol), float(run.t[-1])
 
 
-def _synthesis() -> dict[str, sp.Expr]:
-    return {str(name): value for name, value in zip(rigid_body.u, rigid_body.braking(), strict=True)}
-
-
-@lru_cache(maxsize=1)
-def _control():
-    return compiler.function("synthesis", [*rigid_body.w, *rigid_body.semiaxes], _synthesis())
+def synthesis(rates: Array, semiaxes: Array) -> Array:
+    """u of the first approximation as a function of omega (k, 3), (k, 3)."""
+    return _synthesis()(*rates.T, *semiaxes[:2], 1.0, 1.0)[1][..., 0]
 
 
 @lru_cache(maxsize=1)
-def _rates():
-    controlled = dict(zip(rigid_body.u, rigid_body.braking(), strict=True))
-    rates = rigid_body.symmetric_rates().subs(controlled)
-    arguments = [*rigid_body.w, *rigid_body.semiaxes, rigid_body.d, rigid_body.epsilon]
-    named = {f"rate_{name}": value for name, value in zip(rigid_body.w, rates, strict=True)}
-    return compiler.function("rates", arguments, named)
+def _synthesis():
+    """omega' and u as functions of omega under `rigid_body.braking`."""
+    control = rigid_body.braking()
+    rates = rigid_body.symmetric_rates().subs(dict(zip(rigid_body.u, control, strict=True)))
+    arguments = [*rigid_body.w, *rigid_body.semiaxes[:2], rigid_body.d, rigid_body.epsilon]
+    return compiler.function("synthesis", arguments, {"rates": rates, "control": control})

@@ -72,7 +72,8 @@ class Path:
 
     def moved(self, step: Array, share: Array) -> "Path":
         """The path after a share (s) of the step (s, unknowns)."""
-        count = self.z[0].size
+        _, points, width = self.z.shape
+        count = points * width
         step = share[:, None] * step
         return Path(
             self.mesh,
@@ -121,20 +122,22 @@ def _newton(problem: Problem, path: Path) -> tuple[Path, Array]:
     closeness = np.full(len(path.duration), np.inf)
     active = np.arange(len(closeness))
     result, h = path, problem.hamiltonian(path.z)
+    residual = _residual(problem, path, h)
     for _ in range(STEPS):
         here, at = problem[active], result[active]
-        residual = _residual(here, at, h)
         step, solvable = _solve(_matrix(here, at, h), residual)
         size = _size(at, step)
-        moved, after, improved = _damped(here, at, step, _norm(at, residual), size)
-        keep = solvable & improved
-        result = _replaced(result, active[keep], moved[keep])
-        done = keep & (size <= CLOSE)
-        closeness[active[done]] = size[done]
-        going = keep & ~done
-        active, h = active[going], after[going]
+        last, further = solvable & (size <= CLOSE), np.nonzero(solvable & ~(size <= CLOSE))[0]
+        closeness[active[last]] = size[last]
+        result = _replaced(result, active[last], at[last].moved(step[last], np.ones(last.sum())))
+        if not len(further):
+            break
+        before = _norm(at, residual)[further]
+        moved, after, left, improved = _damped(here[further], at[further], step[further], before)
+        active, h, residual = active[further[improved]], after[improved], left[improved]
         if not len(active):
             break
+        result = _replaced(result, active, moved[improved])
     return result, closeness
 
 
@@ -168,23 +171,22 @@ def _size(path: Path, step: Array) -> Array:
 
 
 def _damped(
-    problem: Problem, path: Path, step: Array, before: Array, size: Array
-) -> tuple[Path, Jet, NDArray[np.bool_]]:
-    """The longest of the step, its half, its quarter, ... that lowers the residual, and H0's jet there."""
+    problem: Problem, path: Path, step: Array, before: Array
+) -> tuple[Path, Jet, Array, NDArray[np.bool_]]:
+    """The longest of the step, its half, its quarter, ... that lowers the residual; H0's jet and it there."""
     share = np.ones(len(before))
     trial = path.moved(step, share)
     h = problem.hamiltonian(trial.z)
     for halving in range(HALVINGS):
-        after = _norm(trial, _residual(problem, trial, h))
-        good = (after <= (1 - 0.1 * share) * before) | (np.isfinite(after) & (size <= CLOSE))
-        good &= trial.duration > 0
+        residual = _residual(problem, trial, h)
+        good = (_norm(trial, residual) <= (1 - 0.1 * share) * before) & (trial.duration > 0)
         if good.all() or halving == HALVINGS - 1:
             break
         share = np.where(good, share, share / 2)
         trial = path.moved(step, share)
         again = np.nonzero(~good)[0]
         h = h.replaced(again, problem[again].hamiltonian(trial.z[again]))
-    return trial, h, good
+    return trial, h, residual, good
 
 
 def _norm(path: Path, residual: Array) -> Array:

@@ -1,124 +1,177 @@
-"""How many extremals there are: the window of the family in which h* takes both signs over a turn.
+"""How many extremals to expect: |Psi(kappa'') - Psi(kappa')| / (pi epsilon), from the averaged family.
 
 A member kappa of the averaged family ends with <h*> = -omega kappa. The exact extremals near it are where h*
-vanishes, and they exist as long as h* takes both signs over a turn of the phase there. Between the two ends
-of that window the phase turns through (Psi(kappa'') - Psi(kappa'))/epsilon, with two extremals to a turn.
+vanishes on the turn at its end: at two phases if h* rises and falls once a turn, at four for the rigid body.
+Over the members between kappa' < 0 < kappa'', beyond which h* keeps one sign, or Psi turns back, or there is
+no averaged solution, the phase at the end runs through |Psi(kappa'') - Psi(kappa')|/epsilon.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from pontryagin import compile as compiler
-from pontryagin.averaging.solution import AveragedSolution, solve_averaged
+from pontryagin.averaging.arrivals import fixed_ending
+from pontryagin.averaging.canonical import Canonical, canonical, y
+from pontryagin.averaging.solution import AveragedSolution, solved
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.validation import positive
 
 Array = NDArray[np.float64]
 
-POINTS = 512
+POINTS = 2048
 """Anomalies over a turn at which h* is compared with zero."""
-STEPS = 60
-"""Steps outwards from kappa = 0."""
+FIRST = 1 / 16
+"""First step of kappa, in units of the mean running cost over the frequency."""
+EXACT, NEAR = 1e-7, 1e-3
+"""How exactly an end of the window is found, and how exactly where there is no solution beyond."""
+CELLS = 48
+"""Parts of the window in which the roots on a turn are counted."""
+LEVEL = 1e-12
+"""Range of h* over a turn, in shares of the mean running cost, that counts as none."""
 
 
 @dataclass(frozen=True)
 class Window:
-    """The range of kappa about 0 in which there are extremals.
+    """The averaged solutions at whose ends h* vanishes somewhere on the turn.
 
     Attributes
     ----------
-    low, high : float
+    kappa : (2,) array
         kappa' and kappa''.
-    turned : tuple of two float
-        Psi, the integral of omega over (0, tau_1), at both.
+    turned : (2,) array
+        Psi there: the integral of omega over the slow time, an angle.
+    roots : float
+        Roots of h* at the end on a turn, on average over Psi.
+    authority : float
+        dPsi/dkappa at kappa = 0, (2.15): how far the control moves the phase at the end. The error of the
+        first correction holds up to epsilon^2 pi^2/2 over this.
+    limits : tuple of two str
+        Why the window ends: "no further root", "turning point" of Psi, or "no solution" of the averaged
+        problem, where there may be more extremals than are counted.
     """
 
-    low: float
-    high: float
-    turned: tuple[float, float]
+    kappa: Array
+    turned: Array
+    roots: float
+    authority: float
+    limits: tuple[str, str]
 
     def count(self, epsilon: float) -> float:
-        """|Psi(kappa'') - Psi(kappa')| / (pi epsilon): two extremals to a turn."""
-        return abs(self.turned[1] - self.turned[0]) / (np.pi * epsilon)
+        """Extremals to expect: roots |Psi(kappa'') - Psi(kappa')| / (2 pi epsilon)."""
+        small = float(positive("epsilon", epsilon))
+        return float(self.roots * abs(self.turned[1] - self.turned[0]) / (2 * np.pi * small))
 
 
 def window(solution: AveragedSolution) -> Window:
-    """Where h* at the end, over a turn of the phase, touches zero.
-
-    Parameters
-    ----------
-    solution : AveragedSolution
-        Of one problem with a smooth family.
+    """Where the averaged family about the solution, at kappa = 0, has roots of h* at its end.
 
     Raises
     ------
-    NotConverged
-        If the family ends before h* keeps one sign, or h* keeps one sign at kappa = 0 already.
+    ValueError
+        If the solution is a stack, its kappa is not zero, its trajectory leaves no choice of the end (the
+        least time of one slow variable), or h* does not depend on the phase there.
 
     Examples
     --------
     >>> from pontryagin.averaging import smooth_example
-    >>> found = window(smooth_example(1, 2, k=1.0, ripple=0.5))
-    >>> round(found.high, 9) == round((5**0.5 - 1) / 4, 9)
-    True
+    >>> roots = window(smooth_example(1.0, 2.0, ripple=0.5))
+    >>> round(roots.count(0.01)), roots.limits
+    (35, ('no further root', 'no further root'))
     """
-    low, high = (_border(solution, sense) for sense in (-1, 1))
-    return Window(low, high, (_turned(solution, low), _turned(solution, high)))
+    if solution.duration.shape or solution.kappa != 0:
+        raise ValueError("solution must be that of one problem, at kappa = 0")
+    if fixed_ending(canonical(solution.system)):
+        raise ValueError(
+            "solution must leave a choice of the end, unlike the least time of one slow variable"
+        )
+    if np.ptp(_at_end(solution)) <= LEVEL * float(solution.cost / solution.duration):
+        raise ValueError("solution must end where h* depends on the phase: here there is one extremal")
+
+    @cache
+    def one(kappa: float) -> AveragedSolution:
+        return _members(solution, kappa)
+
+    unit = float(solution.cost / solution.duration / solution.frequency([0.0])[0])
+    low, high = (_limit(one, sense, unit) for sense in (-1, 1))
+    kappa = np.array([low[0], high[0]])
+    small = 1e-3 * unit
+    authority = (_turned(one(small)) - _turned(one(-small))) / (2 * small)
+    inside = _members(solution, kappa[0] + np.ptp(kappa) * (np.arange(CELLS) + 0.5) / CELLS)
+    return Window(kappa, np.array([low[1], high[1]]), _roots(inside), float(authority), (low[2], high[2]))
 
 
-def _border(solution: AveragedSolution, sense: int) -> float:
-    """The kappa on one side at which the least (or largest) h* over a turn vanishes."""
+def _members(solution: AveragedSolution, kappa: float | Array) -> AveragedSolution:
+    """The same problem for other kappas."""
+    return solved(
+        solution.model,
+        solution.names,
+        solution.start,
+        solution.numbers,
+        solution.make_system,
+        kappa=kappa,
+    )
 
-    def distance(kappa: float) -> float:
-        return _extreme(solution, kappa, sense)
 
-    if not distance(0.0) > 0:
-        raise NotConverged("h* does not depend on the phase at kappa = 0: there is one extremal", 0.0)
-    rate = -float(_ending(solution, 0.0).min()) / float(solution.frequency([float(solution.duration)])[0])
-    step, inside = sense * rate / 8, 0.0
-    for _ in range(STEPS):
+def _roots(members: AveragedSolution) -> float:
+    """Roots of h* on the turn at the end, averaged over Psi."""
+    above = _at_end(members) > 0
+    count = (above != np.roll(above, 1, axis=-1)).sum(axis=-1)
+    weight = np.gradient(members.phase(members.duration[:, None], 1.0, 0.0)[:, 0])
+    return float((count * weight).sum() / weight.sum())
+
+
+def _limit(one: Callable[[float], AveragedSolution], sense: int, unit: float) -> tuple[float, float, str]:
+    """kappa, Psi and the reason at one end of the window."""
+
+    def reach(kappa: float) -> float:
+        """How far h* at the end reaches beyond zero, against its mean -kappa omega."""
+        return float((sense * _at_end(one(kappa))).max())
+
+    def turned(kappa: float) -> float:
+        return _turned(one(kappa))
+
+    here, step = 0.0, sense * FIRST * unit
+    last, reason = turned(0.0), "no further root"
+    while abs(step) > (NEAR if reason == "no solution" else EXACT) * unit:
         try:
-            reached = distance(inside + step)
-        except (ValueError, Infeasible, NotConverged):
-            step /= 2
+            there, after = reach(here + step), turned(here + step)
+        except (NotConverged, Infeasible, ValueError):
+            step, reason = step / 2, "no solution"
             continue
-        if reached <= 0:
-            low, high = sorted((inside, inside + step))
-            return float(brentq(distance, low, high, xtol=1e-13))
-        inside += step
-    raise NotConverged("the averaged family ends before h* keeps one sign", distance(inside))
+        if sense * (after - last) < 0:
+            edges = (min(here - step, here + step), max(here - step, here + step))
+            kappa = float(minimize_scalar(lambda k: -sense * turned(k), bounds=edges, method="bounded").x)
+            if reach(kappa) >= 0:
+                return kappa, turned(kappa), "turning point"
+            there = -1.0
+        if there < 0:
+            kappa = float(brentq(reach, here, here + step, xtol=EXACT * EXACT * unit))
+            return kappa, turned(kappa), "no further root"
+        here, last = here + step, after
+        step = step if reason == "no solution" else 2 * step
+    return here, last, reason
 
 
-def _extreme(solution: AveragedSolution, kappa: float, sense: int) -> float:
-    """How far h* over a turn reaches beyond zero: upwards for a positive kappa, downwards for a negative."""
-    return float((sense * _ending(solution, kappa)).max())
+def _turned(solution: AveragedSolution) -> float:
+    return float(solution.phase(solution.duration, 1.0, 0.0)[0])
 
 
-def _ending(solution: AveragedSolution, kappa: float) -> Array:
-    """h* at the end of a member, over a turn."""
-    member = _member(solution, kappa)
-    last = [float(member.duration)]
-    z = [*member.slow(last)[0], *member.costate(last)[0]]
-    system = member.system
-    numbers = [float(number) for number in member.numbers]
+def _at_end(solution: AveragedSolution) -> Array:
+    """h* on the turn at the end, (..., points)."""
+    end = solution.duration[..., None]
+    z = np.concatenate([solution.slow(end), solution.costate(end)], axis=-1)
     x = 2 * np.pi * np.arange(POINTS) / POINTS
-    return np.broadcast_to(_hamiltonian(system)(*z, x, *numbers)[0], x.shape)
-
-
-def _turned(solution: AveragedSolution, kappa: float) -> float:
-    member = _member(solution, kappa)
-    first, last = member.phase([0.0, float(member.duration)], 1.0, 0.0)
-    return float(last - first)
-
-
-def _member(solution: AveragedSolution, kappa: float) -> AveragedSolution:
-    return solve_averaged(solution.system, solution.start, kappa=kappa)
+    numbers = [np.asarray(number)[..., None] for number in solution.numbers]
+    (h,) = _hamiltonian(canonical(solution.system))(*np.moveaxis(z[..., 0, :], -1, 0)[..., None], x, *numbers)
+    return h
 
 
 @lru_cache(maxsize=32)
-def _hamiltonian(system):
-    h = system.hamiltonian.subs(system.phase_costate, 0)
-    return compiler.function("h", [*system.slow, *system.costates, system.phase, *system.numbers], {"h": h})
+def _hamiltonian(equations: Canonical):
+    arguments = [*equations.slow, *equations.costates, equations.anomaly, *equations.parameters[1:]]
+    return compiler.function("hamiltonian", arguments, {"h": equations.hamiltonian.subs(y, 0)})

@@ -33,11 +33,11 @@ class Extremal:
         "minimum" or "maximum" of J among the solutions that end at neighbouring anomalies.
     epsilon : float
     starting_anomaly, ending_anomaly : float
-        x at the start, in its first turn, and at the end.
+        x at the start, in its first turn, and at the end; of `spin_down`, the angle chi of `rotating_frame`.
     curvature : float
         d^2 J / dtheta^2 along the family, epsilon dy/dtheta: the sign decides `kind`.
     initial : (2n + 3,) array
-        (a, p, p_x/epsilon, tau, J) at the start.
+        (a, p, p_x/epsilon, tau, J) at the start, in the variables of the exact equations.
     equations : Canonical
         What it solves.
     parameters : array
@@ -46,6 +46,8 @@ class Extremal:
         Makes the certificate, when it is asked for.
     turn_to_phase : callable
         psi of the slow variables (k, n) and the anomalies (k,).
+    view : callable or None
+        From the equations' variables and controls to the problem's own, where they differ.
     """
 
     cost: float
@@ -60,6 +62,7 @@ class Extremal:
     parameters: Array = field(repr=False)
     certify: Callable[[], MaximumPrinciple] = field(repr=False)
     turn_to_phase: Callable[[Array, Array], Array] = field(repr=False)
+    view: Callable[[Array, Array], Array] | None = field(default=None, repr=False)
 
     @cached_property
     def certificate(self) -> MaximumPrinciple:
@@ -73,37 +76,43 @@ class Extremal:
 
     def slow(self, tau: ArrayLike) -> Array:
         """The slow variables a at slow times (k,), as (k, n)."""
-        return self._states(tau)[:, : self._n]
+        seen = self._seen(tau)
+        return seen[:, : _slow(seen)]
 
     def costate(self, tau: ArrayLike) -> Array:
         """p at slow times (k,), as (k, n)."""
-        return self._states(tau)[:, self._n : 2 * self._n]
+        seen = self._seen(tau)
+        return seen[:, _slow(seen) : 2 * _slow(seen)]
 
     def phase_costate(self, tau: ArrayLike) -> Array:
         """p_x, conjugate to the anomaly, at slow times (k,): of order epsilon, and zero at the end."""
-        return self.epsilon * self._states(tau)[:, 2 * self._n]
+        return self.epsilon * self._states(tau)[:, -4]
 
     def anomaly(self, tau: ArrayLike) -> Array:
         """x at slow times (k,)."""
-        return self._states(tau)[:, -1]
+        return self._seen(tau)[:, -1]
 
     def phase(self, tau: ArrayLike) -> Array:
         """The rotating phase psi at slow times (k,)."""
-        states = self._states(tau)
-        return self.turn_to_phase(states[:, : self._n], states[:, -1])
+        seen = self._seen(tau)
+        return self.turn_to_phase(seen[:, : _slow(seen)], seen[:, -1])
 
     def spent(self, tau: ArrayLike) -> Array:
         """Integral of the running cost up to slow times (k,)."""
-        return self._states(tau)[:, 2 * self._n + 2]
+        return self._states(tau)[:, -2]
 
     def control(self, tau: ArrayLike) -> Array:
         """u at slow times (k,), as (k, m)."""
-        n, states = self._n, self._states(tau)
-        return _control(self.equations)(*states[:, : 2 * n + 1].T, states[:, -1], *self.parameters)[0][..., 0]
+        return self._control(self._states(tau))
 
-    @property
-    def _n(self) -> int:
-        return len(self.equations.slow)
+    def _control(self, states: Array) -> Array:
+        held = states[:, : 2 * len(self.equations.slow) + 1]
+        return _control(self.equations)(*held.T, states[:, -1], *self.parameters)[0][..., 0]
+
+    def _seen(self, tau: ArrayLike) -> Array:
+        """(a, p, y, tau, J, x) in the averaged solution's variables."""
+        states = self._states(tau)
+        return states if self.view is None else self.view(states, self._control(states))
 
     def _states(self, tau: ArrayLike) -> Array:
         """(a, p, y, tau, J, x) at slow times (k,) in any order."""
@@ -161,6 +170,11 @@ class Extremals(Sequence[Extremal]):
 
     def __iter__(self) -> Iterator[Extremal]:
         return iter(self.items)
+
+
+def _slow(states: Array) -> int:
+    """n of states (k, 2n + 4)."""
+    return states.shape[1] // 2 - 2
 
 
 @lru_cache(maxsize=32)

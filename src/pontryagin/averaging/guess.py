@@ -11,7 +11,7 @@ from pontryagin.averaging.mesh import Mesh, derivative, evaluate
 Array = NDArray[np.float64]
 
 GROWTHS = 40
-NEAR = 1e-5
+NEAR = 1e-3
 """Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
 
 SHARES = 96
@@ -49,7 +49,7 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
     start = problem.start
     end, direction = _nearest(problem)
     slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
-    length, stuck = _level(problem, slow, direction, _level(problem, slow[:, :1], direction)[0])
+    length, stuck = _level(problem, slow, direction)
     eta = length[..., None] * direction[:, None]
     z = np.concatenate([slow, eta], axis=-1)
     h, omega = problem.averaged(z)

@@ -110,7 +110,7 @@ def evaluate(kernel: Kernel, *arguments: NDArray[np.float64]) -> NDArray[np.floa
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         columns = kernel(*arguments)
     columns = columns if isinstance(columns, tuple) else (columns,)
-    shape = np.broadcast_shapes(*(np.shape(argument) for argument in arguments))
+    shape = np.broadcast(*arguments).shape
     result = np.empty((*shape, len(columns)))
     for i, column in enumerate(columns):
         result[..., i] = column

@@ -77,6 +77,9 @@ def derivative(edges: Array, series: Array, s: Array) -> Array:
 
 def _located(edges: Array, series: Array, s: Array) -> tuple[Array, Array, Array]:
     """The coefficients (..., k, degree + 1, w) of the panel each s is on, its share of it, and its length."""
+    if series.shape[-3] == 1:
+        low, length = edges[..., :1], edges[..., 1:] - edges[..., :1]
+        return series, np.clip((s - low) / length, 0.0, 1.0), length
     lead = np.broadcast_shapes(edges.shape[:-1], s.shape[:-1], series.shape[:-3])
     edges = np.broadcast_to(edges, (*lead, edges.shape[-1]))
     s = np.broadcast_to(s, (*lead, s.shape[-1]))

@@ -59,14 +59,16 @@ def smooth_mean(
 ) -> NDArray[np.float64]:
     """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
+    The first three rules, of which the third is the earliest to be believed, share one call of the density.
     Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
     (points, columns); nan where the density is not defined.
     """
-    size = rule.trapezoid
+    size = 4 * rule.trapezoid
 
-    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+    def begin(active: NDArray[np.intp]) -> tuple[list[NDArray], NDArray]:
         values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
-        return values.mean(axis=-2), np.abs(values).mean(axis=-2)
+        coarse = np.abs(values[:, ::4])
+        return list(np.moveaxis(_nested(size) @ values, -2, 0)), coarse.mean(axis=-2)
 
     def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
         nonlocal size
@@ -75,11 +77,20 @@ def smooth_mean(
         size *= 2
         return (total + halfway) / 2
 
-    result = _refined(begin, doubled, points, (LAST // size).bit_length() - 1, judged)
+    result = _refined(begin, doubled, points, (LAST // rule.trapezoid).bit_length() - 1, judged)
     rest = np.nonzero(np.isnan(result).any(axis=1))[0]
     if len(rest):
         result[rest] = halved_mean(lambda x, i: density(x, rest[i]), len(rest), judged)
     return result
+
+
+@functools.cache
+def _nested(size: int) -> NDArray[np.float64]:
+    """Weights of the trapezoid on every fourth node, on every other and on all, (3, size)."""
+    weights = np.zeros((3, size))
+    for row, step in zip(weights, (4, 2, 1), strict=True):
+        row[::step] = step / size
+    return weights
 
 
 def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArray[np.float64]:
@@ -130,7 +141,7 @@ def split_mean(
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     size = first
 
-    def begin(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+    def sums(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
         x, weights = split_rule(switches[active], size)
         values = density(x, active)
         weights = weights[..., None]
@@ -139,35 +150,41 @@ def split_mean(
     def doubled(active: NDArray[np.intp], _: NDArray) -> NDArray:
         nonlocal size
         size *= 2
-        return begin(active)[0]
+        return sums(active)[0]
 
-    return _refined(begin, doubled, len(switches), (GAUSS_LAST // size).bit_length() - 1, judged)
+    def begin(active: NDArray[np.intp]) -> tuple[list[NDArray], NDArray]:
+        value, scale = sums(active)
+        return [value, doubled(active, value)], scale
+
+    return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
 
 
 def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> NDArray[np.float64]:
-    """Double a rule at the points where it has not settled.
+    """Double a rule at the points where it has not settled, after those that `begin` has already.
 
     The error of a rule that converges geometrically is squared by each doubling: a change below half of all
     digits is the last to be seen, provided that the change before was either much larger, which shows that
-    the rule does converge so, or nothing; one change alone says nothing of a density with symmetries.
+    the rule does converge so, or nothing, or that this one is nothing; the first change alone says nothing of
+    a density with symmetries.
     """
     active = np.arange(points)
-    value, scale = begin(active)
-    before = np.full((points, 1), np.nan)
+    (coarse, value, *known), scale = begin(active)
+    size = scale[:, judged]
+    least = ROUNDING * np.maximum(size, size.max(axis=-1, keepdims=True))
+    enough = np.maximum(HALF_DIGITS * size, least)
+    before = np.abs(value - coarse)[:, judged]
     result = np.full(value.shape, np.nan)
-    for _ in range(doublings):
-        finer = doubled(active, value)
-        size = scale[:, judged]
-        noise = ROUNDING * size.max(axis=-1, keepdims=True)
+    for _ in range(doublings - 1):
+        finer = known.pop(0) if known else doubled(active, value)
         change = np.abs(finer - value)[:, judged]
-        least = np.maximum(ROUNDING * size, noise)
-        convergent = (change <= FALL * before) | (before <= least)
-        settled = (convergent & (change <= np.maximum(HALF_DIGITS * size, least))).all(axis=-1)
+        convergent = (change <= np.maximum(FALL * before, least)) | (before <= least)
+        settled = (convergent & (change <= enough)).all(axis=-1)
         result[active[settled]] = finer[settled]
         more = ~settled & np.isfinite(finer).all(axis=-1)
         if not more.any():
             break
-        active, value, scale, before = active[more], finer[more], scale[more], change[more]
+        active, value, before = active[more], finer[more], change[more]
+        least, enough, known = least[more], enough[more], [one[more] for one in known]
     return result
 
 

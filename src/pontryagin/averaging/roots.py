@@ -84,6 +84,7 @@ def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
             parameters=problem.parameters,
             certify=partial(proof.one, i),
             turn_to_phase=phase_of,
+            view=None if solution.frame is None else held.seen,
         )
         for i in np.argsort(found.shot.cost)
     ]

@@ -60,27 +60,26 @@ class Turning:
         """Their costates."""
         return _inserted(self.averaged.costate(tau))
 
+    def seen(self, states: Array, control: Array) -> Array:
+        """States (z, c, p, y, tau, J, chi) (k, 10) as (a, c, p_a, p_c, y, tau, J, psi) (k, 8).
+
+        At rest, psi is the direction that (w_x, w_y) comes from, opposite to the control.
+        """
+        z, zeta, chi = states[:, :2], states[:, 3:5], states[:, -1]
+        sense, a = float(self.averaged.numbers[-1]), np.hypot(*z.T)
+        push = control[:, 0] + 1j * sense * control[:, 1]
+        moving = a > AT_REST * float(self.start[0])
+        place = np.where(moving, z[:, 0] + 1j * z[:, 1], -push * np.exp(-1j * chi))
+        along = place / np.abs(place)
+        p_a = zeta[:, 0] * along.real + zeta[:, 1] * along.imag
+        return np.column_stack([a, states[:, 2], p_a, *states[:, 5:-1].T, chi + np.angle(along)])
+
 
 def turning(solution: AveragedSolution) -> Turning:
     """The averaged solution of `spin_down` in the turning frame."""
     numbers = dict(zip(map(str, solution.system.numbers), solution.numbers, strict=True))
     system = turning_body()
     return Turning(solution, system, tuple(numbers[str(symbol)] for symbol in system.numbers))
-
-
-def seen(states: Array, control: Array, sense: float) -> Array:
-    """States (z, c, p, y, tau, J, chi) (k, 10) as (a, c, p_a, p_c, y, tau, J, psi) (k, 8).
-
-    At rest, psi is the direction that (w_x, w_y) comes from, opposite to the control.
-    """
-    z, zeta, chi = states[:, :2], states[:, 3:5], states[:, -1]
-    a = np.hypot(*z.T)
-    push = control[:, 0] + 1j * sense * control[:, 1]
-    place = np.where(a > AT_REST * a.max(), z[:, 0] + 1j * z[:, 1], -push * np.exp(-1j * chi))
-    along = place / np.abs(place)
-    p_a = zeta[:, 0] * along.real + zeta[:, 1] * along.imag
-    columns = [a, states[:, 2], p_a, *states[:, 5:-1].T, chi + np.angle(along)]
-    return np.column_stack(columns)
 
 
 def _inserted(values: Array) -> Array:

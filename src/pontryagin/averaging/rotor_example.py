@@ -84,7 +84,7 @@ def rotor(
         derived.rotor_model(m, V, f, bound is not None),
         ("a",),
         begin[..., None],
-        (end, *(x for x in (bound, price) if x is not None)),
+        (end, *(value for value in (bound, price) if value is not None)),
         lambda: derived.rotor(m, V, f, end, bound, price),
     )
 

@@ -8,6 +8,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from pontryagin.averaging.arrivals import fixed_ending
+from pontryagin.averaging.canonical import canonical
 from pontryagin.averaging.correction import parts
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.kepler_example import kepler
@@ -38,7 +40,8 @@ class Errors:
     first : float
         J0.
     terms : dict
-        The parts of J1, by `correction.parts`.
+        The parts of J1, by `correction.parts`: numbers, or (k,) arrays where J1 varies with the anomaly that
+        the exact optimum ends at.
     """
 
     name: str
@@ -46,12 +49,12 @@ class Errors:
     exact: Array
     between: Array
     first: float
-    terms: dict[str, float]
+    terms: dict[str, Array]
 
     @property
-    def correction(self) -> float:
+    def correction(self) -> Array:
         """J1."""
-        return sum(self.terms.values())
+        return np.add.reduce([*self.terms.values()])
 
     @property
     def averaged(self) -> Array:
@@ -73,14 +76,14 @@ class Errors:
         return float(np.polyfit(np.log(self.epsilon), np.log(errors), 1)[0])
 
 
-def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float]]:
-    """The problems compared, each with its phase at the start."""
+def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]:
+    """The problems compared, each with its phase at the start; None for its own."""
     uneven = 1 + sp.cos(X) / 5
     return {
         "rippled flywheel": (lambda: smooth_example(1, 2, k=1.0, ripple=0.5), 0.0),
         "uneven pendulum": (lambda: rotor(3, 6, mass=uneven, potential=sp.cos(X), force=0, k=1.0), 1.0),
         "Kepler orbit": (lambda: kepler(-0.5, 0.9, -0.3, 0.1), 0.0),
-        "rigid body": (lambda: spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6), 0.4),
+        "rigid body": (lambda: spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6), None),
         "lopsided rotor": (lambda: rotor(1.6, 4, mass=1, potential=sp.cos(X), force=sp.sin(X), k=1.0), 0.0),
     }
 
@@ -97,12 +100,43 @@ def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> Errors:
     if name not in problems():
         raise ValueError(f"name: got {name!r}, takes one of {', '.join(map(repr, problems()))}")
     make, phase = problems()[name]
-    solution = make()
-    begin = float(solution.initial_phase) if name == "rigid body" else phase
+    return measured(make(), epsilons, phase, name)
+
+
+def measured(
+    solution: AveragedSolution,
+    epsilons: Sequence[float] = EPSILONS,
+    phase: float | None = None,
+    name: str = "",
+) -> Errors:
+    """Solve a problem exactly at each epsilon and compare.
+
+    Parameters
+    ----------
+    solution : AveragedSolution
+        Of one problem.
+    epsilons : sequence of float
+        Positive; at least two for slopes.
+    phase : float, optional
+        psi_0; the solution's own by default.
+    name : str
+
+    Examples
+    --------
+    >>> solution = rotor(2.0, 5.0, potential=sp.cos(X), peak=1.0)
+    >>> found = measured(solution, [0.04, 0.02, 0.01])
+    >>> found.slope(found.corrected) > 1.8
+    True
+    """
+    begin = float(solution.initial_phase) if phase is None else phase
     found = [solution.exact(epsilon, begin) for epsilon in epsilons]
     best = np.array([some[0].cost for some in found])
     between = np.array([least_between(some) for some in found])
-    terms = {part: float(value) for part, value in parts(solution, begin).items()}
+    ends = [some[0].ending_anomaly for some in found] if fixed_ending(canonical(solution.system)) else [None]
+    each = [parts(solution, begin, end) for end in ends]
+    terms = {part: np.array([float(one[part]) for one in each]) for part in each[0]}
+    if len(each) == 1:
+        terms = {part: value[0] for part, value in terms.items()}
     return Errors(name, np.array(epsilons), best, between, float(solution.cost), terms)
 
 

@@ -25,7 +25,7 @@ LAST_TAIL, MOST_PANELS = 1e-9, 40
 RESIDUAL = 1e-7
 """The largest residual of the maximum principle that is handed out."""
 LEAST_SHARE = 1e-3
-AT_ONCE = 256
+AT_ONCE = 64
 """Problems solved side by side; more take memory and no less time each."""
 
 

@@ -25,7 +25,8 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
     AveragedSolution
         In the slow variables (a, c), a = |(w_x, w_y)| and c = w_z: duration and cost a_0 / <R>. The phase is
         the angle of (w_x, w_y), counted in the sense in which it turns, that of (d - 1) c; `initial_phase`
-        is that of omega0.
+        is that of omega0. The exact extremals of `exact` are found in a frame that turns with the free body,
+        where the target is regular (`rotating_frame`), and handed out in a, c and psi.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """A standard system with a rotating phase, (1.1), and its Hamiltonian after the maximum over the control."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +12,7 @@ from pontryagin.averaging.control_sets import ControlSet
 from pontryagin.validation import common_shape
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class PhaseSystem:
     """Slow variables a driven by a control u through a rotating phase, (1.1) to (1.3).
 
@@ -73,12 +73,13 @@ class PhaseSystem:
     """
 
     f: Sequence[sp.Expr]
-    control_set: ControlSet
+    omega: sp.Expr | None = None
+    control_set: ControlSet = None  # type: ignore[assignment]
+    _: KW_ONLY
     slow: Sequence[sp.Symbol]
     control: Sequence[sp.Symbol]
     phase: sp.Symbol
     target: Sequence[sp.Expr]
-    omega: sp.Expr | None = None
     anomaly_rate: sp.Expr | None = None
     weight: sp.Expr = 1
     running_cost: sp.Expr = 1

@@ -47,6 +47,10 @@ def checked(system) -> dict[str, object]:
     for name, expression in periodic.items():
         if expression is not None:
             require_periodic(name, expression, phase, numbers)
+    if isinstance(system.control_set, type) or not hasattr(system.control_set, "require_convex"):
+        raise TypeError(
+            f"control_set must be a set of controls like Quadratic() or Ball(1), got {system.control_set!r}"
+        )
     system.control_set.require_convex(len(control), numbers)
     return {
         "f": f,

@@ -17,6 +17,7 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from pontryagin import compile as compiler
+from pontryagin.averaging.braking import fly, synthesis
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.replay import Pair
 from pontryagin.errors import NotConverged
@@ -25,8 +26,6 @@ Array = NDArray[np.float64]
 
 A_TURN, FEWEST = 70, 400
 """Samples a turn of the body, and at least."""
-AT_REST = 1e-4
-"""Share of the equatorial rate at the start that is called rest: the synthesis has no value at rest."""
 GAUSS = np.array([-1.0, 1.0]) / (2 * 3**0.5) + 0.5
 
 
@@ -76,24 +75,13 @@ def synthesised(pair: Pair) -> Motion:
     Raises
     ------
     pontryagin.NotConverged
-        If the body does not come to rest in twice the averaged time.
+        If the body does not come to rest.
     """
-    lx, ly, lz, d, _ = (float(number) for number in pair.averaged.numbers)
-    constants = (lx, ly, d, pair.epsilon)
-    start = _first_rate(pair)
-    level = AT_REST * np.hypot(*start[:2])
-
-    def rest(_: float, w: Array) -> float:
-        return float(np.hypot(w[0], w[1]) - level)
-
-    rest.terminal = True  # type: ignore[attr-defined]
-    longest = 2 * float(pair.averaged.duration) / pair.epsilon
-    dense, last = _turned(lambda _, w: _synthesis()(*w, *constants)[0][..., 0], start, longest, rest)
-    if not last < longest:
-        raise NotConverged("the body does not come to rest", rest(0.0, dense(last)))
-    t = _times(last, start)
-    control = _synthesis()(*dense(t), *constants)[1][..., 0]
-    return _motion(t, dense, control, np.array([lx, ly, lz]), d)
+    *semiaxes, d, _ = (float(number) for number in pair.averaged.numbers)
+    axes = np.array(semiaxes)
+    path, last = fly(_first_rate(pair), axes, d, pair.epsilon)
+    t = _times(last, _first_rate(pair))
+    return _motion(t, path, synthesis(path(t).T, axes), axes, d)
 
 
 def exact(pair: Pair) -> Motion:
@@ -102,10 +90,10 @@ def exact(pair: Pair) -> Motion:
     t = _times(pair.exact.duration / pair.epsilon, _first_rate(pair))
     control = pair.exact.control(np.minimum(pair.epsilon * t, pair.exact.duration))
     push = CubicSpline(t, control)
-    dense, _ = _turned(
+    path = _turned(
         lambda time, w: _free()(*w, *push(time), d, pair.epsilon)[0][..., 0], _first_rate(pair), t[-1]
     )
-    return _motion(t, dense, control, np.array(semiaxes), d)
+    return _motion(t, path, control, np.array(semiaxes), d)
 
 
 def _times(last: float, rate: Array) -> Array:
@@ -119,16 +107,12 @@ def _first_rate(pair: Pair) -> Array:
     return np.array([a * np.cos(psi), sense * a * np.sin(psi), c])
 
 
-def _turned(
-    rate: Callable[[float, Array], Array], start: Array, longest: float, rest: Callable | None = None
-) -> tuple[OdeSolution, float]:
-    """omega as a function of time, (k,) to (3, k), and when it ends: at the latest, or at rest."""
-    run = solve_ivp(
-        rate, (0.0, longest), start, method="DOP853", rtol=1e-10, atol=1e-12, events=rest, dense_output=True
-    )
+def _turned(rate: Callable[[float, Array], Array], start: Array, last: float) -> OdeSolution:
+    """omega as a function of time, (k,) to (3, k)."""
+    run = solve_ivp(rate, (0.0, last), start, method="DOP853", rtol=1e-10, atol=1e-12, dense_output=True)
     if not run.success:
-        raise NotConverged(f"the rates were not integrated past t = {run.t[-1]}", longest - run.t[-1])
-    return cast(OdeSolution, run.sol), float(run.t[-1])
+        raise NotConverged(f"the rates were not integrated past t = {run.t[-1]}", last - run.t[-1])
+    return cast(OdeSolution, run.sol)
 
 
 def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: float) -> Motion:
@@ -161,15 +145,6 @@ def _upright(vector: Array) -> Rotation:
 
 def _rotation(attitude: Array) -> Rotation:
     return Rotation.from_quat(attitude, scalar_first=True)
-
-
-@lru_cache(maxsize=1)
-def _synthesis() -> Callable[..., tuple[Array, ...]]:
-    """omega' and u as functions of omega under `braking`."""
-    control = body.braking()
-    rates = body.symmetric_rates().subs(dict(zip(body.u, control, strict=True)))
-    arguments = [*body.w, body.lx, body.ly, body.d, body.epsilon]
-    return compiler.function("synthesis", arguments, {"rates": rates, "control": control})
 
 
 @lru_cache(maxsize=1)

@@ -49,9 +49,7 @@ def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
     if exact is not None:
         tau = np.linspace(0.0, exact.duration, SAMPLES)
         label = rf"exact {exact.kind}, $\varepsilon={exact.epsilon:g}$"
-        for ax, values in zip(
-            panels, np.hstack([_slow(solution, exact, tau), exact.control(tau)]).T, strict=True
-        ):
+        for ax, values in zip(panels, np.hstack([exact.slow(tau), exact.control(tau)]).T, strict=True):
             ax.plot(tau, values, color=BLUE, linewidth=0.9, label=label)
     for ax, name in zip(panels, names, strict=True):
         ax.set_ylabel(f"${_tex(name)}$")
@@ -61,14 +59,6 @@ def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
     figure.legend(handles + band[:1], labels + name[:1], loc="outside upper center", ncols=3)
     figure.align_ylabels(panels)
     return figure
-
-
-def _slow(solution: AveragedSolution, exact: Extremal, tau: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The exact extremal in the averaged one's variables: (z_1, z_2, c) of the turning frame as (a, c)."""
-    slow = exact.slow(tau)
-    if slow.shape[1] == len(solution.names):
-        return slow
-    return np.column_stack([np.hypot(slow[:, 0], slow[:, 1]), slow[:, 2]])
 
 
 def _averaged(
