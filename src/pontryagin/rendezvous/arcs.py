@@ -25,6 +25,11 @@ STATES = ("r", "v1", "c", "phi", "rho", "s1", "e", "nu1", "nu2", "nu3", "chi", "
 COSTATES = slice(4, 10)
 BOUND = 11
 COUNT, COLUMNS = 12, 7
+HYSTERESIS = 1e-14
+"""An unsaturated arc ends this far above saturation, a saturated one this far below.
+
+heyoka overlooks the other roots of the first step where an arc begins at a root to the last bit.
+"""
 STEPS_PER_UNIT = 100
 """An arc that needs more Taylor steps than this per unit of time runs into a singularity."""
 
@@ -66,35 +71,38 @@ def arc(mode: Mode, ends: bool = True, taylor: bool | None = None) -> Arc:
     return _Taylor(mode, ends) if use_taylor else _RungeKutta(mode, ends)
 
 
-def _rates(function: Callable, x, eccentricity, chart) -> list:
+def rates(function: Callable, x, eccentricity, chart) -> list:
     """Rates of the twelve states; alpha2 = 1."""
     scale = 1.0 if function.__name__ == "unsaturated" else x[BOUND]
     return [*function(*x[:BOUND], 1.0, 1.0, eccentricity, 1.0, scale, chart), 0.0 * x[BOUND]]
 
 
-def _saturation(function: Callable, x):
+def saturation(function: Callable, x):
     """|n|^2/(2 p_max)^2 - 1, alpha2 = 1."""
     return function(x[0], x[2], x[5], x[6], x[7]) / (4.0 * x[BOUND] * x[BOUND]) - 1.0
+
+
+def lifted(kernel: Callable) -> Callable:
+    """The kernel's own text, on heyoka's expressions."""
+    import heyoka as hy
+
+    names = {"sqrt": hy.sqrt, "sin": hy.sin, "cos": hy.cos}
+    return types.FunctionType(kernel.__code__, names, kernel.__name__)
 
 
 class _Taylor:
     def __init__(self, mode: Mode, ends: bool) -> None:
         import heyoka as hy
 
-        def lifted(kernel: Callable) -> Callable:
-            """The kernel's own text, on heyoka's expressions."""
-            return types.FunctionType(
-                kernel.__code__, {"sqrt": hy.sqrt, "sin": hy.sin, "cos": hy.cos}, kernel.__name__
-            )
-
         x = hy.make_vars(*STATES)
-        rates = _rates(lifted(getattr(kernels, mode)), x, hy.par[0], hy.par[1])
-        rates[BOUND] = hy.expression(0.0)
-        system = hy.var_ode_sys(list(zip(x, rates, strict=True)), [*x[COSTATES], x[BOUND]], order=1)
+        along = rates(lifted(getattr(kernels, mode)), x, hy.par[0], hy.par[1])
+        along[BOUND] = hy.expression(0.0)
+        system = hy.var_ode_sys(list(zip(x, along, strict=True)), [*x[COSTATES], x[BOUND]], order=1)
         events = []
         if ends:
             growing = hy.event_direction.positive if mode == "unsaturated" else hy.event_direction.negative
-            function = _saturation(lifted(kernels.switching_square), x)
+            function = saturation(lifted(kernels.switching_square), x)
+            function = function - HYSTERESIS if mode == "unsaturated" else function + HYSTERESIS
             events = [hy.t_event(function, direction=growing)]
         self._hy = hy
         self._integrator = hy.taylor_adaptive(
@@ -148,11 +156,11 @@ class _RungeKutta:
             """Rates, and along each column their derivative by a complex step, exact to rounding."""
             columns = flat[COUNT:].reshape(COUNT, -1)
             x = np.column_stack([flat[:COUNT], flat[:COUNT, None] + 1j * step * columns])
-            slopes = np.array(_rates(self._kernel, x, eccentricity, chart))
+            slopes = np.array(rates(self._kernel, x, eccentricity, chart))
             return np.concatenate([slopes[:, 0].real, (slopes[:, 1:].imag / step).ravel()])
 
         def leaving(_: float, flat: Array) -> float:
-            return float(_saturation(kernels.switching_square, flat[:COUNT]))
+            return float(saturation(kernels.switching_square, flat[:COUNT]))
 
         leaving.terminal, leaving.direction = True, self._direction  # type: ignore[attr-defined]
         events = [leaving] if self._ends else None

@@ -62,7 +62,7 @@ def extremals(setting: Setting, log: Search) -> list[Root]:
     for ratio in _loose_ratios(setting):
         loose = setting.but(peak=math.inf, ratio=ratio)
         try:
-            found = _through_revolutions(loose, _first(loose, log), log)
+            found = _through_revolutions(loose, first(loose, log), log)
         except NotConverged as reason:
             log.given_up.append(f"the unbounded problem: {reason}")
             continue
@@ -133,7 +133,7 @@ def first_duration(scaled: Scaled, ratio: float) -> float:
     return min(max(2.0, speed / math.sqrt(ratio)), 400.0)
 
 
-def _first(setting: Setting, log: Search) -> Root:
+def first(setting: Setting, log: Search) -> Root:
     """An extremal of the unbounded problem, of the fixed duration or of a free one."""
     guess = setting.duration or first_duration(setting.scaled, setting.ratio)
     for stretch in (1.0,) if setting.duration else (1.0, 1.5, 0.7, 2.5, 0.4):

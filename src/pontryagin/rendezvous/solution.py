@@ -1,6 +1,7 @@
 """Solve a rendezvous: every extremal found, best first."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -167,11 +168,7 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         return Extremal(problem, newton(setting, _unknowns(start, problem)))
     log = Search()
     found = [Extremal(problem, root) for root in extremals(setting, log)]
-    distinct: list[Extremal] = []
-    for candidate in sorted(found, key=lambda x: x.cost):
-        if not any(_same(candidate, other) for other in distinct):
-            distinct.append(candidate)
-    best, *others = distinct
+    best, *others = distinct(found)
     return replace(best, others=tuple(others), searched=log)
 
 
@@ -180,6 +177,15 @@ def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
     scaled = problem.scaled
     costates = start.initial_costate / scaled.costate_units
     return np.append(costates, start.duration / scaled.time) if problem.free else costates
+
+
+def distinct(found: Iterable[Extremal]) -> list[Extremal]:
+    """Each extremal once, cheapest first."""
+    kept: list[Extremal] = []
+    for candidate in sorted(found, key=lambda x: x.cost):
+        if not any(_same(candidate, other) for other in kept):
+            kept.append(candidate)
+    return kept
 
 
 def _same(a: Extremal, b: Extremal) -> bool:

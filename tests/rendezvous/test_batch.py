@@ -1,0 +1,162 @@
+"""Many extremals at once: each as if flown alone, whatever its neighbours do."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, carry, multistart
+from pontryagin.rendezvous.batch import fly_all
+from pontryagin.rendezvous.flight import fly, switching
+from pontryagin.rendezvous.shooting import Setting
+from pontryagin.rendezvous.start import cold_start
+
+ONE = [1, 0, 0, 0]
+KINDS = [(math.inf, False), (0.05, False), (0.05, True)]
+FALLS = np.array([0.02, -0.04, 0.01, 0.19, 0.05, -0.16])
+"""Costates that lead an unbounded thrust into the centre of attraction."""
+
+
+def problem(degrees: float = 20, length: float = 1.0, gravity: float = 1.0, **changes) -> Rendezvous:
+    """Distances times a length, times so that the motion is the same."""
+    time = math.sqrt(length**3 / gravity)
+    given = {"time_weight": 0, "energy_weight": 1, "peak": math.inf, "duration": 6.0} | changes
+    given["duration"] = given["duration"] and given["duration"] * time
+    given["peak"] *= length / time**2
+    target = Orbit.from_angles(1.5 * length, 0.1, 0.3, math.radians(degrees), 0.5, 0.6)
+    craft = Chaser(length, 0.0, length**2 / time, ONE)
+    return Rendezvous(craft, target, gravity=gravity, **given)
+
+
+@pytest.fixture(scope="module")
+def best():
+    """What coasting leads to, by the way of the goal and not by Newton's method from random starts."""
+    given = problem()
+    scaled = given.scaled
+    return Extremal(given, cold_start(Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)))
+
+
+def starts(count: int) -> np.ndarray:
+    return 0.05 * np.random.default_rng(5).standard_normal((count, 6))
+
+
+@pytest.mark.parametrize(("peak", "bang"), KINDS)
+def test_each_flight_ends_as_if_flown_alone(peak, bang):
+    """More flights than lanes, of different durations, in both charts, with different switches."""
+    scaled, costates = problem().scaled, starts(19)
+    durations = np.linspace(0.5, 4.0, 19)
+    together = fly_all(scaled, costates, durations, peak, bang)
+    plain = fly_all(scaled, costates, durations, peak, bang, slopes=False)
+    assert together.reached.all() and plain.reached.all() and plain.slopes is None
+    assert set(together.charts) == {1, -1}
+    for i in range(19):
+        alone = fly(scaled, costates[i], durations[i], peak, bang)
+        assert together.switches[i] == plain.switches[i] == len(alone.pieces) - 1
+        np.testing.assert_allclose(together.ends[i], alone.end, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(plain.ends[i], alone.end, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(together.slopes[i], alone.slopes, rtol=1e-10, atol=1e-10)
+    assert bool(together.switches.any()) == (peak < math.inf and not bang)
+
+
+def test_a_flight_that_cannot_be_followed_leaves_its_neighbours_alone():
+    scaled, costates = problem().scaled, starts(11)
+    whole = fly_all(scaled, costates, 3.0)
+    with pytest.raises(NotConverged):
+        fly(scaled, FALLS, 5.0)
+    mixed = fly_all(
+        scaled, np.insert(costates, [0, 4], FALLS, axis=0), np.insert(np.full(11, 3.0), [0, 4], 5.0)
+    )
+    assert np.flatnonzero(~mixed.reached).tolist() == [0, 5]
+    assert np.isnan(mixed.ends[[0, 5]]).all()
+    np.testing.assert_allclose(mixed.ends[mixed.reached], whole.ends, rtol=1e-12, atol=1e-13)
+
+
+def test_without_heyoka_flights_go_one_by_one_to_the_same_ends():
+    scaled, costates = problem().scaled, starts(3)
+    both = [fly_all(scaled, costates, 2.0, 0.05, taylor=use) for use in (True, False)]
+    for name in ("reached", "switches"):
+        np.testing.assert_array_equal(*(getattr(flights, name) for flights in both))
+    np.testing.assert_allclose(*(flights.ends for flights in both), atol=1e-9)
+    np.testing.assert_allclose(*(flights.slopes for flights in both), atol=1e-7)
+
+
+def test_no_switch_is_overlooked():
+    """An arc may begin where |n| is 2 alpha2 p_max to the last bit; the bound holds all the same."""
+    given = problem(peak=0.06)
+    for costates in 2 * starts(12) / given.scaled.costate_units:
+        alone = fly(given.scaled, costates, given.scaled.duration, given.scaled.peak)
+        states = alone.sample(np.linspace(0, alone.duration, 400))
+        begins = np.array([piece.begin for piece in alone.pieces])
+        which = np.searchsorted(begins, np.linspace(0, alone.duration, 400), side="right") - 1
+        loud = np.array([piece.mode == "saturated" for piece in alone.pieces])[which]
+        excess = np.linalg.norm(switching(states), axis=1) / (2 * alone.peak) - 1
+        assert (np.where(loud, excess, -excess) > -1e-9).all()
+
+
+def test_no_flights_end_nowhere():
+    assert fly_all(problem().scaled, np.empty((0, 6)), 1.0).ends.shape == (0, 12)
+
+
+@pytest.mark.parametrize("peak", [math.inf, 0.06])
+def test_the_slopes_are_those_of_the_miss(peak):
+    given, h = problem(peak=peak), 1e-6
+    start = starts(3)[:, None, :]
+    exact = carry(given, start[:, 0])
+    there, back = (carry(given, start + x * np.eye(6)).miss for x in (h, -h))
+    slopes = np.moveaxis((there - back) / (2 * h), 1, 2)
+    np.testing.assert_allclose(exact.slopes, slopes, rtol=1e-5, atol=1e-5)
+
+
+def test_a_solution_carried_to_its_end_meets_the_target(best):
+    given = best.problem
+    there = carry(given, best.initial_costate)
+    assert there.reached and there.miss.shape == (6,) and there.slopes.shape == (6, 6)
+    assert np.abs(there.miss).max() < 1e-12
+    np.testing.assert_allclose(there.state, best.state([best.duration])[0], atol=1e-12)
+    np.testing.assert_allclose(there.costate, best.costate([best.duration])[0], atol=1e-12)
+    assert np.abs(carry(given, best.initial_costate + 1e-6).miss).max() > 1e-7
+
+
+def test_other_units_are_the_same_flight():
+    here, far = problem(), problem(length=7000.0, gravity=398600.0)
+    costates = starts(4)
+    durations = np.array([1.0, 2.0, 3.0, 4.0])
+    units = far.scaled.costate_units / here.scaled.costate_units
+    ours = carry(here, costates, durations)
+    theirs = carry(far, costates * units, durations * far.scaled.time / here.scaled.time)
+    np.testing.assert_allclose(theirs.miss, ours.miss, atol=1e-12)
+    np.testing.assert_allclose(theirs.state[:, 0], 7000 * ours.state[:, 0], rtol=1e-12)
+    np.testing.assert_allclose(theirs.costate, ours.costate * units, rtol=1e-10)
+
+
+def test_newton_from_many_starts_finds_what_coasting_leads_to_and_all_of_it_holds(best):
+    found, *others = multistart(best.problem, starts(8))
+    assert found.cost <= best.cost * (1 + 1e-10)
+    assert any(x.cost == pytest.approx(best.cost, rel=1e-10) for x in (found, *others))
+    assert found.others == tuple(others) and others
+    assert [x.cost for x in others] == sorted(x.cost for x in others)
+    assert all(x.certificate.holds(1e-9) for x in (found, *others))
+
+
+def test_starts_that_cannot_be_flown_give_nothing():
+    assert multistart(problem(), FALLS[None]) == ()
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "match"),
+    [
+        (lambda: carry("leap", starts(1)), TypeError, "problem must be of type Rendezvous, got 'leap'"),
+        (lambda: carry(problem(), np.zeros(5)), ValueError, r"costates must be an array \(..., 6\)"),
+        (lambda: carry(problem(), np.full(6, np.nan)), ValueError, "costates .* got nan"),
+        (lambda: carry(problem(), starts(2), -1.0), ValueError, "durations must be positive, got -1"),
+        (lambda: carry(problem(), starts(2), [1.0, 2.0, 3.0]), ValueError, "durations must be one number or"),
+        (lambda: carry(problem(duration=None), starts(2)), ValueError, "durations must be given"),
+        (lambda: multistart(problem(duration=None), starts(2)), ValueError, "problem must have a fixed dur"),
+        (lambda: multistart(problem(), np.zeros(6)), ValueError, r"costates must be an array \(k, 6\)"),
+        (lambda: multistart(None, starts(2)), TypeError, "problem must be of type Rendezvous, got None"),
+    ],
+)
+def test_bad_input_is_named(call, error, match):
+    with pytest.raises(error, match=match):
+        call()
