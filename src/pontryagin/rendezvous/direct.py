@@ -46,7 +46,9 @@ class Direct:
     violation: float
 
 
-def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, intervals: int = 60) -> Direct:
+def direct(
+    problem: Rendezvous, guess: float, revolutions: float = 0.5, intervals: int = 60, fuel: bool = False
+) -> Direct:
     """Solve a rendezvous as a nonlinear programme, from a cold start.
 
     Parameters
@@ -59,6 +61,8 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
         About how many revolutions the craft is to make; the nearest number that ends at the target is taken.
     intervals : int
         Size of the mesh.
+    fuel : bool
+        Whether alpha2 is the weight of |p| in place of p^2.
 
     Raises
     ------
@@ -81,9 +85,12 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
     nodes = opti.variable(6, intervals + 1)
     inside = opti.variable(6, intervals * DEGREE)
     thrust = opti.variable(3, intervals * DEGREE)
+    size = opti.variable(1, intervals * DEGREE) if fuel else None
     rates = _rates(ca).map(intervals * DEGREE)(inside, thrust)
     step = end_time / intervals
-    alpha1, alpha2 = scaled.weights
+    (alpha1, alpha2), value = scaled.weights, scaled.value
+    if fuel:
+        alpha1, value = alpha1 * scaled.acceleration, value / scaled.acceleration
     cost = alpha1 * end_time
     opti.subject_to(nodes[:, 0] == cartesian_of(scaled.start, np.array([1.0, 0, 0, 0])))
     for k in range(intervals):
@@ -92,12 +99,17 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
         opti.subject_to(whole @ slopes == step * rates[:, part])
         opti.subject_to(nodes[:, k + 1] == whole @ ends)
         if alpha2:
-            cost += alpha2 * step * (ca.sum1(thrust[:, part] ** 2) @ weights)
+            spent = ca.sum1(thrust[:, part] ** 2) if size is None else size[0, part]
+            cost += alpha2 * step * (spent @ weights)
     opti.subject_to(nodes[:, -1] == _target(ca, scaled, eccentric))
     opti.subject_to(
         eccentric - scaled.eccentricity * ca.sin(eccentric) == _mean(scaled) + _motion(scaled) * end_time
     )
-    if scaled.peak < math.inf:
+    if size is not None:
+        opti.subject_to(ca.sum1(thrust**2) / scaled.peak**2 <= (size / scaled.peak) ** 2)
+        opti.subject_to(opti.bounded(0, size, scaled.peak))
+        opti.set_initial(size, scaled.peak / 2)
+    elif scaled.peak < math.inf:
         opti.subject_to(ca.sum1(thrust**2) / scaled.peak**2 <= 1)
     if fixed is None:
         opti.subject_to(opti.bounded(0.2 * start, end_time, 5 * start))
@@ -108,6 +120,8 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
     opti.set_initial(eccentric, _mean(scaled) + _motion(scaled) * start)
     opti.minimize(cost)
     quiet: dict = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 2000}
+    if fuel:  # by default bounds are loosened by 1e-8: thrust of 1e-4 for nothing, wherever the craft coasts
+        quiet["bound_relax_factor"] = 0.0
     opti.solver("ipopt", {"print_time": False, "detect_simple_bounds": True}, quiet)
     try:
         answer = opti.solve()
@@ -118,7 +132,7 @@ def direct(problem: Rendezvous, guess: float, revolutions: float = 0.5, interval
     statistics = answer.stats()
     return Direct(
         float(answer.value(end_time)) * scaled.time,
-        float(answer.value(cost)) * scaled.value,
+        float(answer.value(cost)) * value,
         intervals,
         int(statistics["iter_count"]),
         float(statistics["iterations"]["inf_pr"][-1]),

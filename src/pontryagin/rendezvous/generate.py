@@ -14,6 +14,8 @@ from pontryagin.rendezvous.derivation import (
     principle,
     reduction,
     repair,
+    sapunkov,
+    sapunkov_principle,
     terminal,
     transversality,
 )
@@ -36,7 +38,7 @@ goal_attitude = sp.Matrix(sp.symbols("q0_goal q1_goal q2_goal q3_goal", real=Tru
 
 def kernels() -> str:
     """The text of `kernels.py`."""
-    parts = [*_rates(), *_attitude(), *_ends(), *_principle(), *_cartesian()]
+    parts = [*_rates(), *_attitude(), *_ends(), *_principle(), *_cartesian(), *_elements()]
     return HEADER + "\n\n" + "\n\n\n".join(parts) + "\n"
 
 
@@ -155,6 +157,34 @@ def _cartesian() -> list[str]:
     costate = [*(-primer.carried()), *principle.switching()]
     whole = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
     texts.append(source("primer", whole, _named("psi", costate), "psi_R and psi_V, seen in eta."))
+    return texts
+
+
+def _elements() -> list[str]:
+    A, B, a, b = sapunkov.A, sapunkov.B, sapunkov_principle.a, sapunkov_principle.b
+    phi, thrust = sapunkov.half_anomaly, [*sapunkov.force]
+    put_in = sapunkov_principle.written_out
+    rates = put_in(sp.Matrix([*sapunkov_principle.state_rates(), *sapunkov_principle.closed_costate_rates()]))
+    clock, moving = rates[8], [*rates[:8], *rates[9:]]
+    n = put_in(sapunkov_principle.switching())
+    place = put_in(sp.Matrix([part for vector in sapunkov_principle.place() for part in vector]))
+    kappa = put_in(sapunkov_principle.phase_costate() / sapunkov.time_rate())
+    texts = [
+        source(
+            "element_rates",
+            [*A, *B, *a, *b, phi, *thrust],
+            _named("d", moving) | {"clock": clock},
+            "Rates of A, B, a and b by phi at any thrust, (1), and dt/dphi.",
+        ),
+        source("element_switching", [*A, *B, *a, *b, phi], _named("n", n), "n in inertial axes."),
+        source("element_phase", [*A, *B, *a, *b, phi], {"value": kappa}, "kappa over dt/dphi."),
+        source("element_place", [*A, *B, phi], _named("x", place), "R, V."),
+    ]
+    for ahead, name in ((True, "oscillation_ahead"), (False, "oscillation_behind")):
+        spinor, swing = sapunkov_principle.oscillation_of(inertial.position, inertial.velocity, ahead)
+        doc = f"u and w of R and V, fM = 1; R may not lie along {'-' if ahead else '+'}i1."
+        arguments = [*inertial.position, *inertial.velocity]
+        texts.append(source(name, arguments, _named("u", spinor) | _named("w", swing), doc))
     return texts
 
 

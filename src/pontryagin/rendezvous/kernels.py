@@ -378,3 +378,223 @@ def primer(r, v1, c, rho, s1, e, nu1, nu2, nu3):
     psi4 = e*r
     psi5 = r*x2
     return psi0, psi1, psi2, psi3, psi4, psi5
+
+
+def element_rates(A0, A1, A2, A3, B0, B1, B2, B3, a0, a1, a2, a3, b0, b1, b2, b3, varphi, p1, p2, p3):
+    """Rates of A, B, a and b by phi at any thrust, (1), and dt/dphi."""
+    x0 = cos(varphi)
+    x1 = sin(varphi)
+    x2 = A0*x0 + B0*x1
+    x3 = A2*x0 + B2*x1
+    x4 = A3*x0 + B3*x1
+    x5 = p1*x2 - p2*x4 + p3*x3
+    x6 = A1*x0 + B1*x1
+    x7 = (x2*x2) + (x3*x3) + (x4*x4) + (x6*x6)
+    x8 = -A0*x1 + B0*x0
+    x9 = x5*x8
+    x10 = -A1*x1 + B1*x0
+    x11 = p1*x6 + p2*x3 + p3*x4
+    x12 = x10*x11
+    x13 = -A2*x1 + B2*x0
+    x14 = -p1*x3 + p2*x6 + p3*x2
+    x15 = x13*x14
+    x16 = -A3*x1 + B3*x0
+    x17 = -p1*x4 - p2*x2 + p3*x6
+    x18 = x16*x17
+    x19 = x12 + x15 + x18
+    x20 = x19 + x9
+    x21 = x20*x8 + x5*x7
+    x22 = (A0*A0) + (A1*A1) + (A2*A2) + (A3*A3) + (B0*B0) + (B1*B1) + (B2*B2) + (B3*B3)
+    x23 = x1*x22
+    x24 = x10*x20 + x11*x7
+    x25 = x13*x20 + x14*x7
+    x26 = x16*x20 + x17*x7
+    x27 = x0*x22
+    x28 = -a1*x1 + b1*x0
+    x29 = x22*x28
+    x30 = x10*x29
+    x31 = -a2*x1 + b2*x0
+    x32 = x22*x31
+    x33 = x13*x32
+    x34 = -a3*x1 + b3*x0
+    x35 = x22*x34
+    x36 = x16*x35
+    x37 = -a0*x1 + b0*x0
+    x38 = x22*x37
+    x39 = x24*x28
+    x40 = x21*x37
+    x41 = x25*x31
+    x42 = x26*x34
+    x43 = x10*(a1*x0 + b1*x1) + x13*(a2*x0 + b2*x1) + x16*(a3*x0 + b3*x1) - x2*x37 + x22*x39 + x22*x40 + x22*x41 + x22*x42 - x28*x6 - x3*x31 - x34*x4 + x8*(a0*x0 + b0*x1)
+    x44 = 2*x39 + 2*x40 + 2*x41 + 2*x42 - x43/x22
+    x45 = x30*x5 + x33*x5 + x36*x5 + x38*(x19 + 2*x9) + x44*x8
+    x46 = 2*x2
+    x47 = p1*x8 - p2*x16 + p3*x13
+    x48 = p1*x7
+    x49 = p3*x7
+    x50 = p2*x7
+    x51 = -x50
+    x52 = x43/x7
+    x53 = x2*x44 + x29*(x10*x47 + x11*x46) + x32*(x13*x47 + x14*x46 + x49) + x35*(x16*x47 + x17*x46 + x51) + x38*(x46*x5 + x47*x8 + x48) - x46*x52
+    x54 = x38*x8
+    x55 = x18 + x9
+    x56 = x10*x44 + x11*x33 + x11*x36 + x11*x54 + x29*(2*x12 + x15 + x55)
+    x57 = 2*x6
+    x58 = p1*x10 + p2*x13 + p3*x16
+    x59 = x29*(x10*x58 + x11*x57 + x48) + x32*(x13*x58 + x14*x57 + x50) + x35*(x16*x58 + x17*x57 + x49) + x38*(x5*x57 + x58*x8) + x44*x6 - x52*x57
+    x60 = x13*x44 + x14*x30 + x14*x36 + x14*x54 + x32*(x12 + 2*x15 + x55)
+    x61 = 2*x3
+    x62 = -p1*x13 + p2*x10 + p3*x8
+    x63 = -x48
+    x64 = x29*(x10*x62 + x11*x61 + x50) + x3*x44 + x32*(x13*x62 + x14*x61 + x63) + x35*(x16*x62 + x17*x61) + x38*(x49 + x5*x61 + x62*x8) - x52*x61
+    x65 = x16*x44 + x17*x30 + x17*x33 + x17*x54 + x35*(x12 + x15 + 2*x18 + x9)
+    x66 = 2*x4
+    x67 = -p1*x16 - p2*x8 + p3*x10
+    x68 = x29*(x10*x67 + x11*x66 + x49) + x32*(x13*x67 + x14*x66) + x35*(x16*x67 + x17*x66 + x63) + x38*(x5*x66 + x51 + x67*x8) + x4*x44 - x52*x66
+    d0 = -x21*x23
+    d1 = -x23*x24
+    d2 = -x23*x25
+    d3 = -x23*x26
+    d4 = x21*x27
+    d5 = x24*x27
+    d6 = x25*x27
+    d7 = x26*x27
+    d8 = -x0*x53 + x1*x45
+    d9 = -x0*x59 + x1*x56
+    d10 = -x0*x64 + x1*x60
+    d11 = -x0*x68 + x1*x65
+    d12 = -x0*x45 - x1*x53
+    d13 = -x0*x56 - x1*x59
+    d14 = -x0*x60 - x1*x64
+    d15 = -x0*x65 - x1*x68
+    clock = sqrt(2)*sqrt(x22)*x7
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, clock
+
+
+def element_switching(A0, A1, A2, A3, B0, B1, B2, B3, a0, a1, a2, a3, b0, b1, b2, b3, varphi):
+    """n in inertial axes."""
+    x0 = cos(varphi)
+    x1 = sin(varphi)
+    x2 = A0*x0 + B0*x1
+    x3 = A1*x0 + B1*x1
+    x4 = A2*x0 + B2*x1
+    x5 = A3*x0 + B3*x1
+    x6 = (x2*x2) + (x3*x3) + (x4*x4) + (x5*x5)
+    x7 = x2*x6
+    x8 = -A0*x1 + B0*x0
+    x9 = -A1*x1 + B1*x0
+    x10 = -A2*x1 + B2*x0
+    x11 = -A3*x1 + B3*x0
+    x12 = -x10*x4 - x11*x5 + x2*x8 + x3*x9
+    x13 = (A0*A0) + (A1*A1) + (A2*A2) + (A3*A3) + (B0*B0) + (B1*B1) + (B2*B2) + (B3*B3)
+    x14 = x13*(-a0*x1 + b0*x0)
+    x15 = x3*x6
+    x16 = x13*(-a1*x1 + b1*x0)
+    x17 = x4*x6
+    x18 = x13*(-a2*x1 + b2*x0)
+    x19 = x5*x6
+    x20 = -x19
+    x21 = x13*(-a3*x1 + b3*x0)
+    x22 = (1/2)*sqrt(2)/(sqrt(x13)*x6)
+    x23 = x10*x3 - x11*x2 + x4*x9 - x5*x8
+    x24 = x10*x2 + x11*x3 + x4*x8 + x5*x9
+    n0 = x22*(x14*(x12*x8 + x7) + x16*(x12*x9 + x15) + x18*(x10*x12 - x17) + x21*(x11*x12 + x20))
+    n1 = x22*(x14*(x20 + x23*x8) + x16*(x17 + x23*x9) + x18*(x10*x23 + x15) + x21*(x11*x23 - x7))
+    n2 = x22*(x14*(x17 + x24*x8) + x16*(x19 + x24*x9) + x18*(x10*x24 + x7) + x21*(x11*x24 + x15))
+    return n0, n1, n2
+
+
+def element_phase(A0, A1, A2, A3, B0, B1, B2, B3, a0, a1, a2, a3, b0, b1, b2, b3, varphi):
+    """kappa over dt/dphi."""
+    x0 = cos(varphi)
+    x1 = sin(varphi)
+    x2 = A0*x0 + B0*x1
+    x3 = A1*x0 + B1*x1
+    x4 = A2*x0 + B2*x1
+    x5 = A3*x0 + B3*x1
+    value = (1/2)*sqrt(2)*(-x2*(-a0*x1 + b0*x0) - x3*(-a1*x1 + b1*x0) - x4*(-a2*x1 + b2*x0) - x5*(-a3*x1 + b3*x0) + (-A0*x1 + B0*x0)*(a0*x0 + b0*x1) + (-A1*x1 + B1*x0)*(a1*x0 + b1*x1) + (-A2*x1 + B2*x0)*(a2*x0 + b2*x1) + (-A3*x1 + B3*x0)*(a3*x0 + b3*x1))/(((x2*x2) + (x3*x3) + (x4*x4) + (x5*x5))*sqrt((A0*A0) + (A1*A1) + (A2*A2) + (A3*A3) + (B0*B0) + (B1*B1) + (B2*B2) + (B3*B3)))
+    return value
+
+
+def element_place(A0, A1, A2, A3, B0, B1, B2, B3, varphi):
+    """R, V."""
+    x6 = cos(varphi)
+    x7 = sin(varphi)
+    x8 = A2*x6 + B2*x7
+    x9 = (x8*x8)
+    x10 = A3*x6 + B3*x7
+    x11 = (x10*x10)
+    x12 = A0*x6 + B0*x7
+    x13 = A1*x6 + B1*x7
+    x14 = (x12*x12) + (x13*x13)
+    x15 = 2*x12
+    x16 = 2*x13
+    x17 = -A0*x7 + B0*x6
+    x18 = -A1*x7 + B1*x6
+    x19 = -A2*x7 + B2*x6
+    x20 = 2*x8
+    x21 = -A3*x7 + B3*x6
+    x22 = 2*x10
+    x23 = (1/2)*sqrt(2)/((x11 + x14 + x9)*sqrt((A0*A0) + (A1*A1) + (A2*A2) + (A3*A3) + (B0*B0) + (B1*B1) + (B2*B2) + (B3*B3)))
+    x0 = -x11 + x14 - x9
+    x1 = -x10*x15 + 2*x13*x8
+    x2 = x10*x16 + x15*x8
+    x3 = x23*(x15*x17 + x16*x18 - x19*x20 - x21*x22)
+    x4 = x23*(2*x13*x19 - x15*x21 - x17*x22 + 2*x18*x8)
+    x5 = x23*(x15*x19 + x16*x21 + x17*x20 + x18*x22)
+    return x0, x1, x2, x3, x4, x5
+
+
+def oscillation_ahead(x, y, z, u, v, w):
+    """u and w of R and V, fM = 1; R may not lie along -i1."""
+    x0 = (x*x) + (y*y) + (z*z)
+    x1 = x0**(1/4)
+    x2 = 1/sqrt(x0)
+    x3 = x*x2
+    x4 = x3 + 1
+    x5 = 1/sqrt(2*x3 + 2)
+    x6 = x1*x4*x5
+    x7 = x5/x1
+    x8 = x7*z
+    x9 = x7*y
+    x10 = (1/2)*v
+    x11 = (1/2)*w
+    x12 = (1/2)*x6
+    x13 = sqrt(2)*sqrt(-1/((1/2)*(u*u) + (1/2)*(v*v) + (1/2)*(w*w) - x2))
+    x14 = (1/2)*u
+    u0 = x6
+    u1 = 0
+    u2 = x8
+    u3 = -x9
+    w0 = x13*(u*x12 + x10*x9 + x11*x8)
+    w1 = x13*(x10*x8 - x11*x9)
+    w2 = x13*((1/2)*w*x1*x4*x5 - x14*x8)
+    w3 = x13*(-v*x12 + x14*x9)
+    return u0, u1, u2, u3, w0, w1, w2, w3
+
+
+def oscillation_behind(x, y, z, u, v, w):
+    """u and w of R and V, fM = 1; R may not lie along +i1."""
+    x0 = (x*x) + (y*y) + (z*z)
+    x1 = 1/sqrt(x0)
+    x2 = x*x1
+    x3 = 1/sqrt(2 - 2*x2)
+    x4 = x0**(1/4)
+    x5 = 1/x4
+    x6 = x3*x5
+    x7 = x6*z
+    x8 = x6*y
+    x9 = x3*x4*(1 - x2)
+    x10 = (1/2)*u
+    x11 = (1/2)*x9
+    x12 = sqrt(2)*sqrt(-1/((1/2)*(u*u) + (1/2)*(v*v) + (1/2)*(w*w) - x1))
+    x13 = (1/2)*x7
+    u0 = x7
+    u1 = x8
+    u2 = x9
+    u3 = 0
+    w0 = x12*(w*x11 + x10*x7)
+    w1 = x12*(v*x11 + x10*x8)
+    w2 = x12*((1/2)*v*x8 + w*x13 - x10*x9)
+    w3 = x12*(-v*x13 + (1/2)*w*x3*x5*y)
+    return u0, u1, u2, u3, w0, w1, w2, w3

@@ -172,7 +172,7 @@ def hamiltonian():
     verdict="false",
     remark="(15) compares two vectors of equal length: rank 2, where (6) has rank 3. The turn about ν* is "
     "lost, in one plane the whole place on the orbit. Families of false meetings satisfy (5), (15), (16) and "
-    "(17) to rounding; one that is 20° behind even costs less than the true one. Repair: an eleventh "
+    "(17) to rounding; one that is 20° ahead even costs less than the true one. Repair: an eleventh "
     "equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
 )
 def reduced_problem():
@@ -183,7 +183,7 @@ def reduced_problem():
             yield from meetings.false_meetings(members)
         true, cheap = (meetings.outcome(member).cost for member in meetings.COPLANAR[:2])
         yield (
-            f"the false meeting 20° behind has J = {cheap:.4f}, the true one {true:.4f}",
+            f"the false meeting 20° ahead has J = {cheap:.4f}, the true one {true:.4f}",
             cheap < 0.75 * true,
         )
         yield from repaired()

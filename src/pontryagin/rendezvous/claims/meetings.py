@@ -53,7 +53,7 @@ COPLANAR = (
         5.406142860948114,
     ),
     _coplanar(
-        "20° behind",
+        "20° ahead",
         -0.032955839810023764,
         0.03647224953516254,
         0.19812848902063368,
@@ -61,7 +61,7 @@ COPLANAR = (
         5.8828616121508714,
     ),
     _coplanar(
-        "30° ahead",
+        "30° behind",
         -0.024272140728771815,
         0.04027592924159651,
         0.21322596956580547,
@@ -69,7 +69,7 @@ COPLANAR = (
         12.405597338617827,
     ),
     _coplanar(
-        "90° ahead",
+        "90° behind",
         -0.018790458665617543,
         0.01771371881510154,
         0.17920657242421262,
@@ -85,7 +85,7 @@ COPLANAR = (
         19.4582843581068,
     ),
 )
-"""All meet (5), (15), (16) and (17); the first alone meets the target."""
+"""All meet (5), (15), (16) and (17); the first alone meets the target. Ahead: the craft of the target."""
 
 INCLINED = (
     Meeting(

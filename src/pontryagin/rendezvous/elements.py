@@ -1,0 +1,151 @@
+"""Sapunkov's elements A, B and phi of a place and a velocity, and back."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.quaternions import conjugate, product
+from pontryagin.validation import common_shape, finite, positive, vectors
+
+Array = NDArray[np.float64]
+
+I1 = np.array([0.0, 1.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Elements:
+    """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.
+
+    The spinor u = A cos phi + B sin phi stands for the place, R = u~ o i1 o u, and w = -A sin phi + B cos phi
+    for the velocity; A and B stay where they are while the craft coasts. Turning A and B together,
+    A -> exp(i1 s) o A, changes neither R nor V.
+
+    Parameters
+    ----------
+    A, B : (..., 4) array_like
+        Scalar part first, in square roots of the unit of length.
+    phi : (...) array_like
+        Half the eccentric anomaly, up to a constant.
+    gravity : float
+        fM.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> start = Elements.from_state([1.0, 0, 0], [0.0, 1, 0])
+    >>> start.A.round(12) + 0.0, start.B.round(12) + 0.0, round(float(start.Q), 12)
+    (array([1., 0., 0., 0.]), array([ 0.,  0.,  0., -1.]), 2.0)
+    >>> start.at(np.pi / 4).position.round(12) + 0.0
+    array([0., 1., 0.])
+    """
+
+    A: ArrayLike
+    B: ArrayLike
+    phi: ArrayLike = 0.0
+    gravity: float = 1.0
+
+    def __post_init__(self) -> None:
+        A, B = vectors("A", self.A, 4), vectors("B", self.B, 4)
+        phi = finite("phi", self.phi, "a number or an array of them")
+        gravity = positive("gravity", self.gravity)
+        if gravity.ndim:
+            raise ValueError(f"gravity must be one number, got an array of shape {gravity.shape}")
+        shape = common_shape(A=A.shape[:-1], B=B.shape[:-1], phi=phi.shape)
+        for name, value in (("A", A), ("B", B)):
+            object.__setattr__(self, name, np.broadcast_to(value, (*shape, 4)))
+        object.__setattr__(self, "phi", np.broadcast_to(phi, shape))
+        object.__setattr__(self, "gravity", float(gravity))
+
+    @classmethod
+    def from_state(cls, position: ArrayLike, velocity: ArrayLike, gravity: float = 1.0) -> "Elements":
+        """The elements of R and V (..., 3), with phi = 0.
+
+        Raises
+        ------
+        ValueError
+            If the energy is not negative, or R is zero.
+
+        Examples
+        --------
+        >>> Elements.from_state([-2.0, 0, 0], [0, 0, 0.5]).position
+        array([-2.,  0.,  0.])
+        """
+        R, V = np.broadcast_arrays(vectors("position", position, 3), vectors("velocity", velocity, 3))
+        scale = float(positive("gravity", gravity))
+        r = np.linalg.norm(R, axis=-1)
+        if np.any(r == 0):
+            raise ValueError("position must not be the centre of attraction, got 0, 0, 0")
+        energy = np.sum(V**2, axis=-1) / 2 - scale / r
+        if np.any(energy >= 0):
+            raise ValueError(
+                "velocity must leave the energy V^2/2 - gravity/r negative, as elements A and B are those of "
+                f"an ellipse, got {float(np.max(energy)):.6g}"
+            )
+        both = _oscillation(R, V / np.sqrt(scale))
+        return cls(both[..., :4], both[..., 4:], np.zeros(r.shape), scale)
+
+    def at(self, phi: ArrayLike) -> "Elements":
+        """The same orbit at another phi."""
+        return Elements(self.A, self.B, phi, self.gravity)
+
+    @property
+    def Q(self) -> Array:
+        """A^2 + B^2, twice the semi-axis, (...)."""
+        return np.sum(np.square(self.A) + np.square(self.B), axis=-1)
+
+    @property
+    def u(self) -> Array:
+        """A cos phi + B sin phi, (..., 4)."""
+        phi = np.asarray(self.phi)[..., None]
+        return self.A * np.cos(phi) + self.B * np.sin(phi)
+
+    @property
+    def w(self) -> Array:
+        """du/d phi at constant A and B, (..., 4)."""
+        phi = np.asarray(self.phi)[..., None]
+        return self.B * np.cos(phi) - self.A * np.sin(phi)
+
+    @property
+    def position(self) -> Array:
+        """R, (..., 3)."""
+        return place(self.A, self.B, self.phi)[..., :3]
+
+    @property
+    def velocity(self) -> Array:
+        """V, (..., 3)."""
+        return place(self.A, self.B, self.phi)[..., 3:] * np.sqrt(self.gravity)
+
+    @property
+    def relation(self) -> Array:
+        """scal(A~ o i1 o B), zero for elements of a place and a velocity, (...)."""
+        return product(conjugate(self.A), product(I1, self.B))[..., 0]
+
+    def turned(self, angle: ArrayLike) -> "Elements":
+        """A and B turned together by exp(i1 angle): other numbers, the same place and velocity."""
+        half = np.asarray(angle, dtype=float)[..., None]
+        turn = np.cos(half) * np.array([1.0, 0, 0, 0]) + np.sin(half) * I1
+        return Elements(product(turn, self.A), product(turn, self.B), self.phi, self.gravity)
+
+
+def place(A: ArrayLike, B: ArrayLike, phi: ArrayLike) -> Array:
+    """R and V (..., 6) of A, B and phi, fM = 1."""
+    columns = [*np.moveaxis(np.asarray(A), -1, 0), *np.moveaxis(np.asarray(B), -1, 0), np.asarray(phi)]
+    return np.stack(kernels.element_place(*columns), axis=-1)
+
+
+def _oscillation(R: Array, V: Array) -> Array:
+    """u and w (..., 8) of R and V, fM = 1, by the formula that is regular there."""
+    ahead = R[..., 0] >= 0
+    parts = [*np.moveaxis(R, -1, 0), *np.moveaxis(V, -1, 0)]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        both = [
+            np.stack(np.broadcast_arrays(*kernel(*parts)), axis=-1)
+            for kernel in (kernels.oscillation_ahead, kernels.oscillation_behind)
+        ]
+    return np.where(ahead[..., None], *both)

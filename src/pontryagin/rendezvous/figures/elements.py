@@ -1,0 +1,181 @@
+"""Figures and tables of the rendezvous in Sapunkov's elements."""
+
+import itertools
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PALETTE, RED, SEQUENTIAL, styled, subplots
+from pontryagin.rendezvous.elements_flight import switching
+from pontryagin.rendezvous.elements_fuel import least_fuel
+from pontryagin.rendezvous.elements_solve import ElementsExtremal, solve_in_elements
+from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.solution import Extremal, solve
+
+Array = NDArray[np.float64]
+TIME = r"time $t$"
+SAMPLES = 601
+
+
+@styled
+def elements_along(solution: ElementsExtremal) -> Figure:
+    """A, B and the spinor u against time; shaded where the engine burns.
+
+    Examples
+    --------
+    >>> from pontryagin.rendezvous.cases import case
+    >>> elements_along(solve_in_elements(case("circle-energy").problem)).get_label()
+    'elements-along'
+    """
+    t = np.linspace(0.0, solution.duration, SAMPLES)
+    elements = solution.elements(t)
+    panels = ((elements.u, "u"), (np.asarray(elements.A), "A"), (np.asarray(elements.B), "B"))
+    figure, axes = subplots(3, sharex=True, height=5.6)
+    for ax, (values, name) in zip(axes, panels, strict=True):
+        _burns(ax, solution)
+        for k in range(4):
+            ax.plot(t, values[:, k], color=PALETTE[k], label=rf"component {k}")
+        ax.set_ylabel(f"${name}$")
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=5)
+    axes[-1].set_xlabel(TIME)
+    axes[-1].set_xlim(0, solution.duration)
+    figure.align_ylabels(list(axes))
+    return figure
+
+
+def _burns(ax: Axes, solution: ElementsExtremal) -> None:
+    """Shade the arcs with thrust, if there are others."""
+    if "coast" not in solution.modes:
+        return
+    edges = [0.0, *solution.switch_times, solution.duration]
+    first = True
+    for mode, begin, end in zip(solution.modes, edges[:-1], edges[1:], strict=True):
+        if mode == "saturated":
+            ax.axvspan(begin, end, color="#dddddd", zorder=0, linewidth=0, label="thrust" if first else None)
+            first = False
+
+
+@styled
+def sharpening(solution: ElementsExtremal) -> Figure:
+    """|n|/alpha2 and the thrust over its peak, along the smoothed extremals and the sharp one."""
+    scaled = solution.problem.scaled
+    figure, (above, below) = subplots(2, sharex=True, height=4.6)
+    colours = _colours(len(solution.smoothed))
+    for root, colour in zip(solution.smoothed, colours, strict=True):
+        flight = root.flight
+        phi = np.linspace(0.0, flight.phi, SAMPLES)
+        states = flight.sample(phi)
+        t = states[:, 16] * scaled.time
+        above.plot(t, np.linalg.norm(switching(states, phi), axis=1), color=colour, linewidth=1.2)
+        thrust = np.linalg.norm(flight.thrust(states, phi), axis=1) / flight.law.peak
+        below.plot(t, thrust, color=colour, linewidth=1.2, label=f"width {flight.law.width:.2g}")
+    t, size, thrust = _series(solution)
+    above.plot(t, size / solution.problem.energy_weight, color=INK, linewidth=2)
+    above.axhline(1.0, color=RED, linewidth=0.9, linestyle="--")
+    below.plot(t, thrust / solution.problem.peak, color=INK, linewidth=2, label="on or off")
+    for ax in (above, below):
+        for switch in solution.switch_times:
+            ax.axvline(switch, color=RED, linewidth=0.7, linestyle=":")
+    above.set_ylabel(r"$|n|/\alpha_2$")
+    below.set_ylabel(r"$|p|/p_{\max}$")
+    below.set_xlabel(TIME)
+    handles, labels = below.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside right center")
+    return figure
+
+
+def _colours(count: int) -> list[Any]:
+    import matplotlib as mpl
+
+    return [mpl.colormaps[SEQUENTIAL](x) for x in np.linspace(0.9, 0.15, count)]
+
+
+def _series(solution: ElementsExtremal) -> tuple[Array, Array, Array]:
+    """Times with both sides of each switch, |n| and |p| there."""
+    edges = [0.0, *solution.switch_times, solution.duration]
+    nudge = 1e-9 * solution.duration
+    parts = [np.linspace(a + nudge, b - nudge, 201) for a, b in itertools.pairwise(edges)]
+    t = np.concatenate(parts)
+    return t, np.linalg.norm(solution.switching(t), axis=1), np.linalg.norm(solution.control(t), axis=1)
+
+
+@styled
+def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure:
+    """The same meeting by the least integral of p^2 and of |p|: paths in the plane, and thrust."""
+    figure, (left, right) = subplots(1, 2, height=3.3, width_ratios=(1, 1.15))
+    for solution, colour, name in ((first, BLUE, r"$\int p^2 dt$"), (second, RED, r"$\int |p|\, dt$")):
+        t = np.linspace(0.0, solution.duration, SAMPLES)
+        place = solution.elements(t).position
+        left.plot(*place.T[:2], color=colour, linewidth=1.3)
+        some = np.linspace(0.0, solution.duration, 31)
+        at, thrust = solution.elements(some).position, solution.control(some)
+        left.quiver(
+            *at.T[:2], *thrust.T[:2], color=colour, angles="xy", scale_units="xy", scale=0.35, width=0.005
+        )
+        t, _, size = _series(solution)
+        right.plot(t, size, color=colour, label=name)
+    ends = second.elements([0.0, second.duration]).position
+    left.plot(*ends[0, :2], "o", color=GREEN, zorder=5)
+    left.plot(*ends[1, :2], "s", color=ORANGE, zorder=5)
+    left.plot(0, 0, "+", color=INK)
+    left.annotate("start", ends[0, :2], xytext=(6, -10), textcoords="offset points", color=GREEN)
+    left.annotate("meeting", ends[1, :2], xytext=(6, 4), textcoords="offset points", color=ORANGE)
+    left.set_aspect("equal")
+    left.set_xlabel("$X$")
+    left.set_ylabel("$Y$")
+    right.set_xlabel(TIME)
+    right.set_ylabel("thrust $|p|$")
+    handles, labels = right.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=2)
+    return figure
+
+
+def agreement(problems: Mapping[str, Rendezvous]) -> dict[str, list[Any]]:
+    """Each problem solved in the axes eta and in the elements: costs, durations, controls, residuals."""
+    rows = [(name, solve(problem)) for name, problem in problems.items()]
+    pairs = [(name, other, _own(other)) for name, other in rows]
+    return {
+        "case": [name for name, _, _ in pairs],
+        "$J$": [f"{mine.cost:.9g}" for _, _, mine in pairs],
+        "$t_k$": [f"{mine.duration:.9g}" for _, _, mine in pairs],
+        "difference of $J$": [f"{abs(mine.cost / other.cost - 1):.0e}" for _, other, mine in pairs],
+        "of $t_k$": [f"{abs(mine.duration / other.duration - 1):.0e}" for _, other, mine in pairs],
+        "of $|p(0)|$": [f"{_initial(mine, other):.0e}" for _, other, mine in pairs],
+        "residual": [f"{float(mine.certificate.residual):.0e}" for _, _, mine in pairs],
+        "condition, $A, B$": [f"{float(mine.certificate.condition):.0f}" for _, _, mine in pairs],
+        "condition, $\\eta$": [f"{float(other.certificate.condition):.0f}" for _, other, _ in pairs],
+    }
+
+
+def _own(other: Extremal) -> ElementsExtremal:
+    """The solution that the elements find by themselves, or if it is another extremal that near the first."""
+    mine = solve_in_elements(other.problem)
+    if math.isclose(mine.cost, other.cost, rel_tol=1e-6):
+        return mine
+    return solve_in_elements(other.problem, start=other)
+
+
+def _initial(mine: ElementsExtremal, other: Extremal) -> float:
+    """Relative difference of the thrust at t0."""
+    sizes = [np.linalg.norm(solution.control(0.0)) for solution in (mine, other)]
+    return float(abs(sizes[0] / sizes[1] - 1))
+
+
+def fuel(problems: Mapping[str, tuple[Rendezvous, int]]) -> dict[str, list[Any]]:
+    """Least fuel of problems, each with the revolutions that `least_fuel` is to take."""
+    found = [least_fuel(problem, revolutions) for problem, revolutions in problems.values()]
+    return {
+        "case": list(problems),
+        "$J_2$": [f"{one.cost:.9f}" for one in found],
+        "$t_k$": [f"{one.duration:.6f}" for one in found],
+        "burns": [one.modes.count("saturated") for one in found],
+        "switches": [", ".join(f"{t:.3f}" for t in one.switch_times) for one in found],
+        "residual": [f"{float(one.certificate.residual):.0e}" for one in found],
+        "off the level": [f"{float(one.certificate.switching):.0e}" for one in found],
+    }
