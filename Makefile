@@ -60,6 +60,11 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 	@echo "== benchmarks"
 	@$(PY) -m benchmarks
 
+.PHONY: judge
+judge: $(EXTRA) ## solve the rendezvous directly, from cold starts, for comparison
+	@echo "== rendezvous by collocation"
+	@$(PY) -m pontryagin.rendezvous.judge
+
 .PHONY: lint
 lint: $(READY) ## style and types
 	@echo "== ruff"

@@ -1,0 +1,114 @@
+"""Meetings with nobody: the same residuals, another place."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pontryagin.plotting import BLUE, INK, RED, WIDTH, styled, subplots
+from pontryagin.rendezvous.figures.labels import CRAFT, TARGET, THRUST, power
+from pontryagin.rendezvous.figures.orbit import equal
+from pontryagin.rendezvous.figures.paths import flown, target_at, target_orbit
+from pontryagin.rendezvous.meetings import FalseFamily, Meeting
+from pontryagin.rendezvous.printed import printed_jacobian
+from pontryagin.rendezvous.solution import Extremal
+
+COLUMNS = 3
+FLOOR = 1e-18
+"""Smaller singular values are drawn here: they are 0 to rounding."""
+
+
+@styled
+def false_meetings(family: FalseFamily) -> Figure:
+    """A panel for each member: the way flown, where the target is then, what is left of the conditions."""
+    rows = -(-len(family.members) // COLUMNS)
+    figure = Figure(figsize=(WIDTH, 2.85 * rows + 0.3), layout="constrained")
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.97))
+    scaled = family.solution.problem.scaled
+    space = np.hypot(*scaled.orientation[1:3]) > 1e-9
+    for number, member in enumerate(family.members, 1):
+        ax = figure.add_subplot(rows, COLUMNS, number, projection="3d" if space else None)
+        _panel(ax, member, 3 if space else 2)
+        ax.set_title(_account(member), fontsize=9.5, linespacing=1.25)
+    handles, names = figure.axes[-1].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
+    return figure
+
+
+def _account(member: Meeting) -> str:
+    turned = f"turned by ${np.degrees(member.angle):.0f}$°" if member.angle else "the true meeting"
+    apart = f"{member.distance:.2f}" if member.distance > 1e-6 else power(member.distance)
+    return f"{turned}\nprinted conditions leave {power(member.printed)}\nmisses by {apart}"
+
+
+def _panel(ax: Axes, member: Meeting, axes: int) -> None:
+    problem = member.problem
+    _, places, _ = flown(problem, member.flight)
+    target, there = target_orbit(problem), target_at(problem, member.duration)
+    ax.plot(*target.T[:axes], color=TARGET, linewidth=1.0, label="orbit of the target")
+    ax.plot(*places.T[:axes], color=CRAFT, linewidth=1.3, label="way of the craft")
+    gap = np.array([places[-1], there])
+    ax.plot(*gap.T[:axes], ":", color=THRUST, linewidth=1.6, label="missed by")
+    ax.plot(*there[None].T[:axes], "*", color=TARGET, markersize=11, label="target at $t_k$")
+    ax.plot(*places[-1:].T[:axes], "o", color=CRAFT, markersize=5, label="craft at $t_k$")
+    ax.plot(*np.zeros((axes, 1)), "+", color=INK, markersize=6)
+    if axes == 3:
+        equal(ax, np.vstack([target, places, there[None]]))
+    else:
+        ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+@styled
+def missed(family: FalseFamily) -> Figure:
+    """Along the family: what the printed conditions leave and what (6) leaves, the place missed, the cost."""
+    figure, axes = subplots(3, height=5.6, sharex=True)
+    turns = np.degrees(family.angles)
+    true = family.distances < 1e-6
+    axes[0].semilogy(
+        turns, np.maximum(family.printed, 1e-17), ".", color=BLUE, label="(5), (15), (16), (17), as printed"
+    )
+    axes[0].semilogy(
+        turns, np.maximum(family.mismatches, 1e-17), ".", color=RED, label="(6), angle in radians"
+    )
+    axes[0].set(ylabel="residual", ylim=(1e-17, 1e3))
+    axes[0].legend(loc="center", ncols=2)
+    axes[1].plot(turns, family.distances, color=RED)
+    axes[1].plot(turns[true], family.distances[true], "o", color=BLUE)
+    axes[1].set(ylabel="distance missed")
+    axes[2].plot(turns, family.costs, color=RED, label="false meetings")
+    axes[2].plot(turns[true], family.costs[true], "o", color=BLUE, label="true meetings")
+    axes[2].set(ylabel="cost $J$", xlabel=r"turn of $\lambda(t_k)$ about $\nu^*$ [°]")
+    axes[2].legend(loc="upper left")
+    for ax in axes:
+        ax.set_xticks(np.arange(np.ceil(turns.min() / 90), np.floor(turns.max() / 90) + 1) * 90)
+    figure.align_ylabels(axes)
+    return figure
+
+
+@styled
+def singular_values(solutions: Mapping[str, Extremal]) -> Figure:
+    """Singular values of the printed conditions' Jacobian and of the repaired one's, over the largest."""
+    figure, ax = subplots(height=0.75 + 0.55 * len(solutions))
+    for row, extremal in enumerate(solutions.values()):
+        for jacobian, colour, shift, marker, name in (
+            (printed_jacobian(extremal.flight), RED, 0.16, "o", "printed: (5), (15), (16), (17)"),
+            (extremal.root.equations.jacobian, BLUE, -0.16, "s", "repaired: (5), (6), law at the end"),
+        ):
+            values = np.linalg.svd(jacobian, compute_uv=False)
+            shown = np.maximum(values / values[0], FLOOR)
+            ax.semilogx(
+                shown,
+                np.full(len(shown), row + shift),
+                marker,
+                color=colour,
+                markerfacecolor="white" if marker == "o" else colour,
+                label="" if row else name,
+            )
+    ax.axvspan(FLOOR / 3, 1e-15, color="#eeeeee", zorder=0)
+    ax.text(1.5e-18, len(solutions) - 0.62, "zero to rounding", va="bottom", fontsize=9.5)
+    ax.set_yticks(range(len(solutions)), list(solutions))
+    ax.set(ylim=(-0.6, len(solutions) - 0.2), xlim=(FLOOR / 3, 3), xlabel="singular value over the largest")
+    figure.legend(loc="outside upper center", ncols=2)
+    return figure

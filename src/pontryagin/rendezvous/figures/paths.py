@@ -1,0 +1,50 @@
+"""Where the craft and the target are, in inertial axes and the user's units."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.rendezvous.cartesian import target_by_kepler
+from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.quaternions import about_third, product, rotated
+
+Array = NDArray[np.float64]
+EX = np.array([1.0, 0.0, 0.0])
+
+
+def flown(problem: Rendezvous, flight: Flight, count: int = 400) -> tuple[Array, Array, Array]:
+    """Times (k,), positions (k, 3) and thrust (k, 3)."""
+    scaled = problem.scaled
+    times = np.linspace(0.0, flight.duration, count)
+    states = flight.sample(times)
+    attitude = product(problem.chaser.attitude, flight.attitude(states))
+    places = states[:, :1] * rotated(np.broadcast_to(EX, (count, 3)), attitude)
+    thrust = rotated(flight.thrust(times), attitude)
+    return times * scaled.time, places * scaled.length, thrust * scaled.acceleration
+
+
+def target_at(problem: Rendezvous, time: float) -> Array:
+    """The target's position (3,) at a time, by Kepler's equation."""
+    scaled = problem.scaled
+    place = target_by_kepler(scaled, time / scaled.time)[:3] * scaled.length
+    return rotated(place, np.asarray(problem.chaser.attitude))
+
+
+def target_orbit(problem: Rendezvous) -> Array:
+    """The target's ellipse, (k, 3)."""
+    orbit = problem.target
+    angles = np.linspace(0, 2 * np.pi, 181)
+    r = orbit.parameter / (1 + orbit.eccentricity * np.cos(angles))
+    attitude = product(orbit.attitude, about_third(angles))
+    return r[:, None] * rotated(np.broadcast_to(EX, (len(angles), 3)), attitude)
+
+
+def first_orbit(problem: Rendezvous) -> Array:
+    """The ellipse that the craft leaves, (k, 3)."""
+    craft = problem.chaser
+    parameter = craft.c**2 / problem.gravity
+    along, across = parameter / craft.r - 1, craft.v1 * craft.c / problem.gravity
+    angles = np.linspace(0, 2 * np.pi, 181)
+    r = parameter / (1 + along * np.cos(angles) + across * np.sin(angles))
+    attitude = product(craft.attitude, about_third(angles))
+    return r[:, None] * rotated(np.broadcast_to(EX, (len(angles), 3)), attitude)

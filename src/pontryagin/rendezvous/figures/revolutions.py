@@ -1,0 +1,88 @@
+"""All extremals found of a problem without bound: where the cost over the duration is stationary."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pontryagin.plotting import styled, subplots
+from pontryagin.rendezvous.figures.labels import CRAFT, INK, OTHER
+from pontryagin.rendezvous.homotopy import follow
+from pontryagin.rendezvous.search import energy
+from pontryagin.rendezvous.shooting import Equations, Setting, equations
+from pontryagin.rendezvous.solution import Extremal
+
+Array = NDArray[np.float64]
+MARGIN, DEAR = 1.25, 1.6
+"""Curves go so far beyond the shortest and the longest extremal, and to this many best costs."""
+
+
+@styled
+def revolutions(found: Mapping[str, Extremal]) -> Figure:
+    """Cost of the fixed-time extremals over t_k on every branch; the extremals of free time as dots."""
+    figure, axes = subplots(1, len(found), height=3.6, squeeze=False)
+    for ax, (name, best) in zip(axes[0], found.items(), strict=True):
+        _one(ax, best)
+        ax.set_title(name, loc="left")
+        ax.set_xlabel("duration $t_k$")
+    axes[0, 0].set_ylabel("cost $J$")
+    return figure
+
+
+def _one(ax: Axes, best: Extremal) -> None:
+    several = [best, *best.others]
+    shortest, longest = (pick(one.duration for one in several) for pick in (min, max))
+    limits = shortest / MARGIN, longest * MARGIN
+    for extremal in several:
+        for sign in (1, -1):
+            ax.plot(*branch(extremal, sign, limits, DEAR * best.cost).T, color=CRAFT, linewidth=1.1)
+    for extremal in several:
+        ax.plot(extremal.duration, extremal.cost, "o", color=INK if extremal is best else OTHER, zorder=4)
+        ax.annotate(
+            f"{extremal.revolutions:.2f}",
+            (extremal.duration, extremal.cost),
+            (0, -12),
+            textcoords="offset points",
+            ha="center",
+            fontsize=9.5,
+        )
+    ax.set_ylim(0.93 * best.cost, DEAR * best.cost)
+
+
+def branch(extremal: Extremal, sign: int, limits: tuple[float, float], dearest: float) -> Array:
+    """t_k and J (k, 2) of the fixed-time extremals on the branch through one, towards longer or shorter.
+
+    Raises
+    ------
+    ValueError
+        If the thrust is bounded: the branch would have to cross switches.
+    """
+    problem = extremal.problem
+    scaled = problem.scaled
+    if problem.peak < math.inf:
+        raise ValueError(f"extremal must be of a problem without a bound, got a peak of {problem.peak:g}")
+    points = []
+    for duration, unknowns_cost in _points(extremal, sign):
+        time, cost = duration * scaled.time, unknowns_cost * scaled.value
+        points.append((time, cost))
+        if not limits[0] <= time <= limits[1] or cost > dearest:
+            break
+    return np.array(points)
+
+
+def _points(extremal: Extremal, sign: int) -> Iterator[tuple[float, float]]:
+    scaled = extremal.problem.scaled
+    setting = Setting(scaled, scaled.ratio, math.inf)
+
+    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        duration = math.exp(parameter)
+        whole = equations(setting, np.append(unknowns, duration))
+        return whole, whole.jacobian[:6, 6] * duration
+
+    start = math.log(extremal.flight.duration)
+    for point in follow(family, extremal.root.unknowns[:6], start, start + sign, 0.03, 120, 0.05, rows=6):
+        flight = point.equations.flight
+        yield flight.duration, scaled.ratio * flight.duration + energy(flight)

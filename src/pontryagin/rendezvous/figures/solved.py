@@ -1,0 +1,23 @@
+"""The cases of the report, each solved once."""
+
+import functools
+
+from pontryagin.rendezvous.cases import case, cases
+from pontryagin.rendezvous.solution import Extremal, solve
+
+
+@functools.cache
+def solved(name: str) -> Extremal:
+    """The best extremal of a case, with the others found; kept for the next figure.
+
+    Raises
+    ------
+    ValueError
+        If there is no case of this name.
+    """
+    return solve(case(name).problem)
+
+
+def all_solved() -> dict[str, Extremal]:
+    """All cases, by name."""
+    return {name: solved(name) for name in cases()}

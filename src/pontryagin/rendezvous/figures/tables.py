@@ -1,0 +1,130 @@
+"""Tables of this paper: columns for `plotting.show_table`."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from pontryagin.rendezvous.cases import cases
+from pontryagin.rendezvous.figures.labels import Units, units
+from pontryagin.rendezvous.judge import MESHES, verdicts
+from pontryagin.rendezvous.meetings import FalseFamily
+from pontryagin.rendezvous.solution import Extremal
+
+Columns = dict[str, list[Any]]
+
+
+def titles() -> Columns:
+    """What each case is."""
+    known = cases()
+    return {"case": list(known), "": [one.title for one in known.values()]}
+
+
+def solutions(found: Mapping[str, Extremal]) -> Columns:
+    """Duration, cost, meeting, arcs and certificate of every case."""
+    several = list(found.values())
+    certificates = [one.certificate for one in several]
+    return {
+        "case": list(found),
+        "$t_k$": [_time(one.duration, units(one.problem)) for one in several],
+        "$J$": [f"{one.cost:.10g}" for one in several],
+        "$\\varphi^*_k$ [°]": [f"{np.degrees(one.arrival_anomaly):.3f}" for one in several],
+        "revolutions": [f"{one.revolutions:.3f}" for one in several],
+        "arcs": [_arcs(one) for one in several],
+        "residual": [f"{float(one.residual):.0e}" for one in certificates],
+        "of (6)": [f"{float(one.attitude):.0e}" for one in certificates],
+        "Cartesian": [f"{float(one.cartesian):.0e}" for one in certificates],
+        "condition": [f"{float(one.condition):.0f}" for one in certificates],
+        "others": [len(one.others) for one in several],
+    }
+
+
+def _time(duration: float, own: Units) -> str:
+    return f"{duration / own.time:.6f} {own.time_name}".strip()
+
+
+def _arcs(extremal: Extremal) -> str:
+    """S for an arc on the bound, U for one within it."""
+    return "".join(mode[0].upper() for mode in extremal.modes)
+
+
+def judge(found: Mapping[str, Extremal]) -> Columns:
+    """Direct costs at two meshes, and how far they are from the nearest of our extremals."""
+    kept = verdicts()
+    rows = [(name, one, kept[name]) for name, one in found.items()]
+    columns: Columns = {
+        "case": [name for name, _, _ in rows],
+        "$J$": [f"{one.cost:.10g}" for _, one, _ in rows],
+    }
+    for j, mesh in enumerate(MESHES):
+        columns[f"direct, {mesh} intervals"] = [f"{found.costs[j]:.10g}" for _, _, found in rows]
+        columns[f"direct/J − 1, {mesh}"] = [
+            f"{excess(one, found.costs[j]):+.0e}"
+            + ("" if nearest(one, found.costs[j]) is one else " (another)")
+            for _, one, found in rows
+        ]
+    columns["Ipopt's iterations"] = [" + ".join(map(str, one.iterations)) for _, _, one in rows]
+    return columns
+
+
+def nearest(extremal: Extremal, cost: float) -> Extremal:
+    """The one of the extremals found whose cost is nearest to a direct one."""
+    return min([extremal, *extremal.others], key=lambda one: abs(one.cost - cost))
+
+
+def excess(extremal: Extremal, cost: float) -> float:
+    """A direct cost over that of the extremal it belongs to, less 1."""
+    return cost / nearest(extremal, cost).cost - 1
+
+
+def others(found: Mapping[str, Extremal]) -> Columns:
+    """All extremals found of every case that has several, best first."""
+    rows = [
+        (name, one, own)
+        for name, best in found.items()
+        if best.others
+        for own in [units(best.problem)]
+        for one in [best, *best.others]
+    ]
+    return {
+        "case": [name for name, _, _ in rows],
+        "$J$": [f"{one.cost:.8g}" for _, one, _ in rows],
+        "$t_k$": [_time(one.duration, own) for _, one, own in rows],
+        "revolutions": [f"{one.revolutions:.3f}" for _, one, _ in rows],
+        "residual": [f"{float(one.certificate.residual):.0e}" for _, one, _ in rows],
+    }
+
+
+def family(*families: FalseFamily) -> Columns:
+    """Members of families of false meetings: what is left of each condition, and the place missed."""
+    members = [member for one in families for member in one.members]
+    return {
+        "turned by [°]": [f"{np.degrees(member.angle):.0f}" for member in members],
+        "$t_k$": [f"{member.duration:.6f}" for member in members],
+        "$J$": [f"{member.cost:.6f}" for member in members],
+        "(5), (15), (16), (17)": [f"{member.printed:.0e}" for member in members],
+        "(6) [°]": [_angle(member.mismatch) for member in members],
+        "missed by": [_small(member.distance) for member in members],
+        "velocity off by": [_small(member.drift) for member in members],
+    }
+
+
+def _angle(radians: float) -> str:
+    return _small(float(np.degrees(radians)), ".1f")
+
+
+def _small(value: float, form: str = ".4f") -> str:
+    return f"{value:{form}}" if value > 1e-6 else f"{value:.0e}"
+
+
+def ranks(families: Mapping[str, FalseFamily]) -> Columns:
+    """Smallest and largest singular values of both Jacobians at the true meetings."""
+    several: Sequence[FalseFamily] = list(families.values())
+    printed = [one.printed_singular_values for one in several]
+    repaired = [one.repaired_singular_values for one in several]
+    return {
+        "case": list(families),
+        "printed, smallest": [f"{values[-1] / values[0]:.0e}" for values in printed],
+        "printed, next": [f"{values[-2] / values[0]:.0e}" for values in printed],
+        "repaired, smallest": [f"{values[-1] / values[0]:.0e}" for values in repaired],
+    }

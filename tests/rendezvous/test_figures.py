@@ -1,0 +1,177 @@
+"""What the figures and tables show is what the solutions are: lines are read back and checked."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from pontryagin.plotting import svg_of
+from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, figures
+from pontryagin.rendezvous.cases import DAY, case
+from pontryagin.rendezvous.figures import labels, paths, tables
+from pontryagin.rendezvous.figures.revolutions import branch
+from pontryagin.rendezvous.figures.series import drift
+from pontryagin.rendezvous.meetings import false_family
+
+solved = figures.solved
+
+
+def space() -> Extremal:
+    return solved("mixed-bounded")
+
+
+class TestPaths:
+    def test_the_way_starts_at_the_craft_and_ends_at_the_target(self):
+        problem = space().problem
+        times, places, thrust = paths.flown(problem, space().flight, 50)
+        assert_allclose(places[0], [1, 0, 0], atol=1e-14)
+        assert_allclose(places[-1], paths.target_at(problem, space().duration), atol=1e-10)
+        assert times[-1] == pytest.approx(space().duration)
+        assert_allclose(np.linalg.norm(thrust, axis=1), np.linalg.norm(space().control(times), axis=1))
+
+    def test_the_way_obeys_newton_s_law(self):
+        """Second differences of the places are gravity and the thrust."""
+        times, places, thrust = paths.flown(space().problem, space().flight, 4001)
+        step = times[1] - times[0]
+        pull = -places / np.linalg.norm(places, axis=1, keepdims=True) ** 3
+        bent = (places[2:] - 2 * places[1:-1] + places[:-2]) / step**2
+        assert np.abs(bent - (pull + thrust)[1:-1]).max() < 1e-4
+
+    def test_both_orbits_are_ellipses_about_the_centre(self):
+        problem = Rendezvous(
+            Chaser(1.0, 0.2, 1.05, [0.6, 0, 0.8, 0]),
+            Orbit.from_angles(1.5, 0.3, 0.4, 0.7, 0.2, 0.6),
+            peak=0.1,
+        )
+        for points, size in (
+            (paths.first_orbit(problem), 1 / (2 - 0.2**2 - 1.05**2)),
+            (paths.target_orbit(problem), 1.5 / (1 - 0.3**2)),
+        ):
+            r = np.linalg.norm(points, axis=1)
+            assert r.min() + r.max() == pytest.approx(2 * size, rel=1e-3)
+        assert_allclose(paths.target_orbit(problem)[0], paths.target_orbit(problem)[-1], atol=1e-12)
+        gap = np.linalg.norm(paths.target_orbit(problem) - paths.target_at(problem, 3.0), axis=1)
+        assert gap.min() < 0.03
+
+
+class TestSeries:
+    def test_the_lines_are_the_thrust_and_the_costates(self):
+        axes = figures.series(space()).axes
+        times = axes[0].lines[0].get_xdata()
+        drawn = np.array([line.get_ydata() for line in axes[0].lines]).T
+        assert_allclose(drawn, space().control(times), atol=1e-12)
+        size = axes[1].lines[0].get_ydata()
+        assert_allclose(size, np.linalg.norm(drawn, axis=1))
+        assert size.max() == pytest.approx(0.08) and axes[1].lines[1].get_ydata()[0] == 0.08
+        units = space().problem.scaled.costate_units
+        shown = np.array([line.get_ydata() for ax in axes[4:] for line in ax.lines]).T
+        assert_allclose(shown * units, space().costate(times), atol=1e-12)
+
+    def test_the_switch_is_where_n_meets_its_line(self):
+        axes = figures.series(space()).axes
+        curve, line = axes[2].lines[0], axes[2].lines[1].get_ydata()[0]
+        switch = np.interp(space().switch_times[0], curve.get_xdata(), curve.get_ydata())
+        assert switch == pytest.approx(line, rel=1e-3)
+        assert [patch.get_x() for patch in axes[0].patches] == [0.0]
+        assert axes[0].patches[0].get_width() == pytest.approx(space().switch_times[0])
+
+    def test_h_does_not_drift(self):
+        flight = space().flight
+        times = np.linspace(0, flight.duration, 101)
+        assert np.abs(drift(space(), times, flight.sample(times))).max() < 1e-12
+        fixed = solved("circle-energy")
+        times = np.linspace(0, fixed.flight.duration, 101)
+        assert np.abs(drift(fixed, times, fixed.flight.sample(times))).max() < 1e-12
+
+    def test_units_are_those_of_the_trade(self):
+        own = labels.units(case("mars").problem)
+        assert own.time == DAY and own.axis("$t$", "time") == "$t$ [d]"
+        assert labels.units(case("glonass").problem).axis("$x$", "length") == "$x$ [$10^3$ km]"
+        assert labels.units(case("mixed").problem).axis("$t$", "time") == "$t$"
+
+
+class TestSpace:
+    def test_the_line_ends_at_the_star(self):
+        ax = figures.orbit(space()).axes[0]
+        way = next(line for line in ax.lines if line.get_label() == "the way of the craft")
+        star = next(line for line in ax.lines if line.get_label() == "meeting")
+        assert_allclose(np.array(way.get_data_3d())[:, -1], np.ravel(star.get_data_3d()))
+        there = paths.target_at(space().problem, space().duration)
+        assert_allclose(np.ravel(star.get_data_3d()), there, atol=1e-10)
+
+    def test_there_is_a_panel_for_each_case(self):
+        found = {"one": space(), "two": solved("circle-energy")}
+        assert [ax.get_title() for ax in figures.trajectories(found).axes] == ["one", "two"]
+
+
+class TestFalse:
+    family = staticmethod(functools.cache(lambda: false_family(solved("ellipse-mixed"), [0.0, -0.5])))
+
+    def test_the_gap_drawn_is_the_distance_missed(self):
+        for ax, member in zip(figures.false_meetings(self.family()).axes, self.family().members, strict=True):
+            gap = next(line for line in ax.lines if line.get_label() == "missed by").get_xydata()
+            assert np.linalg.norm(gap[1] - gap[0]) == pytest.approx(member.distance, abs=1e-9)
+        assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
+
+    def test_dots_stand_where_the_meeting_is_true(self):
+        axes = figures.missed(self.family()).axes
+        assert axes[1].lines[1].get_xdata() == [0.0]
+        assert_allclose(axes[2].lines[0].get_ydata(), self.family().costs)
+
+    def test_one_singular_value_is_in_the_grey(self):
+        ax = figures.singular_values({"case": solved("ellipse-mixed")}).axes[0]
+        printed, repaired = (np.sort(line.get_xdata()) for line in ax.lines)
+        assert (len(printed), len(repaired)) == (8, 7)
+        assert printed[0] < 1e-15 < 1e-5 < printed[1] and repaired[0] > 1e-5
+
+    def test_the_table_says_what_the_members_are(self):
+        rows = tables.family(self.family())
+        assert rows["turned by [°]"] == ["0", "-29"] and rows["(6) [°]"][1] == "28.6"
+        ranks = tables.ranks({"case": self.family()})
+        assert float(ranks["printed, smallest"][0]) < 1e-15 < float(ranks["repaired, smallest"][0])
+
+
+class TestRevolutions:
+    def test_the_branch_is_level_at_the_extremal_and_its_slope_is_the_end_law(self):
+        """dJ/dt_k = alpha1 - alpha2 p(t_k)^2, against differences along the curve."""
+        best = solved("ellipse-mixed")
+        points = branch(best, 1, (5.0, 17.0), 0.06)
+        assert_allclose(points[0], [best.duration, best.cost], rtol=1e-9)
+        curve = np.polynomial.Polynomial.fit(*points[:5].T, 4).deriv()
+        assert abs(curve(best.duration)) < 1e-6 < abs(curve(points[4, 0]))
+        mirrored = branch(best, -1, (5.0, 17.0), 0.06)
+        assert mirrored[-1, 0] < best.duration < points[-1, 0]
+
+    def test_all_extremals_are_dots(self):
+        best = solved("ellipse-mixed")
+        ax = figures.revolutions({"case": best}).axes[0]
+        dots = [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
+        assert_allclose(dots, [[one.duration, one.cost] for one in [best, *best.others]])
+
+    def test_a_bound_is_refused(self):
+        with pytest.raises(ValueError, match=r"must be of a problem without a bound, got a peak of 0\.08"):
+            branch(space(), 1, (5.0, 15.0), 1.0)
+
+
+def test_the_tables_hold_what_was_solved():
+    found = {name: solved(name) for name in ("mixed-bounded", "ellipse-mixed")}
+    rows = tables.solutions(found)
+    assert rows["arcs"] == ["SU", "U"]
+    assert_allclose([float(value) for value in rows["$J$"]], [one.cost for one in found.values()], rtol=1e-9)
+    assert all(float(value) < 1e-10 for value in rows["residual"])
+    judged = tables.judge(found)
+    assert judged["direct/J − 1, 40"][1].endswith("(another)")
+    assert tables.others(found)["case"].count("ellipse-mixed") == 4
+    assert len(tables.titles()["case"]) == 15
+
+
+def test_a_figure_is_the_same_every_time():
+    assert svg_of(figures.orbit(space())) == svg_of(figures.orbit(space()))
+
+
+def test_a_case_is_solved_once_and_a_name_that_is_none_is_refused():
+    with pytest.raises(ValueError, match="name must be one of"):
+        figures.solved("moon")
+    assert math.isclose(labels.units(case("mixed").problem).length, 1)
