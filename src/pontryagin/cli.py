@@ -25,6 +25,7 @@ COMMANDS = (
     "pontryagin.triple_integrator.command",
     "pontryagin.orbit_correction.command",
     "pontryagin.averaging.command",
+    "pontryagin.rendezvous.command",
 )
 """Modules whose ``solve`` is a problem, a paper a line."""
 

@@ -1,0 +1,134 @@
+"""``pontryagin solve rendezvous``: the report's cases, and any other problem from a file."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from pontryagin import console
+
+Text = str | None
+File = Path | None
+
+
+def solve(
+    case: Annotated[Text, typer.Option(metavar="NAME", help="One of the report's cases.")] = None,
+    file: Annotated[File, typer.Option(metavar="FILE", help="A problem from a JSON file.")] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Print the cases, and solve none.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    samples: Annotated[
+        int, typer.Option(metavar="N", min=0, help="With --json: state, costate, control at N times.")
+    ] = 0,
+    plot: Annotated[
+        File, typer.Option(metavar="FILE", help="Draw orbit, thrust, |n| and H: .svg, .pdf, .png.")
+    ] = None,
+    record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
+) -> None:
+    """Meet a target on a Kepler orbit under low thrust, at the least price of time and thrust.
+
+    The best extremal found is printed with its certificate and with the others; what was searched is told.
+
+    A file for --file is a JSON object like this one; angles are in radians, and a number may be a text such
+    as "20*pi/180":
+
+    \b
+      {"chaser": {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]},
+       "target": {"parameter": 1.5, "eccentricity": 0.1, "anomaly": 0.6,
+                  "node": 0, "inclination": "20*pi/180", "pericentre": 0},
+       "time_weight": 0, "energy_weight": 1, "peak": "inf", "gravity": 1, "duration": 9}
+
+    An orbit may have "attitude", its quaternion with the scalar part first, in place of the three angles; the
+    chaser may be given like the target, and is then on that orbit at its anomaly. Left out, time_weight is 1,
+    energy_weight 0, gravity 1, and duration, or null for it, leaves the time free. What --json prints as the
+    problem is such an object.
+
+    \b
+    Examples:
+      pontryagin solve rendezvous --list
+      pontryagin solve rendezvous --case circle-energy
+      pontryagin solve rendezvous --case circle-energy --json --samples 101
+      pontryagin solve rendezvous --file problem.json --plot thrust.svg --record flight.rrd
+    """
+    if listed:
+        solving = {"--case": case, "--file": file, "--samples": samples, "--plot": plot, "--record": record}
+        console.excluded("--list", solving)
+        _list(json)
+        return
+    console.together({"--samples": samples}, "--json", json)
+    console.file_names(plot, record, "-")
+    problem = _problem(case, file)
+    extremal = _solved(problem, "--case" if file is None else "--file")
+    _files(extremal, plot, record)
+    from pontryagin.rendezvous import transcript
+
+    told = transcript.transcript(extremal)
+    if json:
+        sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
+        typer.echo(console.to_json(told | sampled))
+    else:
+        console.show(_title(problem, case), transcript.shown(told), transcript.conclusion(told))
+
+
+def _list(json: bool) -> None:
+    from pontryagin.rendezvous.cases import cases
+
+    titles = {name: one.title for name, one in cases().items()}
+    if json:
+        typer.echo(console.to_json({"cases": titles}))
+    else:
+        console.show("Cases of the report", {"cases": titles}, "--case NAME solves one of them.")
+
+
+def _problem(case: Text, file: File) -> Any:
+    from pontryagin.rendezvous import asked
+    from pontryagin.rendezvous.cases import cases
+
+    if file is None:
+        if case is None:
+            raise console.Refusal("--case", "is missing, or --file")
+        known = cases()
+        if case not in known:
+            raise console.Refusal("--case", f"takes {', '.join(known)}, got {case!r}")
+        return known[case].problem
+    console.excluded("--file", {"--case": case is not None})
+    with console.reading("--file", file), console.solving({}):
+        return asked.read(file.read_text(encoding="utf-8-sig"))
+
+
+def _solved(problem: Any, option: str) -> Any:
+    from pontryagin.errors import Infeasible, NotConverged
+    from pontryagin.rendezvous.solution import solve as solver
+
+    with console.solving({}):
+        try:
+            extremal = solver(problem)
+        except Infeasible as reason:
+            if problem.free and not problem.time_weight:
+                raise console.Refusal(option, f": {reason}") from reason
+            raise
+        if not extremal.certificate.holds(console.ACCEPTED):
+            raise NotConverged("the certificate does not close", float(extremal.certificate.residual))
+    return extremal
+
+
+def _title(problem: Any, case: Text) -> str:
+    if case is not None:
+        from pontryagin.rendezvous.cases import cases
+
+        return f"Rendezvous {case!r}: {cases()[case].title}"
+    if not problem.energy_weight:
+        return "Rendezvous in the least time"
+    if not problem.time_weight or not problem.free:
+        return f"Rendezvous with the least energy in the time {problem.duration:.6g}"
+    return "Rendezvous at the least price of time and energy"
+
+
+def _files(extremal: Any, plot: File, record: File) -> None:
+    if plot:
+        from pontryagin.rendezvous.profile import profile
+
+        console.save_figure("--plot", plot, profile(extremal))
+    if record:
+        from pontryagin.rendezvous.playback import record_extremal
+
+        console.save_recording("--record", record, lambda path: record_extremal(extremal, path))

@@ -1,0 +1,148 @@
+"""False meetings: extremals that satisfy all that the paper asks of the ten equations, in another place.
+
+(15) compares lambda o nu o lambda~ with lambda* o nu o lambda*~. Turning lambda about nu* changes neither, so
+that a craft whose attitude at the end is lambda* turned about nu* by any angle passes (15), and with (5),
+(16) and (17) everything the ten equations are asked. Here that angle is prescribed: chi at the end is what
+(6) asks for and the angle more. From the true meeting the family is followed to it.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.homotopy import Point, Root, between, follow, scales
+from pontryagin.rendezvous.problem import Rendezvous, number
+from pontryagin.rendezvous.quaternions import about_third, product, rotated
+from pontryagin.rendezvous.shooting import (
+    Equations,
+    Setting,
+    by_goal,
+    end_rates,
+    equations,
+    goal_of,
+    mismatch,
+)
+from pontryagin.rendezvous.solution import Extremal, solve
+
+Array = NDArray[np.float64]
+
+CHI = 10
+"""Place of chi among the twelve states."""
+STEPS = 200
+ITERATIONS = 8
+
+
+def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = None) -> Extremal:
+    """The extremal that ends with the attitude lambda* turned about nu* by an angle.
+
+    Its certificate says what it is: ``boundary``, ``transversality``, ``hamiltonian`` and ``maximality`` are
+    as small as those of a meeting, ``attitude`` and ``cartesian`` are not.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        What is to be met.
+    angle : float
+        In radians, about the direction of nu*; 0 gives the true meeting.
+    true : Extremal, optional
+        A true meeting of the problem, from which the family is followed; `solve` by default.
+
+    Raises
+    ------
+    NotConverged
+        Where the family turns back before it reaches the angle.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6),
+    ...                   time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
+    >>> misled = false_meeting(leap, math.pi / 6)
+    >>> paper_residual(misled) < 1e-11, distance(misled) > 0.5
+    (True, True)
+    """
+    wanted = number("angle", angle)
+    meeting = solve(problem) if true is None else true
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+
+    def family(unknowns: Array, turn: float) -> tuple[Equations, Array]:
+        return turned_equations(setting, unknowns, turn)
+
+    last: Point | None = None
+    for point in follow(family, meeting.root.unknowns, 0.0, wanted, steps=STEPS):
+        if last is not None and (point.parameter - wanted) * (last.parameter - wanted) <= 0:
+            return Extremal(problem, _newton(setting, between(last, point, wanted), wanted))
+        if wanted == 0:
+            return Extremal(problem, _newton(setting, point.unknowns, wanted))
+        if point.parameter * wanted < 0:
+            break
+        last = point
+    reached = 0.0 if last is None else last.parameter
+    raise NotConverged(f"the family of false meetings went to {reached:.3g} rad only", abs(wanted - reached))
+
+
+def turned_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[Equations, Array]:
+    """`shooting.equations` towards lambda* turned about nu* by an angle, and their slope in the angle."""
+    whole = equations(setting, unknowns)
+    flight = whole.flight
+    shift = np.zeros(len(flight.end))
+    shift[CHI] = flight.chart
+    goal, moving = goal_of(setting, float(flight.end[3]))
+    turned = replace(flight, end=flight.end - angle * shift)
+    values, by_state, by_start = mismatch(turned, goal)
+    columns = by_state @ flight.slopes
+    columns[:, 3:6] += by_start
+    jacobian, residual = whole.jacobian.copy(), whole.residual.copy()
+    jacobian[:6, :6], residual[:6] = columns[:, :6], values
+    if setting.free:
+        jacobian[:6, 6] = by_state @ end_rates(flight) + by_goal(turned, goal, moving)
+    by_angle = np.zeros(len(residual))
+    by_angle[:6] = -by_state @ shift
+    return replace(whole, jacobian=jacobian, residual=residual), by_angle
+
+
+def _newton(setting: Setting, unknowns: Array, angle: float) -> Root:
+    """Newton's method from the point of the family beside it; the iterate with the smallest residual."""
+    best: Root | None = None
+    for _ in range(ITERATIONS):
+        here, _ = turned_equations(setting, unknowns, angle)
+        step = np.linalg.solve(here.jacobian, -here.residual)
+        correction = float(np.abs(step / scales(unknowns)).max())
+        root = Root(unknowns, here, correction)
+        if best is not None and root.residual >= best.residual:
+            break
+        best, unknowns = root, unknowns + step
+    if best is None or not best.residual < 1e-9:
+        raise NotConverged("no false meeting was reached", math.inf if best is None else best.residual)
+    return best
+
+
+def paper_residual(extremal: Extremal) -> float:
+    """The largest of what (5), (15), (16) and (17) leave, in the units of the certificate."""
+    flight, proof = extremal.flight, extremal.certificate
+    parts = (proof.boundary, proof.transversality, proof.hamiltonian)
+    return max(invariant_residual(flight), *(float(part) for part in parts))
+
+
+def invariant_residual(flight: Flight) -> float:
+    """What (15) leaves: lambda* o nu o lambda*~ at the end less nu*, relative to |nu*|."""
+    there = flight.scaled.target(float(flight.end[3]))[0][3:]
+    constant = flight.costates[3:]
+    return float(np.abs(rotated(flight.end[7:10], there) - constant).max() / np.linalg.norm(constant))
+
+
+def distance(extremal: Extremal) -> float:
+    """How far craft and target are from each other at the end, in the user's unit of length."""
+    problem = extremal.problem
+    end = extremal.state([extremal.duration])[0]
+    craft = rotated(np.array([end[0], 0.0, 0.0]), end[4:])
+    orbit = problem.target
+    attitude = product(orbit.attitude, about_third(end[3]))
+    radius = orbit.parameter / (1 + orbit.eccentricity * math.cos(end[3]))
+    return float(np.linalg.norm(craft - rotated(np.array([radius, 0.0, 0.0]), attitude)))

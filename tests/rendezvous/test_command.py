@@ -1,0 +1,375 @@
+"""The command line: what it prints is what the solver found, and every mistake is one line."""
+
+import json
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from pontryagin.cli import app
+from pontryagin.files import repository
+from pontryagin.recording import read_back
+from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, asked, solve, transcript
+from pontryagin.rendezvous.cases import cases, chaser_on
+from pontryagin.rendezvous.homotopy import Root
+from pontryagin.rendezvous.search import Search
+from pontryagin.rendezvous.shooting import Setting, equations
+
+CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}
+TARGET = {"parameter": 1.5, "eccentricity": 0.1, "anomaly": 0.6, "attitude": [1, 0, 0, 0]}
+TILTED = {
+    "parameter": "3/2",
+    "eccentricity": 0.1,
+    "anomaly": 0.6,
+    "node": 0,
+    "inclination": "pi/9",
+    "pericentre": -0.3,
+}
+LEAP = {"chaser": CRAFT, "target": TARGET, "time_weight": 0, "energy_weight": 1, "peak": "inf", "duration": 6}
+
+
+def run(*arguments):
+    arguments = ["solve", "rendezvous", *(str(argument) for argument in arguments)]
+    return CliRunner().invoke(app, arguments, catch_exceptions=False)
+
+
+def assert_refused(result, begins, status=2):
+    assert (result.exit_code, result.stdout) == (status, "")
+    assert result.stderr.startswith(f"Error: {begins}"), result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(problem, name="problem.json"):
+        path = tmp_path / name
+        path.write_text(problem if isinstance(problem, str) else json.dumps(problem))
+        return path
+
+    return written
+
+
+@pytest.fixture(scope="module")
+def leap():
+    target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
+    return solve(Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0))
+
+
+class TestAnswers:
+    def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(self, write, leap):
+        result = run("--file", write(LEAP), "--json", "--samples", "5")
+        assert (result.exit_code, result.stderr) == (0, "")
+        told = json.loads(result.stdout)
+        assert told["solution"]["duration"] == leap.duration == 6.0
+        assert told["solution"]["cost"] == leap.cost
+        assert told["solution"]["arrival_anomaly"] == leap.arrival_anomaly
+        assert told["solution"]["revolutions"] == leap.revolutions
+        assert told["solution"]["initial_costate"] == leap.initial_costate.tolist()
+        assert told["solution"]["arcs"] == ["unsaturated"] and told["solution"]["switch_times"] == []
+        for name, value in told["certificate"].items():
+            assert value == float(getattr(leap.certificate, name)), name
+        assert told["certificate"]["residual"] < 1e-10
+        assert told["others"]["cost"] == [other.cost for other in leap.others]
+        assert told["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
+        assert told["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
+        t = np.linspace(0, 6, 5)
+        assert told["samples"]["t"] == t.tolist()
+        for name in ("state", "costate", "control"):
+            assert told["samples"][name] == getattr(leap, name)(t).tolist(), name
+        end, start = told["samples"]["state"][-1], told["samples"]["state"][0]
+        assert start[:4] == pytest.approx([1, 0, 1, 0.6], abs=1e-14)
+        assert end[0] == pytest.approx(1.5 / (1 + 0.1 * math.cos(end[3])), abs=1e-12)
+
+    def test_the_problem_that_json_tells_is_a_file_for_the_command(self, leap):
+        told = asked.written(leap.problem)
+        again = asked.read(json.dumps(told))
+        assert asked.written(again) == told
+        assert again.peak == math.inf and again.duration == 6.0
+
+    def test_the_table_tells_the_times_the_cost_the_arcs_and_what_was_searched(self, write, leap):
+        path = write(LEAP | {"peak": 0.5})
+        result = run("--file", path)
+        assert result.exit_code == 0, result.stderr
+        shown = result.stdout
+        assert "Rendezvous with the least energy in the time 6" in shown
+        for heading in ("problem", "solution", "certificate", "others found", "searched"):
+            assert re.search(rf"^ {heading} *$", shown, re.MULTILINE), heading
+        assert re.search(r"^ +duration +6 *$", shown, re.MULTILINE)
+        assert re.search(rf"^ +cost +{leap.cost:.10g}"[:-1], shown, re.MULTILINE)
+        assert re.search(r"^ +arcs +unsaturated *$", shown, re.MULTILINE)
+        assert re.search(r"^ +from durations +6 *$", shown, re.MULTILINE)
+        assert "that none costs less elsewhere is not claimed" in " ".join(shown.split())
+
+    def test_the_others_found_are_a_line_each_and_the_rest_is_counted(self):
+        told = {
+            "problem": {"duration": None},
+            "others": {
+                "count": 8,
+                "cost": list(range(1, 9)),
+                "duration": [2.5] * 8,
+                "revolutions": [0.5] * 8,
+            },
+        }
+        lines = transcript.shown(told)["others found"]
+        assert list(lines) == ["2", "3", "4", "5", "6", "7", "further"]
+        assert lines["2"] == "cost 1, time 2.5, 0.50 revolutions"
+        assert lines["further"] == "2, up to the cost 8"
+        assert transcript.shown(told)["problem"]["duration"] == "free"
+
+    def test_files_are_drawn_and_recorded(self, write, tmp_path, leap, monkeypatch):
+        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", lambda problem: leap)
+        files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
+        result = run("--file", write(LEAP), *files)
+        assert result.exit_code == 0, result.stderr
+        assert result.stderr == f"wrote {tmp_path / 'a.png'}\nwrote {tmp_path / 'a.rrd'}\n"
+        assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+        held = read_back(tmp_path / "a.rrd")
+        t = held["/thrust/p1"]["time"]
+        assert held["/thrust/p1"]["scalars"] == pytest.approx(leap.control(np.clip(t, 0, 6))[:, 0], abs=1e-8)
+
+    def test_every_case_is_listed(self):
+        shown = run("--list").stdout
+        for name, case in cases().items():
+            assert re.search(rf"^ +{name} +{re.escape(case.title[:30])}", shown, re.MULTILINE), name
+        told = json.loads(run("--list", "--json").stdout)
+        assert told == {"cases": {name: case.title for name, case in cases().items()}}
+
+    def test_a_case_is_the_problem_of_that_name(self, monkeypatch):
+        """The solver is left out: what it is asked is what counts."""
+
+        class Reached(Exception):
+            pass
+
+        def reached(problem):
+            raise Reached(problem)
+
+        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", reached)
+        for name in ("mars", "mixed-bounded"):
+            with pytest.raises(Reached) as asked_for:
+                run("--case", name)
+            assert asked.written(asked_for.value.args[0]) == asked.written(cases()[name].problem)
+
+
+class TestFiles:
+    def read(self, **changes):
+        return asked.read(json.dumps(LEAP | changes))
+
+    def test_what_is_left_out_has_the_values_told(self):
+        problem = asked.read(json.dumps({"chaser": CRAFT, "target": TARGET, "peak": 0.1}))
+        assert (problem.time_weight, problem.energy_weight, problem.gravity) == (1.0, 0.0, 1.0)
+        assert problem.duration is None and self.read(duration=None, time_weight=1).duration is None
+
+    def test_angles_stand_for_the_attitude_and_texts_for_numbers(self):
+        target = self.read(target=TILTED).target
+        known = Orbit.from_angles(1.5, 0.1, 0.0, math.pi / 9, -0.3, 0.6)
+        assert target.parameter == 1.5 and np.array_equal(target.attitude, known.attitude)
+
+    @pytest.mark.parametrize("orbit", [TARGET, TILTED])
+    def test_the_chaser_may_be_on_an_orbit(self, orbit):
+        """It is then where the target of that orbit is, and moves as it does: by Newton's law of areas."""
+        craft = self.read(chaser=orbit, gravity=4).chaser
+        place = self.read(target=orbit).target
+        assert craft.c == pytest.approx(math.sqrt(4 * 1.5), rel=1e-15)
+        assert craft.r == pytest.approx(1.5 / (1 + 0.1 * math.cos(0.6)), rel=1e-15)
+        energy = (craft.v1**2 + (craft.c / craft.r) ** 2) / 2 - 4 / craft.r
+        assert energy == pytest.approx(-4 * (1 - 0.1**2) / (2 * 1.5), rel=1e-14) and craft.v1 > 0
+        assert np.allclose(craft.attitude, chaser_on(place, 4.0).attitude)
+
+    @pytest.mark.parametrize("name", list(cases()))
+    def test_every_case_survives_the_way_through_a_file(self, name):
+        problem = cases()[name].problem
+        again = asked.read(json.dumps(asked.written(problem)))
+        told, known = asked.written(again), asked.written(problem)
+        for part in ("chaser", "target"):
+            assert told[part].keys() == known[part].keys()
+            for key, value in known[part].items():
+                assert told[part][key] == pytest.approx(value, rel=1e-15, abs=1e-16), (part, key)
+        assert {key: told[key] for key in asked.OPTIONAL} == {key: known[key] for key in asked.OPTIONAL}
+
+
+BAD = {
+    "non-unit attitude": (
+        {"chaser": CRAFT | {"attitude": [1, 0, 0, 0.1]}},
+        "chaser.attitude must be a unit quaternion, got one of length 1.00498756211",
+    ),
+    "non-unit orbit": (
+        {"target": TARGET | {"attitude": [0.5, 0, 0, 0]}},
+        "target.attitude must be a unit quaternion, got one of length 0.5",
+    ),
+    "three numbers": (
+        {"chaser": CRAFT | {"attitude": [1, 0, 0]}},
+        "chaser.attitude takes four numbers, scalar part first, got [1, 0, 0]",
+    ),
+    "a word in a quaternion": (
+        {"target": TARGET | {"attitude": [1, "up", 0, 0]}},
+        'target.attitude[1] takes a number, got "up"',
+    ),
+    "target on a parabola": (
+        {"target": TARGET | {"eccentricity": 1}},
+        "target.eccentricity must be less than 1: the target goes round, got 1",
+    ),
+    "e* below 0": ({"target": TILTED | {"eccentricity": -0.1}}, "target.eccentricity must be at least 0"),
+    "p* = 0": ({"target": TARGET | {"parameter": 0}}, "target.parameter must be greater than 0, got 0.0"),
+    "craft on a hyperbola": (
+        {"chaser": TILTED | {"eccentricity": 1.2}},
+        "chaser.eccentricity must be less than 1: the craft starts on an ellipse, got 1.2",
+    ),
+    "hyperbolic start": (
+        {"chaser": CRAFT | {"v1": 1.5}},
+        "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, got 0.625",
+    ),
+    "r = 0": ({"chaser": CRAFT | {"r": 0}}, "chaser.r must be greater than 0, got 0.0"),
+    "c < 0": ({"chaser": CRAFT | {"c": -1}}, "chaser.c must be greater than 0, got -1.0"),
+    "peak 0": ({"peak": 0}, "peak must be greater than 0, got 0.0"),
+    "peak below 0": ({"peak": -0.1}, "peak must be greater than 0, got -0.1"),
+    "peak null": ({"peak": None}, 'peak takes a number, or "inf" for no bound, got null'),
+    "no bound in the least time": (
+        {"time_weight": 1, "energy_weight": 0, "duration": None},
+        "peak must be finite where energy_weight is 0, got inf",
+    ),
+    "no weights": (
+        {"energy_weight": 0},
+        "time_weight and energy_weight must not both be 0: nothing would be minimised",
+    ),
+    "weight below 0": ({"time_weight": -1}, "time_weight must be at least 0, got -1.0"),
+    "weight null": ({"energy_weight": None}, "energy_weight takes a number, got null"),
+    "nothing asked of a fixed time": (
+        {"time_weight": 1, "energy_weight": 0, "peak": 0.1},
+        "duration must be left free where energy_weight is 0, got 6",
+    ),
+    "energy alone in free time": (
+        {"duration": None},
+        " time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2",
+    ),
+    "duration 0": ({"duration": 0}, "duration must be greater than 0, got 0.0"),
+    "gravity below 0": ({"gravity": -1}, "gravity must be greater than 0, got -1.0"),
+    "nan": ({"chaser": CRAFT | {"r": math.nan}}, "chaser.r must be a number and finite, got nan"),
+    "nan peak": ({"peak": math.nan}, "peak must be a number and finite, got nan"),
+    "infinite": ({"target": TARGET | {"anomaly": math.inf}}, "target.anomaly must be a number and finite"),
+    "nan as a text": ({"gravity": "nan"}, 'gravity takes a number, got "nan"'),
+    "code": ({"peak": "__import__('os')"}, 'peak takes a number, or "inf" for no bound, got "__import__'),
+    "true": ({"peak": True}, 'peak takes a number, or "inf" for no bound, got true'),
+    "too large": ({"peak": 10**400}, 'peak takes a number, or "inf" for no bound, got 1000'),
+    "unknown key": ({"mass": 1}, "mass is unknown here: takes chaser, target, peak, time_weight"),
+    "unknown key inside": (
+        {"target": TARGET | {"e": 0}},
+        "target.e is unknown here: takes parameter, eccentricity, anomaly, attitude",
+    ),
+    "attitude and angles": (
+        {"target": TARGET | TILTED},
+        "target.attitude is unknown here: takes parameter, eccentricity, anomaly, node, inclination, peri",
+    ),
+    "an angle missing": (
+        {"target": {key: TILTED[key] for key in TILTED if key != "node"}},
+        "target.node is missing",
+    ),
+    "a state missing": ({"chaser": {"r": 1}}, "chaser.v1 is missing"),
+    "no object": (
+        {"target": [1.5, 0.1]},
+        "target takes an object with parameter, eccentricity, anomaly, ",
+    ),
+}
+TEXTS = {
+    "empty": ("", "line 1, column 1: Expecting value"),
+    "broken": ('{"chaser": {\n "r": 1,,', "line 2, column 9: Expecting property name"),
+    "a number": ("1", "the text takes an object with chaser, target, peak, time_weight"),
+    "no target": (json.dumps({"chaser": CRAFT, "peak": 1}), "target is missing"),
+    "no peak": (json.dumps({"chaser": CRAFT, "target": TARGET}), "peak is missing"),
+    "twice": ('{"peak": 1, "peak": 2}', "peak is there twice"),
+    "deep": ("[" * 100_000, "the objects are nested too deeply"),
+}
+
+
+class TestMistakes:
+    @pytest.mark.parametrize("name", BAD)
+    def test_a_bad_value_is_named_by_its_key(self, write, name):
+        changes, begins = BAD[name]
+        path = write(LEAP | changes)
+        told = f"--file:{begins}" if begins.startswith(" ") else f"--file: {path}, {begins}"
+        assert_refused(run("--file", path), told)
+
+    @pytest.mark.parametrize("name", TEXTS)
+    def test_a_bad_text_is_named(self, write, name):
+        text, begins = TEXTS[name]
+        path = write(text)
+        assert_refused(run("--file", path), f"--file: {path}, {begins}")
+
+    def test_a_file_that_cannot_be_read_is_named(self, tmp_path):
+        assert_refused(run("--file", tmp_path / "none.json"), f"--file cannot read {tmp_path / 'none.json'}")
+        assert_refused(run("--file", tmp_path), f"--file cannot read {tmp_path}")
+        (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\x00")
+        assert_refused(run("--file", tmp_path / "bytes.json"), f"--file: {tmp_path / 'bytes.json'}, ")
+
+    @pytest.mark.parametrize(
+        ("arguments", "begins"),
+        [
+            ([], "--case is missing, or --file"),
+            (["--case", "moon"], "--case takes circle, circle-energy, ellipse, "),
+            (["--case", "mars", "--file", "a.json"], "--case does not go with --file"),
+            (["--case", ""], "--case takes circle, "),
+            (["--case", "mars", "--samples", "3"], "--samples goes with --json only"),
+            (["--case", "mars", "--plot", "a.gif"], "--plot takes a file name ending"),
+            (["--case", "mars", "--record", "a.mp4"], "--record takes a file name ending"),
+            (["--list", "--case", "mars"], "--case does not go with --list"),
+            (["--list", "--plot", "a.svg"], "--plot does not go with --list"),
+            (["--case", "mars", "--json", "--samples", "-1"], "Invalid value for '--samples'"),
+            (["--peak", "1"], "No such option: --peak"),
+        ],
+    )
+    def test_what_was_typed_wrong_is_named_in_one_line(self, arguments, begins):
+        assert_refused(run(*arguments), begins)
+
+    def test_numbers_that_overflow_exit_with_1_and_a_line(self, write):
+        path = write(LEAP | {"chaser": CRAFT | {"c": 1e200}})
+        assert_refused(run("--file", path), "the numbers overflow", status=1)
+
+    def test_a_bound_too_small_for_the_time_exits_with_1_and_the_reason(self, write):
+        path = write(LEAP | {"peak": 0.02})
+        assert_refused(run("--file", path), "no extremal of this duration stays within the peak", status=1)
+
+    def test_an_answer_that_does_not_close_is_not_handed_out(self, write, leap, monkeypatch):
+        """A start that is off by 1e-4 is flown to another place."""
+        scaled = leap.problem.scaled
+        setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+        moved = leap.root.unknowns + 1e-4
+        wrong = replace(leap, root=Root(moved, equations(setting, moved), 0.0), searched=Search())
+        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", lambda problem: wrong)
+        assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
+
+
+def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
+    monkeypatch.chdir(tmp_path)
+    shown = run("--help").stdout
+    block = re.search(r"^ +(\{\"chaser\".*?\})\n\n", shown, re.DOTALL | re.MULTILINE)
+    assert block is not None
+    problem = asked.read(block[1])
+    assert problem.duration == 9.0 and problem.peak == math.inf
+    tilted = Orbit.from_angles(1.5, 0.1, 0.0, 20 * math.pi / 180, 0.0, 0.6)
+    assert np.array_equal(problem.target.attitude, tilted.attitude)
+    write(block[1])
+    solved = []
+
+    def known(given):
+        solved.append(given)
+        return leap
+
+    monkeypatch.setattr("pontryagin.rendezvous.solution.solve", known)
+    examples = re.findall(r"^ +pontryagin (.*)$", shown, re.MULTILINE)
+    assert len(examples) == 4
+    for example in examples:
+        assert CliRunner().invoke(app, example).exit_code == 0, example
+    assert [asked.written(given)["duration"] for given in solved] == [8.0, 8.0, 9.0]
+
+
+def test_the_file_in_the_readme_is_a_problem():
+    block = re.search(r"```json\n(.*?)```", (repository() / "README.md").read_text(), re.DOTALL)
+    assert block is not None
+    problem = asked.read(block[1])
+    known = cases()["mixed-bounded"].problem
+    assert asked.written(problem)["chaser"] == asked.written(known)["chaser"]
+    assert problem.target.attitude == pytest.approx(known.target.attitude, abs=1e-15)
+    assert (problem.peak, problem.duration, problem.time_weight) == (0.08, None, 0.0036)

@@ -1,0 +1,112 @@
+"""False meetings: all that is printed holds, and the attitude is off by the angle that was asked for."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+from pontryagin.rendezvous.homotopy import newton
+from pontryagin.rendezvous.misled import distance, false_meeting, paper_residual, turned_equations
+from pontryagin.rendezvous.quaternions import about_third, conjugate, product
+from pontryagin.rendezvous.shooting import Setting, equations
+from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.start import cold_start
+
+CRAFT = Chaser(1.0, 0.0, 1.0, [math.cos(0.2), 0.0, math.sin(0.2), 0.0])
+
+
+def meeting(degrees, duration=6.0):
+    """A true meeting in fixed time, in one plane where the inclination is 0."""
+    seen = Orbit.from_angles(1.5, 0.1, 0.3, math.radians(degrees), 0.0, 0.6)
+    target = Orbit(1.5, 0.1, product(CRAFT.attitude, seen.attitude), 0.3)
+    problem = Rendezvous(CRAFT, target, time_weight=0, energy_weight=1, peak=math.inf, duration=duration)
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    return Extremal(problem, cold_start(setting))
+
+
+@pytest.fixture(scope="module", params=[0, 20])
+def true(request):
+    return meeting(request.param)
+
+
+def turn_of(extremal):
+    """The craft's attitude at the end o the target's inverse, in inertial axes, by the states told."""
+    end = extremal.state([extremal.duration])[0]
+    target = product(extremal.problem.target.attitude, about_third(end[3]))
+    whole = product(end[4:], conjugate(target))
+    return whole if whole[0] >= 0 else -whole
+
+
+@pytest.mark.parametrize("degrees", [0.0, 15.0, 40.0])
+def test_the_end_is_the_target_s_attitude_turned_about_nu_star(true, degrees):
+    found = false_meeting(true.problem, math.radians(degrees), true)
+    assert paper_residual(found) < 1e-10
+    assert found.certificate.maximality < 1e-10 and found.certificate.agreement < 1e-10
+    turn = turn_of(found)
+    angle = 2 * math.atan2(np.linalg.norm(turn[1:]), turn[0])
+    assert angle == pytest.approx(math.radians(degrees), abs=1e-10)
+    assert found.certificate.holds(1e-10) == (degrees == 0)
+    if degrees:
+        nu = np.concatenate([[0.0], found.initial_costate[3:]])
+        axis = product(product(CRAFT.attitude, nu), conjugate(CRAFT.attitude))[1:]
+        assert turn[1:] / np.linalg.norm(turn[1:]) == pytest.approx(axis / np.linalg.norm(axis), abs=1e-10)
+
+
+def test_the_gap_is_that_of_newton_s_law(true):
+    """The certificate compares with Kepler's equation; the largest coordinate is within the distance."""
+    found = false_meeting(true.problem, math.radians(30), true)
+    assert distance(true) < 1e-10
+    gap = distance(found) / true.problem.scaled.length
+    assert 0.1 < gap < 2 * math.sin(math.radians(15)) * 1.5
+    assert found.certificate.cartesian > gap / 4
+
+
+@pytest.mark.parametrize("free", [True, False])
+def test_the_derivatives_are_those_of_the_turned_equations(free):
+    extremal = meeting(20)
+    scaled, h = extremal.problem.scaled, 1e-6
+    setting = Setting(scaled, 0.004 if free else 0.0, math.inf, duration=None if free else scaled.duration)
+    point = extremal.root.unknowns
+    point = np.append(point, extremal.flight.duration) if free else point
+    exact, by_angle = turned_equations(setting, point, 0.3)
+
+    def residual(unknowns, angle=0.3):
+        return turned_equations(setting, unknowns, angle)[0].residual
+
+    steps = h * np.eye(len(point))
+    columns = [(residual(point + step) - residual(point - step)) / (2 * h) for step in steps]
+    assert np.allclose(np.array(columns).T, exact.jacobian, rtol=1e-5, atol=1e-6)
+    slope = (residual(point, 0.3 + h) - residual(point, 0.3 - h)) / (2 * h)
+    assert np.allclose(slope, by_angle, atol=1e-8)
+    untouched = turned_equations(setting, point, 0.0)[0]
+    assert np.array_equal(untouched.residual, equations(setting, point).residual)
+
+
+def test_a_false_meeting_may_cost_less_than_the_optimum():
+    """What (15) lets through is judged by its cost as if it were a meeting."""
+    true = meeting(20)
+    found = false_meeting(true.problem, math.radians(-20), true)
+    assert paper_residual(found) < 1e-10 and distance(found) > 0.3
+    assert found.cost < true.cost
+
+
+def test_a_family_that_turns_back_says_how_far_it_went():
+    with pytest.raises(NotConverged, match=r"the family of false meetings went to -?\d"):
+        true = meeting(20)
+        false_meeting(true.problem, math.radians(-170), true)
+
+
+def test_an_angle_that_is_none_is_refused(true):
+    with pytest.raises(ValueError, match=r"^angle must be a number and finite, got nan"):
+        false_meeting(true.problem, math.nan, true)
+
+
+def test_newton_s_method_from_a_false_meeting_goes_back_to_a_true_one(true):
+    """The condition that was missing tells them apart."""
+    found = false_meeting(true.problem, math.radians(5), true)
+    scaled = true.problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    assert Extremal(true.problem, newton(setting, found.root.unknowns)).certificate.holds(1e-10)
