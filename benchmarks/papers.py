@@ -10,6 +10,8 @@ from matplotlib.figure import Figure
 PAPERS = {
     "triple-integrator": "Turns about one axis (Gorelov & Morozova 2012)",
     "orbit-correction": "Orbit correction with the fewest impulses (Ibragimov 2017)",
+    "averaging": "Averaging of nonlinear oscillations (Akulenko 1977)",
+    "rendezvous": "Low-thrust rendezvous (Pimkina & Chelnokov; Sapunkov)",
 }
 """Title of each paper's section, by its name on the command line and in figures/benchmarks."""
 

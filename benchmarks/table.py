@@ -43,7 +43,7 @@ def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 def machine() -> dict[str, str]:
     """What the numbers depend on: processor, interpreter and versions."""
-    packages = ("numpy", "numba", *PEERS)
+    packages = ("numpy", "numba", "heyoka", *PEERS)
     return {
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
         "threads": "1",

@@ -1,0 +1,200 @@
+"""The exact canonical equations by heyoka, DOP853 and LSODA, at one tolerance from the same expressions.
+
+Each follows the best extremal of an example from its start to its end, the anomaly being the clock. SciPy's
+integrators call the equations compiled by Numba; what they share is evaluated once. With sensitivities the
+variational equations in the initial costates are integrated along, their right-hand side the Jacobian times
+the matrix. The reference is heyoka's in long double, or DOP853's at its finest where there is none.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from scipy.integrate import odeint, solve_ivp
+
+from benchmarks.averaging.enumeration import shot
+from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
+from benchmarks.clock import Timing, take_turns
+from pontryagin import compile as compiler
+from pontryagin.averaging.canonical import Canonical, y
+from pontryagin.flow import compact, ends, has_heyoka, heyoka_system
+
+TOLERANCE = 1e-12
+EPSILON = 0.01
+MANY = 64
+"""Trajectories that are carried side by side."""
+STEPS = 1_000_000
+
+Array = NDArray[np.float64]
+OURS, TOGETHER = "heyoka, one trajectory", f"heyoka, of {MANY} trajectories"
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """The best extremal of an example: equations, start, and the anomalies where it begins and ends."""
+
+    equations: Canonical
+    start: Array
+    begin: float
+    end: float
+    parameters: Array
+
+    @property
+    def wrt(self) -> tuple[sp.Symbol, ...]:
+        """What sensitivities are taken in: the costates at the start."""
+        return (*self.equations.costates, y)
+
+    def with_sensitivities(self) -> Array:
+        """The start, followed by the rows of the sensitivities' initial matrix."""
+        identity = np.array([[float(x == w) for w in self.wrt] for x in self.equations.states])
+        return np.concatenate([self.start, identity.ravel()])
+
+
+def trajectory(name: str, epsilon: float) -> Trajectory:
+    """The best extremal of an example at an epsilon."""
+    solution = EXAMPLES[name].one()
+    found = solution.exact(epsilon)
+    problem, theta, unknowns = shot(solution, found)
+    start = problem.starts(unknowns)[0]
+    return Trajectory(problem.equations, start, problem.anomaly, float(theta[0]), problem.parameters)
+
+
+def scalar_rates(path: Trajectory, sensitivities: bool) -> Callable[[float, Array], Array]:
+    """The right-hand side as a function of floats compiled by Numba, the same expressions as heyoka's."""
+    from numba import njit
+
+    equations = path.equations
+    jacobian = sp.Matrix(equations.rates).jacobian(equations.states) if sensitivities else sp.Matrix()
+    names = [sp.Symbol(f"s{i}", real=True) for i in range(1 + len(equations.states) + len(path.parameters))]
+    known = dict(zip((equations.anomaly, *equations.states, *equations.parameters), names, strict=True))
+    flat = [e.xreplace(known) for e in (*equations.rates, *jacobian)]
+    outputs = {f"out{i}": e for i, e in enumerate(flat)}
+    scope: dict = {}
+    text = "from math import *\n" + compiler.source("kernel", names, outputs, "Rates, then their Jacobian.")
+    exec(text, scope)
+    kernel = njit(scope["kernel"], error_model="numpy")
+    n, m = len(equations.states), len(path.wrt) if sensitivities else 0
+    arguments = ", ".join(
+        ["t", *(f"z[{i}]" for i in range(n)), *(f"p[{i}]" for i in range(len(path.parameters)))]
+    )
+    scope = {"kernel": kernel, "np": np, "n": n, "m": m}
+    exec(
+        f"def rates(t, z, p):\n"
+        f"    columns = np.array(kernel({arguments}))\n"
+        f"    if m == 0:\n"
+        f"        return columns\n"
+        f"    out = np.empty(n + n * m)\n"
+        f"    out[:n] = columns[:n]\n"
+        f"    for i in range(n):\n"
+        f"        for k in range(m):\n"
+        f"            total = 0.0\n"
+        f"            for j in range(n):\n"
+        f"                total += columns[n + i * n + j] * z[n + j * m + k]\n"
+        f"            out[n + i * m + k] = total\n"
+        f"    return out\n",
+        scope,
+    )
+    compiled, parameters = njit(scope["rates"], error_model="numpy"), path.parameters
+    return lambda t, z: compiled(t, z, parameters)
+
+
+def by_dop853(path: Trajectory, rates: Callable, start: Array, tolerance: float = TOLERANCE) -> Array:
+    """SciPy's DOP853."""
+    return _solved(path, rates, start, "DOP853", tolerance)
+
+
+def by_lsoda(path: Trajectory, rates: Callable, start: Array) -> Array:
+    """SciPy's LSODA through solve_ivp."""
+    return _solved(path, rates, start, "LSODA", TOLERANCE)
+
+
+def _solved(path: Trajectory, rates: Callable, start: Array, method: str, tolerance: float) -> Array:
+    found = solve_ivp(rates, (path.begin, path.end), start, method, rtol=tolerance, atol=tolerance)
+    return found.y[:, -1] if found.success else np.full(len(start), np.nan)
+
+
+def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
+    """LSODA through odeint, whose loop over steps is Fortran's."""
+    grid = [path.begin, path.end]
+    return odeint(rates, start, grid, rtol=TOLERANCE, atol=TOLERANCE, tfirst=True, mxstep=STEPS)[-1]
+
+
+def by_heyoka(path: Trajectory, sensitivities: bool, count: int) -> Array:
+    """Ours: `pontryagin.flow.ends`, which compiles the equations once; of the first trajectory."""
+    e = path.equations
+    wrt = path.wrt if sensitivities else ()
+    carry = ends(e.states, e.rates, e.parameters, e.anomaly, wrt, tolerance=TOLERANCE)
+    states, slopes = carry(np.tile(path.start, (count, 1)), path.begin, path.end, path.parameters)
+    return np.concatenate([states[0], slopes[0].ravel()])
+
+
+def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
+    """The end to more digits than any contestant's."""
+    start = path.with_sensitivities() if sensitivities else path.start
+    if not has_heyoka() or np.finfo(np.longdouble).eps >= np.finfo(float).eps:
+        return by_dop853(path, rates, start, 3e-14)
+    import heyoka as hy
+
+    e, long = path.equations, np.longdouble
+    system, table = heyoka_system(e.states, e.rates, e.parameters, e.anomaly)
+    if sensitivities:
+        system = hy.var_ode_sys(system, [table[symbol] for symbol in path.wrt], order=1)
+    integrator = hy.taylor_adaptive(
+        system,
+        path.start.astype(long),
+        tol=long(1e-18),
+        pars=path.parameters.astype(long),
+        time=long(path.begin),
+        fp_type=long,
+        compact_mode=sensitivities or compact(e.rates),
+    )
+    integrator.propagate_until(long(path.end))
+    return np.array(integrator.state, dtype=float)
+
+
+def contestants(path: Trajectory, sensitivities: bool) -> tuple[dict[str, Callable[[], Array]], Array]:
+    """What each integrator does, and the reference."""
+    rates = scalar_rates(path, sensitivities)
+    start = path.with_sensitivities() if sensitivities else path.start
+    ours = {OURS: 1, TOGETHER: MANY} if has_heyoka() else {}
+    found: dict[str, Callable[[], Array]] = {
+        method: lambda count=count: by_heyoka(path, sensitivities, count) for method, count in ours.items()
+    }
+    found["DOP853, solve_ivp"] = lambda: by_dop853(path, rates, start)
+    found["LSODA, solve_ivp"] = lambda: by_lsoda(path, rates, start)
+    found["LSODA, odeint"] = lambda: by_odeint(path, rates, start)
+    return found, reference(path, rates, sensitivities)
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Time and error of each integrator, with and without sensitivities."""
+    rows: list[tuple] = []
+    for name in (SMOOTH,) if quick else (SMOOTH, PAID, KEPLER, BODY):
+        path = trajectory(name, EPSILON)
+        turns = (path.end - path.begin) / (2 * np.pi)
+        for sensitivities in (False, True):
+            runs, exact = contestants(path, sensitivities)
+            errors = {method: error(run(), exact) for method, run in runs.items()}
+            timings = take_turns({m: _counted(m, run) for m, run in runs.items()}, 1 if quick else 3)
+            ours: Timing | None = timings.get(OURS)
+            for method, timing in timings.items():
+                ratio = timing.typical / ours.typical if ours else float("nan")
+                kind = "states and sensitivities" if sensitivities else "states"
+                rows.append((name, kind, turns, method, 1e3 * timing.typical, ratio, errors[method]))
+    headings = ("example", "what", "turns", "integrator", "ms", "times heyoka", "error")
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def error(found: Array, exact: Array) -> float:
+    """Largest difference, in shares of the largest entry where that exceeds one."""
+    return float(np.abs(found - exact).max() / max(1.0, np.abs(exact).max()))
+
+
+def _counted(method: str, run: Callable[[], Array]) -> Callable[[], int]:
+    def counted() -> int:
+        run()
+        return MANY if method == TOGETHER else 1
+
+    return counted

@@ -1,0 +1,94 @@
+"""SciPy's solve_bvp on the repaired form, given its Jacobians, from the trajectory of a neighbour."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_bvp
+
+from pontryagin.rendezvous import Extremal, Rendezvous, kernels
+from pontryagin.rendezvous.flight import chart_of
+from pontryagin.rendezvous.shooting import SEEN
+
+Array = NDArray[np.float64]
+NODES, MOST = 60, 20_000
+STEP = 1e-30
+
+
+def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
+    """SciPy's solution; its ``status`` is 0 where solve_bvp has met its tolerance.
+
+    Unknown functions are the eleven states over the share of the duration; at a free duration, which is asked
+    for least time alone, it is a parameter. Every derivative is given, by a complex step, exact to rounding.
+    """
+    scaled, free = problem.scaled, problem.free
+    chart = chart_of(start.flight.costates)
+    shares = np.linspace(0, 1, NODES)
+    guess = start.flight.sample(shares * start.flight.duration)[:, :11].T
+    fixed = scaled.duration or start.flight.duration
+    first = np.array([*scaled.start, scaled.anomaly, 0.0])
+
+    def rates(x: Array, duration: complex | float) -> Array:
+        parameters = (1.0, 1.0, scaled.eccentricity, 1.0)
+        loose = np.array(kernels.unsaturated(*[*x, *parameters, 1.0, chart]))
+        if scaled.peak == np.inf:
+            return loose * duration
+        tight = np.array(kernels.saturated(*[*x, *parameters, scaled.peak, chart]))
+        square = kernels.switching_square(x[0], x[2], x[5], x[6], x[7])
+        bound = free or np.real(square) > (2 * scaled.peak) ** 2
+        return np.where(bound, tight, loose) * duration
+
+    def ends(xa: Array, xb: Array) -> Array:
+        goal = kernels.target(xb[3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
+        goals = [*goal[:3], *goal[4:]]
+        missed = kernels.mismatch(*[*xb[SEEN], *xa[7:10], chart, *goals])
+        law = []
+        if free:
+            square = kernels.switching_square(xb[0], xb[2], xb[5], xb[6], xb[7])
+            law = [square * scaled.peak**2 - 1]
+        return np.array([*(xa[[0, 1, 2, 3, 10]] - first), *missed, *law])
+
+    def fun(_, x, p=(fixed,)):
+        return rates(x, p[0])
+
+    def fun_jac(_, x, p=(fixed,)):
+        lifted = x[:, None, :] + 1j * STEP * np.eye(11)[:, :, None]
+        by_state = rates(lifted, p[0]).imag / STEP
+        return (by_state, rates(x, 1.0)[:, None]) if free else by_state
+
+    def bc(xa, xb, _=None):
+        return ends(xa, xb)
+
+    def bc_jac(xa, xb, _=None):
+        size = 12 if free else 11
+        lift = 1j * STEP * np.eye(11)
+        sides = [np.array([ends(xa + u, xb) for u in lift]), np.array([ends(xa, xb + u) for u in lift])]
+        by_start, by_end = (side.T.imag / STEP for side in sides)
+        return (by_start, by_end, np.zeros((size, 1))) if free else (by_start, by_end)
+
+    with np.errstate(all="ignore"):
+        return solve_bvp(
+            fun,
+            bc,
+            shares,
+            guess,
+            p=[start.flight.duration] if free else None,
+            tol=tolerance,
+            max_nodes=MOST,
+            fun_jac=fun_jac,
+            bc_jac=bc_jac,
+        )
+
+
+def cost(problem: Rendezvous, found) -> float:
+    """The cost of a solution in the user's units, nan where there is none."""
+    scaled = problem.scaled
+    if found.status:
+        return float("nan")
+    if scaled.duration is None:
+        return float(found.p[0]) * scaled.value
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    edges = np.linspace(0, 1, 4001)
+    half = np.diff(edges)[:, None] / 2
+    x = found.sol((edges[:-1, None] + half * (1 + nodes)).ravel())
+    size = np.sqrt(kernels.switching_square(x[0], x[2], x[5], x[6], x[7])) / 2
+    squares = np.minimum(size, scaled.peak).reshape(-1, 8) ** 2
+    return float(np.sum(half * weights * squares)) * scaled.duration * scaled.value

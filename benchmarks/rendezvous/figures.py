@@ -1,0 +1,127 @@
+"""Plots: what the forms cost, where random starts end, and solve times beside other methods."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, styled, subplots
+
+Table = Mapping[str, Sequence]
+FLOOR = 1e-16
+MARKS = {
+    "pontryagin": ("o", BLUE),
+    "solve_bvp": ("v", PURPLE),
+    "CasADi + Ipopt": ("^", RED),
+    "pykep": ("P", GREEN),
+}
+
+
+@styled
+def form_costs(table: Table) -> Figure:
+    """Operations of the right-hand side and time of a flight, by the number of equations."""
+    figure, axes = subplots(1, 2, height=3.0)
+    columns = (
+        ("operations", "operations a right-hand side", 1.0),
+        ("microseconds a flight", "flight, ms", 1e-3),
+    )
+    for axis, (heading, label, unit) in zip(axes, columns, strict=True):
+        for mode, colour in (("unsaturated", BLUE), ("saturated", ORANGE)):
+            for derivatives, line in (("without", ":"), ("with", "-")):
+                chosen = [
+                    i
+                    for i in range(len(table["form"]))
+                    if (table["arc"][i], table["derivatives"][i]) == (mode, derivatives)
+                ]
+                sizes = [int(table["form"][i]) for i in chosen]
+                values = [unit * table[heading][i] for i in chosen]
+                if chosen:
+                    name = f"{mode}, {derivatives} derivatives"
+                    axis.plot(sizes, values, line, marker="o", color=colour, markersize=4, label=name)
+        axis.set(yscale="log", xlabel="equations", ylabel=label, xticks=[10, 11, 14, 16])
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.yaxis.set_minor_formatter(NullFormatter())
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+@styled
+def starts(table: Table) -> Figure:
+    """Shares of starts that end at a meeting, at a false one, and at none; a panel an inclination."""
+    panels = list(dict.fromkeys(table["inclination"]))
+    figure, axes = subplots(1, len(panels), height=2.6, sharey=True, squeeze=False)
+    parts = (
+        ("meetings", BLUE, "meeting"),
+        ("false meetings", RED, "false meeting"),
+        ("no convergence", "#cccccc", "none"),
+    )
+    for axis, panel in zip(axes.flat, panels, strict=True):
+        chosen = [i for i, at in enumerate(table["inclination"]) if at == panel]
+        names = [table["form"][i] for i in chosen]
+        left = np.zeros(len(chosen))
+        for heading, colour, label in parts:
+            share = 100 * np.array([table[heading][i] for i in chosen])
+            axis.barh(names, share, left=left, color=colour, label=label, height=0.7)
+            for k, (begin, width) in enumerate(zip(left, share, strict=True)):
+                if width >= 12:
+                    ink = INK if colour == "#cccccc" else "white"
+                    axis.text(begin + width / 2, k, f"{width:.0f}", ha="center", va="center", color=ink)
+            left += share
+        axis.grid(visible=False)
+        axis.set(xlim=(0, 100), title=panel.replace(" deg", "°"), xlabel="starts, %")
+    axes[0, 0].invert_yaxis()
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    return figure
+
+
+@styled
+def solve_times(table: Table, aim: float) -> Figure:
+    """Error of the cost against time of a warm solve, a panel a problem; the aim is a line."""
+    panels = list(dict.fromkeys(table["problem"]))
+    lines = (len(panels) + 1) // 2
+    figure, axes = subplots(lines, 2, height=1.9 * lines + 0.5, sharex=True, sharey=True, squeeze=False)
+    handles = {}
+    for axis, panel in zip(axes.flat, panels, strict=False):
+        for i, at in enumerate(table["problem"]):
+            if at != panel:
+                continue
+            name = next(name for name in MARKS if table["method"][i].startswith(name))
+            marker, colour = MARKS[name]
+            place = (table["milliseconds"][i], max(table["error"][i], FLOOR))
+            (handle,) = axis.plot(*place, marker, color=colour, linestyle="none")
+            handles.setdefault(name, handle)
+        handles["aim"] = axis.axvline(1e3 * aim, color=SKY, linestyle="--", linewidth=1)
+        axis.set(title=panel, xscale="log", yscale="log")
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_minor_formatter(NullFormatter())
+        axis.tick_params(labelbottom=True)
+        axis.margins(0.1, 0.15)
+    for axis in axes.flat[len(panels) :]:
+        axis.set_axis_off()
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=len(handles))
+    figure.supxlabel("processor time of a solve, ms", fontsize="medium")
+    figure.supylabel("relative error of the cost", fontsize="medium")
+    return figure
+
+
+@styled
+def stacks(table: Table) -> Figure:
+    """Flights a second, one by one and many at once."""
+    figure, axis = subplots(height=2.6)
+    places = np.arange(len(table["flights"]))
+    ways = (
+        ("one by one, microseconds", ORANGE, "one by one, with derivatives"),
+        ("many, microseconds", BLUE, "many at once, with derivatives"),
+        ("many, ends alone, microseconds", SKY, "many at once, ends alone"),
+    )
+    for k, (heading, colour, label) in enumerate(ways):
+        speeds = 1e6 / np.array(table[heading])
+        bars = axis.barh(places + 0.26 * (k - 1), speeds, height=0.24, color=colour, label=label)
+        axis.bar_label(bars, [f"{speed:.0f}" for speed in speeds], padding=2, fontsize="small")
+    axis.set(xscale="log", xlabel="flights a second", yticks=places, yticklabels=table["flights"])
+    axis.margins(x=0.15)
+    axis.invert_yaxis()
+    figure.legend(loc="outside lower center", ncols=3)
+    return figure

@@ -1,0 +1,112 @@
+"""Operations and times of the right-hand sides with 16, 14, 11 and 10 equations."""
+
+from collections.abc import Callable
+
+import numpy as np
+import sympy as sp
+
+from benchmarks.clock import repeated, take_turns
+from benchmarks.rendezvous import problems, systems
+from benchmarks.rendezvous.systems import SYSTEMS
+from pontryagin.flow import heyoka_system
+from pontryagin.rendezvous.derivation.principle import Mode
+
+REFERENCE = "inclined-energy"
+SCALES: dict[Mode, float] = {"unsaturated": 1.0, "saturated": 0.05}
+"""alpha2 of unsaturated arcs, p_max of saturated ones."""
+MODES: tuple[Mode, ...] = ("unsaturated", "saturated")
+
+
+def operations(size: str, mode: Mode, derivatives: bool) -> int:
+    """Arithmetic of one right-hand side, common subexpressions counted once."""
+    form, columns = systems.expressions(size, mode)
+    whole = [*form.rates, *(columns if derivatives else ())]
+    shared, reduced = sp.cse(whole)
+    return int(sp.count_ops([value for _, value in shared]) + sp.count_ops(reduced))
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Every form, unsaturated and saturated, without and with six columns of derivatives."""
+    count, rounds = (200, 1) if quick else (20_000, 7)
+    rows = []
+    for mode in MODES[:1] if quick else MODES:
+        for derivatives in (False, True):
+            calls = {size: _evaluate(size, mode, derivatives, count) for size in SYSTEMS}
+            called = take_turns(calls, rounds)
+            flights = {size: _fly(size, mode, derivatives) for size in SYSTEMS}
+            flown = take_turns({size: repeated(run, 5) for size, (run, _, _) in flights.items()}, rounds)
+            reference = flights["11"][2]
+            for size in SYSTEMS:
+                _, steps, end = flights[size]
+                rows.append(
+                    (
+                        mode,
+                        "with" if derivatives else "without",
+                        len(SYSTEMS[size](mode).states) * (7 if derivatives else 1),
+                        size,
+                        operations(size, mode, derivatives),
+                        1e9 * called[size].typical,
+                        steps,
+                        1e6 * flown[size].typical,
+                        1e6 * flown[size].least,
+                        float(np.abs(end[:4] - reference[:4]).max()),
+                    )
+                )
+    headings = (
+        "arc",
+        "derivatives",
+        "equations",
+        "form",
+        "operations",
+        "nanoseconds a call",
+        "steps of a flight",
+        "microseconds a flight",
+        "fastest round",
+        "difference from 11",
+    )
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def _evaluate(size: str, mode: Mode, derivatives: bool, count: int) -> Callable[[], int]:
+    """The right-hand side alone, compiled by heyoka, at many states in one call."""
+    import heyoka as hy
+
+    form = SYSTEMS[size](mode)
+    system, table = heyoka_system(form.states, form.rates, form.parameters, None)
+    if derivatives:
+        system = hy.var_ode_sys(system, [table[x] for x in systems.costates_of(size)], order=1).sys
+    function = hy.cfunc([rate for _, rate in system], [variable for variable, _ in system], compact_mode=True)
+    states = 1 + 0.1 * np.random.default_rng(problems.SEED).random((len(system), count))
+    scaled = problems.solved(REFERENCE).problem.scaled
+    parameters = np.array(systems.parameters(size, scaled, SCALES[mode], states[:, 0]))
+    values = np.broadcast_to(parameters[:, None], (len(parameters), count)).copy()
+    outputs = np.empty_like(states)
+
+    def run() -> int:
+        function(states, outputs=outputs, pars=values)
+        return count
+
+    return run
+
+
+def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], int, np.ndarray]:
+    """The reference case's flight: what runs it, its steps, its end."""
+    best = problems.solved(REFERENCE)
+    scaled, duration = best.problem.scaled, best.flight.duration
+    start = systems.begin(size, scaled, best.flight.costates)
+    integrator = systems.compiled(size, mode, derivatives)
+    rest = systems.identity(size).ravel() if derivatives else np.empty(0)
+    whole, parameters = np.concatenate([start, rest]), systems.parameters(size, scaled, SCALES[mode], start)
+
+    def fly():
+        integrator.time = 0.0
+        integrator.state[:] = whole
+        integrator.pars[:] = parameters
+        return integrator.propagate_until(duration)
+
+    def run() -> int:
+        fly()
+        return 1
+
+    steps = fly()[3]
+    return run, int(steps), integrator.state[: len(start)].copy()

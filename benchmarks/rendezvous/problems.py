@@ -1,0 +1,73 @@
+"""The problems measured: cases of the report, and the neighbours that warm solves solve."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from time import process_time
+
+import numpy as np
+
+from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
+from pontryagin.rendezvous.cases import cases
+from pontryagin.rendezvous.shooting import Setting
+
+SEED = 2014
+NEIGHBOUR = 1.02
+"""A warm solve starts from the problem whose duration, or bound, is this many times larger."""
+
+FIXED = ("circle-energy", "inclined-energy", "energy-bounded")
+LEAST = (
+    "circle",
+    "ellipse",
+    "inclined-1",
+    "inclined-10",
+    "inclined-30",
+    "inclined-60",
+    "ellipses",
+    "glonass",
+)
+
+
+def leap(degrees: float) -> Rendezvous:
+    """From a circle to an ellipse inclined by an angle, least energy in the time 6 without bound."""
+    target = Orbit.from_angles(1.5, 0.1, 0.0, math.radians(degrees), 0.0, 0.6)
+    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
+    return Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
+
+
+@cache
+def searched(name: str) -> tuple[Extremal, float]:
+    """The best extremal found of a case, and the processor time of the search."""
+    begun = process_time()
+    best = solve(cases()[name].problem)
+    return best, process_time() - begun
+
+
+def solved(name: str) -> Extremal:
+    """The best extremal found of a case."""
+    return searched(name)[0]
+
+
+@cache
+def leapt(degrees: float) -> Extremal:
+    """The best extremal found of a leap."""
+    return solve(leap(degrees))
+
+
+def neighbour(name: str) -> Rendezvous:
+    """The problem that is solved warm, from the case's own solution."""
+    problem = cases()[name].problem
+    if problem.duration is None:
+        return replace(problem, peak=problem.peak * NEIGHBOUR)
+    return replace(problem, duration=problem.duration * NEIGHBOUR)
+
+
+def setting(problem: Rendezvous) -> Setting:
+    """The problem as the solver sees it."""
+    scaled = problem.scaled
+    return Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+
+
+def draws(count: int, spread: float) -> np.ndarray:
+    """Normal deviations (count, 6)."""
+    return spread * np.random.default_rng(SEED).standard_normal((count, 6))

@@ -1,0 +1,88 @@
+"""Warm solves side by side: a neighbour's solution in, the extremal out."""
+
+from collections.abc import Callable
+
+from benchmarks.clock import Timing, repeated, take_turns
+from benchmarks.peers import absent
+from benchmarks.rendezvous import elsewhere, problems
+from benchmarks.rendezvous.collocated import collocated, cost
+from pontryagin.rendezvous import solve
+from pontryagin.rendezvous.cases import cases
+
+OURS = "pontryagin"
+WARM = (*problems.FIXED, "inclined-10")
+TOLERANCES = (1e-3, 1e-6, 1e-9)
+MESHES = (60, 120)
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Milliseconds of every method on every problem, and how far its cost is from the certified one."""
+    rounds = 1 if quick else 3
+    rows = []
+    for name in ("inclined-energy",) if quick else WARM:
+        problem, start = problems.neighbour(name), problems.solved(name)
+        ours = solve(problem, start)
+        runs, errors = _peers(name, ours.cost)
+        runs[OURS], errors[OURS] = _ours(name), ours.certificate.residual.item()
+        timings = take_turns(runs, rounds)
+        if problem.energy_weight == 0 and not elsewhere.absent():
+            found = elsewhere.by_pykep(problem, start, rounds)
+            label = f"pykep {found['version']}"
+            timings[label] = Timing(found["typical"], found["least"], 1)
+            errors[label] = abs(found["duration"] / ours.flight.duration - 1)
+        own = timings[OURS].typical
+        for method in sorted(timings, key=lambda method: method != OURS):
+            taken = timings[method]
+            rows.append(
+                (
+                    name,
+                    method,
+                    1e3 * taken.typical,
+                    1e3 * taken.least,
+                    taken.typical / own,
+                    errors[method],
+                )
+            )
+    headings = ("problem", "method", "milliseconds", "fastest round", "times ours", "error")
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def _ours(name: str) -> Callable[[], int]:
+    problem, start = problems.neighbour(name), problems.solved(name)
+
+    def run() -> int:
+        solve(problem, start)
+        return 1
+
+    return repeated(run, 5)
+
+
+def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[str, float]]:
+    """What runs each peer, and the relative difference of its cost from ours."""
+    problem, start = problems.neighbour(name), problems.solved(name)
+    runs: dict[str, Callable[[], int]] = {}
+    errors: dict[str, float] = {}
+    for tolerance in TOLERANCES:
+        label = f"solve_bvp, tolerance {tolerance:.0e}"
+
+        def collocate(tolerance: float = tolerance) -> int:
+            collocated(problem, start, tolerance)
+            return 1
+
+        runs[label] = collocate
+        errors[label] = abs(cost(problem, collocated(problem, start, tolerance)) / best - 1)
+    if absent("casadi"):
+        return runs, errors
+    from pontryagin.rendezvous.direct import direct
+
+    case = cases()[name]
+    for intervals in MESHES:
+        label = f"CasADi + Ipopt, cold, {intervals} intervals"
+
+        def programme(intervals: int = intervals) -> int:
+            direct(problem, case.guess, case.revolutions, intervals)
+            return 1
+
+        runs[label] = programme
+        errors[label] = abs(direct(problem, case.guess, case.revolutions, intervals).cost / best - 1)
+    return runs, errors

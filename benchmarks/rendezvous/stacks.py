@@ -1,0 +1,104 @@
+"""Flights one by one and many at once, and Newton's method from many starts both ways."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from benchmarks.clock import take_turns
+from benchmarks.contest import worst
+from benchmarks.rendezvous import problems
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.batch import fly_all
+from pontryagin.rendezvous.bound import largest_thrust
+from pontryagin.rendezvous.flight import fly
+from pontryagin.rendezvous.homotopy import newton
+from pontryagin.rendezvous.many import NEAR, newton_from_all
+
+COUNT, NEARBY = 512, 0.02
+DEGREES, SPREAD, STARTS = 20, 0.05, 64
+BOUND = 0.6
+"""The bound, where there is one, in units of the largest thrust without it."""
+ARCS = ("unsaturated", "saturated", "with switches")
+
+
+def flights(quick: bool) -> dict[str, list]:
+    """Microseconds a flight, with derivatives and without, and the largest difference between both ways."""
+    count, rounds = (16, 1) if quick else (COUNT, 5)
+    best = problems.leapt(DEGREES)
+    scaled, duration = best.problem.scaled, best.flight.duration
+    costates = best.flight.costates + problems.draws(count, NEARBY)
+    rows = []
+    peaks = dict.fromkeys(ARCS, BOUND * largest_thrust(best.flight)) | {"unsaturated": np.inf}
+    for arcs, peak in peaks.items():
+        bang = arcs == "saturated"
+
+        def one_by_one(peak: float = peak, bang: bool = bang) -> int:
+            few = costates[: 8 if quick else 64]
+            return len([fly(scaled, z, duration, peak, bang) for z in few])
+
+        def together(slopes: bool, peak: float = peak, bang: bool = bang) -> Callable[[], int]:
+            return lambda: len(fly_all(scaled, costates, duration, peak, bang, slopes).ends)
+
+        timings = take_turns({"one": one_by_one, "many": together(True), "ends": together(False)}, rounds)
+        found = fly_all(scaled, costates, duration, peak, bang)
+        alone = np.array([fly(scaled, z, duration, peak, bang).end for z in costates[:64]])
+        one, many, ends = (1e6 * timings[way].typical for way in ("one", "many", "ends"))
+        rows.append(
+            (
+                arcs,
+                count,
+                float(found.switches.mean()),
+                one,
+                many,
+                ends,
+                one / many,
+                one / ends,
+                worst((found.ends[:64] - alone) / np.abs(alone).max(axis=1, keepdims=True)),
+            )
+        )
+    headings = (
+        "flights",
+        "number",
+        "switches a flight",
+        "one by one, microseconds",
+        "many, microseconds",
+        "many, ends alone, microseconds",
+        "faster",
+        "faster, ends alone",
+        "largest difference",
+    )
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+
+
+def multistarts(quick: bool) -> dict[str, list]:
+    """Newton's method from random starts, one by one and side by side."""
+    best = problems.leapt(DEGREES)
+    setting = problems.setting(best.problem)
+    starts = problems.draws(8 if quick else STARTS, SPREAD)
+
+    def alone() -> int:
+        return len([_newton(setting, z) for z in starts])
+
+    def together() -> int:
+        return len(newton_from_all(setting, starts)[0])
+
+    timings = take_turns({"one by one": alone, "side by side": together}, 1 if quick else 5)
+    found = {
+        "one by one": float(np.mean([_newton(setting, z) for z in starts])),
+        "side by side": float(np.mean(newton_from_all(setting, starts)[1] < NEAR)),
+    }
+    return {
+        "way": list(timings),
+        "starts": [len(starts)] * 2,
+        "milliseconds a start": [1e3 * timing.typical for timing in timings.values()],
+        "fastest round": [1e3 * timing.least for timing in timings.values()],
+        "arrived": [found[way] for way in timings],
+    }
+
+
+def _newton(setting, start: np.ndarray) -> bool:
+    try:
+        newton(setting, start)
+    except (NotConverged, np.linalg.LinAlgError):
+        return False
+    return True

@@ -1,0 +1,150 @@
+"""Newton's method from the same random starts in each form of one fixed-time problem.
+
+Where a form's own residual vanishes, the extremal is flown anew and tested against (5) and (6): a meeting, or
+a false one. With the gauge nu0 kept, 16, 14 and 11 equations are three ways to compute one map, and differ by
+rounding alone.
+"""
+
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.rendezvous import problems
+from benchmarks.rendezvous.systems import PROBLEMS, Problem
+from pontryagin.rendezvous import Extremal
+from pontryagin.rendezvous.flight import fly
+from pontryagin.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.shooting import goal_of, mismatch
+
+Array = NDArray[np.float64]
+ITERATIONS, HALVINGS = 30, 6
+EXACT, TRUE = 1e-9, 1e-7
+"""Residual at which Newton's method has arrived, and up to which (5) and (6) hold."""
+SPREAD = 0.05
+DEGREES = (0, 20, 60)
+COUNT = 40
+ZERO = 1e-10
+"""Singular values below this share of the largest count as zero."""
+CUTOFF = 1e-12
+"""The same, in a step."""
+
+
+@dataclass(frozen=True)
+class Ends:
+    """What became of the starts: shares, and flights and processor time per start."""
+
+    true: float
+    false: float
+    none: float
+    flights: float
+    seconds: float
+
+
+def newton(problem: Problem, scaled: Scaled, six: Array, duration: float) -> tuple[Array | None, int]:
+    """Where Newton's method with halved steps arrives, and how many flights it took."""
+    unknowns, flights = problem.start(six), 1
+    here = problem.residual(scaled, unknowns, duration)
+    for _ in range(ITERATIONS):
+        if here is None:
+            return None, flights
+        residual, jacobian = here
+        size = float(np.linalg.norm(residual))
+        if size < EXACT:
+            return unknowns, flights
+        step = np.linalg.lstsq(jacobian, -residual, rcond=CUTOFF)[0]
+        for halving in range(HALVINGS):
+            trial = unknowns + step / 2**halving
+            there = problem.residual(scaled, trial, duration)
+            flights += 1
+            if there is not None and np.linalg.norm(there[0]) < size:
+                unknowns, here = trial, there
+                break
+        else:
+            return None, flights
+    return None, flights
+
+
+def is_meeting(extremal: Extremal, six: Array) -> bool:
+    """Whether the extremal of these costates meets (5) and (6)."""
+    scaled, setting = extremal.problem.scaled, problems.setting(extremal.problem)
+    flight = fly(scaled, six, float(setting.duration or 0))
+    return bool(np.abs(mismatch(flight, goal_of(setting, float(flight.end[3]))[0])[0]).max() < TRUE)
+
+
+def ends(extremal: Extremal, starts: Array) -> dict[str, Ends]:
+    """All starts in every form; the forms take turns at each start."""
+    scaled, duration = extremal.problem.scaled, extremal.flight.duration
+    found: dict[str, list[Array]] = {problem.name: [] for problem in PROBLEMS}
+    flights, seconds = dict.fromkeys(found, 0), dict.fromkeys(found, 0.0)
+    for six in starts:
+        for problem in PROBLEMS:
+            begun = process_time()
+            unknowns, flown = newton(problem, scaled, six, duration)
+            seconds[problem.name] += process_time() - begun
+            flights[problem.name] += flown
+            if unknowns is not None:
+                found[problem.name].append(problem.six(unknowns))
+    count = len(starts)
+    result = {}
+    for name, arrived in found.items():
+        true = sum(is_meeting(extremal, six) for six in arrived)
+        shares = (true / count, (len(arrived) - true) / count, 1 - len(arrived) / count)
+        result[name] = Ends(*shares, flights[name] / count, seconds[name] / count)
+    return result
+
+
+def singular_values(problem: Problem, extremal: Extremal) -> Array:
+    """Of the form's Jacobian at the solution, costates measured by the largest, as many as unknowns."""
+    six = extremal.flight.costates
+    unknowns = problem.start(six)
+    residual = problem.residual(extremal.problem.scaled, unknowns, extremal.flight.duration)
+    assert residual is not None
+    values = np.linalg.svd(residual[1] * np.abs(six).max(), compute_uv=False)
+    return np.concatenate([values, np.zeros(len(unknowns) - len(values))])
+
+
+def table(quick: bool) -> dict[str, list]:
+    """Every form of every leap."""
+    starts = problems.draws(4 if quick else COUNT, SPREAD)
+    rows = []
+    for degrees in DEGREES[:2] if quick else DEGREES:
+        extremal = problems.leapt(degrees)
+        for problem in PROBLEMS:  # compiled before anything is timed
+            problem.residual(extremal.problem.scaled, problem.start(starts[0]), 1.0)
+        found = ends(extremal, starts)
+        for problem in PROBLEMS:
+            end, values = found[problem.name], singular_values(problem, extremal)
+            zero = values < ZERO * values[0]
+            rows.append(
+                (
+                    f"{degrees} deg",
+                    problem.name,
+                    len(starts),
+                    end.true,
+                    end.false,
+                    end.none,
+                    end.flights,
+                    1e3 * end.seconds,
+                    float(values[0]),
+                    float(values[-1]),
+                    int(zero.sum()),
+                    float("inf") if zero.any() else float(values[0] / values[-1]),
+                )
+            )
+    headings = (
+        "inclination",
+        "form",
+        "starts",
+        "meetings",
+        "false meetings",
+        "no convergence",
+        "flights a start",
+        "milliseconds a start",
+        "largest singular value",
+        "smallest singular value",
+        "of them zero",
+        "condition",
+    )
+    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}

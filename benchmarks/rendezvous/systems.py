@@ -1,0 +1,200 @@
+"""Four forms of one system, compiled alike by heyoka, and what their ends say of a meeting.
+
+Costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu is nu, and nu0 = 0. The form with
+all eight costates has Phi* and mu0 free as well.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from pontryagin.flow import TOLERANCE, heyoka_system
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.derivation import forms, principle, repair
+from pontryagin.rendezvous.derivation.forms import Form
+from pontryagin.rendezvous.derivation.principle import Mode
+from pontryagin.rendezvous.flight import chart_of
+from pontryagin.rendezvous.generate import chart, in_any_chart
+from pontryagin.rendezvous.quaternions import conjugate, product
+from pontryagin.rendezvous.scaled import Scaled
+
+Array = NDArray[np.float64]
+STEPS = 2000
+COMPLEX = 1e-30
+
+EIGHT, FULL, LONG, REPAIRED, REDUCED = (
+    "16, eight costates",
+    "16, nu0 = 0",
+    "14, with lambda",
+    "11, with chi",
+    "10, with (15)",
+)
+
+
+def _repaired(mode: Mode) -> Form:
+    """The repaired form in either chart, +1 or -1, as a parameter."""
+    plain = forms.repaired(mode)
+    rate = repair.with_length(in_any_chart(repair.chi_rate())).subs(forms.thrust(mode))
+    return Form(plain.states, (*plain.rates[:-1], rate), (*plain.parameters, chart))
+
+
+SYSTEMS = {"16": forms.full, "14": forms.with_attitude, "11": cache(_repaired), "10": forms.reduced}
+SIX = (principle.rho, principle.s1, principle.e, *principle.nu)
+EIGHT_COSTATES = tuple(principle.COSTATE)
+
+
+def costates_of(size: str) -> tuple[sp.Symbol, ...]:
+    """The initial values in which a form is differentiated."""
+    if size == "16":
+        return (principle.rho, principle.s1, principle.e, *principle.COSTATE[5:])
+    return SIX
+
+
+@cache
+def expressions(size: str, mode: Mode) -> tuple[Form, tuple[sp.Expr, ...]]:
+    """A form, and its variational equations in six columns, in symbols of their own."""
+    form = SYSTEMS[size](mode)
+    states = sp.Matrix(form.states)
+    columns = sp.Matrix(len(form.states), 6, lambda i, j: sp.Symbol(f"w{i}_{j}"))
+    return form, tuple(sp.Matrix(form.rates).jacobian(states) * columns)
+
+
+@cache
+def compiled(size: str, mode: Mode, derivatives: bool, wrt: tuple = ()) -> Any:
+    """heyoka's Taylor integrator of a form, with derivatives in the initial values ``wrt``."""
+    import heyoka as hy
+
+    form = SYSTEMS[size](mode)
+    system, table = heyoka_system(form.states, form.rates, form.parameters, None)
+    if derivatives:
+        system = hy.var_ode_sys(system, [table[x] for x in wrt or costates_of(size)], order=1)
+    return hy.taylor_adaptive(
+        system,
+        np.ones(len(form.states)),
+        tol=TOLERANCE,
+        pars=[1.0] * len(form.parameters),
+        compact_mode=True,
+    )
+
+
+def begin(size: str, scaled: Scaled, costates: Array) -> Array:
+    """The state at t0 of a form for costates rho, s1, e, nu, or rho, s1, e, Phi*, mu."""
+    one = [1.0, 0.0, 0.0, 0.0]
+    place = [*scaled.start, scaled.anomaly]
+    if size == "16":
+        eight = costates if len(costates) == 8 else [*costates[:3], 0.0, 0.0, *costates[3:]]
+        return np.array([*place, *one, *eight])
+    tail: dict[str, list[float]] = {"14": one, "11": [0.0], "10": []}
+    return np.array([*place, *costates, *tail[size]])
+
+
+def fly(
+    size: str, mode: Mode, scaled: Scaled, start: Array, duration: float, scale: float, wrt: tuple = ()
+) -> tuple[Array, Array, int] | None:
+    """The end of a flight of a form, its derivatives and the steps taken; None where it stops short."""
+    integrator = compiled(size, mode, True, wrt)
+    n = len(start)
+    integrator.time = 0.0
+    integrator.state[:n] = start
+    integrator.state[n:] = identity(size, wrt).ravel()
+    integrator.pars[:] = parameters(size, scaled, scale, start)
+    outcome, _, _, steps, *_ = integrator.propagate_until(duration, max_steps=STEPS)
+    whole = integrator.state
+    if "time_limit" not in str(outcome) or not np.isfinite(whole).all():
+        return None
+    return whole[:n].copy(), whole[n:].reshape(n, -1).copy(), steps
+
+
+def parameters(size: str, scaled: Scaled, scale: float, start: Array) -> list[float]:
+    """fM, p*, e*, c*, alpha2 or p_max, and for 11 equations the chart."""
+    own = [float(chart_of(start[4:10]))] if size == "11" else []
+    return [1.0, 1.0, scaled.eccentricity, 1.0, scale, *own]
+
+
+@cache
+def identity(size: str, wrt: tuple = ()) -> Array:
+    """Derivatives at t0."""
+    form = SYSTEMS[size]("unsaturated")
+    return np.array([[float(x == y) for y in wrt or costates_of(size)] for x in form.states])
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One form of the boundary value problem: which system, which unknowns.
+
+    Attributes
+    ----------
+    name : str
+        Its label.
+    size : str
+        Number of equations.
+    """
+
+    name: str
+    size: str
+
+    @property
+    def unknowns(self) -> tuple[sp.Symbol, ...]:
+        """The costates at t0 that are free."""
+        return EIGHT_COSTATES if self.name == EIGHT else costates_of(self.size)
+
+    def start(self, six: Array) -> Array:
+        """The unknowns of this form for rho, s1, e, nu."""
+        return np.array([*six[:3], 0.0, 0.0, *six[3:]]) if self.name == EIGHT else np.array(six)
+
+    def six(self, unknowns: Array) -> Array:
+        """rho, s1, e, nu of the unknowns."""
+        return np.delete(unknowns, [3, 4]) if self.name == EIGHT else unknowns
+
+    def residual(self, scaled: Scaled, unknowns: Array, duration: float) -> tuple[Array, Array] | None:
+        """What is zero at a meeting as this form sees it, and its derivatives in the unknowns."""
+        start = begin(self.size, scaled, unknowns)
+        flown = fly(self.size, "unsaturated", scaled, start, duration, 1.0, self.unknowns)
+        if flown is None:
+            return None
+        end, slopes, _ = flown
+        inputs = np.concatenate([end, unknowns])
+        steps = inputs[:, None] + 1j * COMPLEX * np.eye(len(inputs))
+        with np.errstate(all="ignore"):
+            values = np.stack([_ends(self, scaled, column, len(end)) for column in steps.T], axis=-1)
+        by_input = values.imag / COMPLEX
+        jacobian = by_input[:, : len(end)] @ slopes + by_input[:, len(end) :]
+        residual = values[:, 0].real
+        return (residual, jacobian) if np.isfinite(jacobian).all() else None
+
+
+PROBLEMS = (
+    Problem(EIGHT, "16"),
+    Problem(FULL, "16"),
+    Problem(LONG, "14"),
+    Problem(REPAIRED, "11"),
+    Problem(REDUCED, "10"),
+)
+
+
+def _ends(problem: Problem, scaled: Scaled, inputs: Array, count: int) -> Array:
+    """(5), and (6) or (15), and with eight costates (16), for complex inputs: the end and the unknowns."""
+    end, unknowns = inputs[:count], inputs[count:]
+    goal = np.array(kernels.target(end[3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation), dtype=complex)
+    place, attitude = end[:3] - goal[:3], goal[4:]
+    if problem.size == "10":
+        nu, first = (np.concatenate([[0.0], x]) for x in (end[7:10], unknowns[3:]))
+        turned = product(product(attitude, nu), conjugate(attitude))
+        return np.concatenate([place, (turned - first)[1:]])
+    if problem.size == "11":
+        nu = [*end[7:10], end[10], *unknowns[3:]]
+        goals = [*goal[:3], *attitude]
+        return np.array(kernels.mismatch(*[*end[:3], *nu, chart_of(unknowns.real), *goals]))
+    own = end[4:8] if problem.size == "16" else end[10:14]
+    missed = product(conjugate(own), attitude)[1:]
+    if problem.name != EIGHT:
+        return np.concatenate([place, missed])
+    rho, s1, _, pair = end[8:12]
+    nu3 = product(conjugate(own), end[12:])[3]
+    wanted = kernels.anomaly_constant(rho, s1, nu3, end[3], 1.0, scaled.eccentricity, 1.0)
+    law = pair * (1 + scaled.eccentricity * np.cos(end[3])) ** 2 - wanted
+    return np.concatenate([place, missed, [law]])
