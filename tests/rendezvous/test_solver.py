@@ -11,6 +11,7 @@ import pytest
 import pontryagin
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, solve
 from pontryagin.rendezvous.bound import bounded
+from pontryagin.rendezvous.cases import chaser_on
 from pontryagin.rendezvous.certify import certify
 from pontryagin.rendezvous.flight import fly
 from pontryagin.rendezvous.homotopy import newton
@@ -243,3 +244,13 @@ def test_energy_alone_leaves_no_best_free_time():
 def test_a_bound_too_small_for_the_duration_is_infeasible():
     with pytest.raises(pontryagin.Infeasible, match=r"the bound went down to 0\.\d+, not to 0\.04"):
         solve(problem(20, peak=0.04, duration=4.0))
+
+
+def test_a_craft_on_its_target_needs_no_thrust():
+    target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    together = Rendezvous(
+        chaser_on(target), target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0
+    )
+    best = solve(together)
+    assert best.cost < 1e-28
+    assert best.certificate.holds(1e-10)

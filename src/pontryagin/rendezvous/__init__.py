@@ -5,7 +5,7 @@ functional is the integral of alpha1 + alpha2 p^2, the thrust is bounded. Pimkin
 motion in axes eta that turn with the craft (eta1 along the radius, eta3 along R x V, attitude quaternion
 lambda) and reduce the 16 equations of the maximum principle to ten; the condition that is to stand for the
 attitude is one short, and one more equation restores it. Sapunkov uses orbital elements A, B that come from
-the Kustaanheimo-Stiefel regularisation.
+the Kustaanheimo-Stiefel regularisation; in them the same problem is solved, and that of least fuel.
 
 paper            here                       meaning
 ---------------  -------------------------  ------------------------------------------------------
@@ -28,6 +28,9 @@ nu*              -                          mu lambda~, constant
 n_eta            switching                  what the thrust lies along: the primer vector
 -                chi                        angle about nu*: what the ten equations do not know
 A, B, w, Q       A, B, w, Q                 Sapunkov's elements; Q = A^2 + B^2, twice the semi-axis
+phi              phi                        half the eccentric anomaly, up to a constant
+-                a, b                       costates of A and B
+-                switching                  n in inertial axes, of the solutions in the elements
 """
 
 from pontryagin import lazy
@@ -41,6 +44,14 @@ __getattr__, __dir__, __all__ = lazy.attach(
         "solve": "solution",
         "Extremal": "solution",
         "RendezvousCertificate": "certify",
+        "carry": "many",
+        "Carried": "many",
+        "multistart": "many",
+        "Elements": "elements",
+        "solve_in_elements": "elements_solve",
+        "least_fuel": "elements_fuel",
+        "ElementsExtremal": "elements_solve",
+        "ElementsCertificate": "elements_certify",
         "derivation": "",
     },
 )

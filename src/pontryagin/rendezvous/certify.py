@@ -20,6 +20,9 @@ from pontryagin.rendezvous.quaternions import conjugate, product
 
 Array = NDArray[np.float64]
 SAMPLES = 201
+FAINT = 1e-3
+"""Share of the largest costate below which a running cost is no measure of H."""
+TINY = 1e-300
 
 
 @dataclass(frozen=True)
@@ -33,9 +36,10 @@ class RendezvousCertificate(MaximumPrinciple):
     transversality : () array
         That of (16) and, at a free duration, of the law for the thrust at the end.
     hamiltonian : () array
-        |H|, or at a fixed duration its change, in units of the largest running cost.
+        |H|, or at a fixed duration its change, in units of the largest running cost; of a thousandth of the
+        largest costate, where that is more: where next to no thrust is needed, H is rounded by that.
     maximality : () array
-        As in `MaximumPrinciple`, in units of the largest running cost.
+        As in `MaximumPrinciple`, in the same units.
     attitude : () array
         |vect(lambda~ o lambda*)| of (6) at the meeting, with lambda carried by its own equation.
     agreement : () array
@@ -65,7 +69,8 @@ def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousC
     times = np.linspace(0, flight.duration, SAMPLES)
     reduced, whole = flight.sample(times), fly_full(flight, times)
     thrust = flown_thrust(flight, times, reduced)
-    largest = float(np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1)))
+    running = float(np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1)))
+    largest = max(running, FAINT * float(np.abs(flight.costates).max()), TINY)
     constant = anomaly_constant(flight)
     energy = hamiltonian(reduced, thrust, constant, weights)
     end = whole[-1]
@@ -112,7 +117,7 @@ def transversality(end: Array, eccentricity: float) -> float:
     nu3 = product(conjugate(end[4:8]), end[12:])[3]
     wanted = kernels.anomaly_constant(rho, s1, nu3, end[3], 1.0, eccentricity, 1.0)
     constant = pair * (1 + eccentricity * np.cos(end[3])) ** 2
-    return float(abs(constant - wanted) / np.abs(end[8:]).max())
+    return float(abs(constant - wanted) / max(np.abs(end[8:]).max(), TINY))
 
 
 def flown_thrust(flight: Flight, times: Array, states: Array) -> Array:
@@ -155,7 +160,8 @@ def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
     places = cartesian_of(reduced, attitude) - cartesian_of(whole, whole[:, 4:8])
     nu = product(conjugate(whole[:, 4:8]), whole[:, 12:])[:, 1:]
     costates = reduced[:, 4:10] - np.hstack([whole[:, 8:11], nu])
-    return float(max(np.abs(places).max(), np.abs(costates).max() / np.abs(reduced[:, 4:10]).max()))
+    largest = max(np.abs(reduced[:, 4:10]).max(), TINY)
+    return float(max(np.abs(places).max(), np.abs(costates).max() / largest))
 
 
 def condition(root: Root) -> float:
