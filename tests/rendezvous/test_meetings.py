@@ -12,9 +12,7 @@ from pontryagin.rendezvous.claims import meetings as ledger
 from pontryagin.rendezvous.homotopy import newton
 from pontryagin.rendezvous.meetings import false_curve, false_family
 from pontryagin.rendezvous.printed import printed_conditions, printed_jacobian, reduced
-from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.shooting import Setting, equations
-from pontryagin.rendezvous.turned import about
 
 DEGREES = (0, 20)
 TURNS = {0: (-2 * math.pi, -1.5, -0.4, 0.0, 0.7, 2.0), 20: (-0.6, -0.2, 0.0, 0.3)}
@@ -109,13 +107,6 @@ def test_where_the_conditions_are_one_member_fails_them_when_flown_amiss():
     flight = equations(setting, amiss).flight
     left = printed_conditions(flight, flight.end[:10], flight.costates[3:], 0.0)
     assert np.abs(left[:3]).max() > 1e-8
-
-
-def test_a_turn_about_an_axis_leaves_it():
-    axis = np.array([0.3, -2.0, 0.5])
-    turn = about(axis, 0.8)
-    assert np.linalg.norm(turn) == pytest.approx(1)
-    assert np.allclose(rotated(axis, turn), axis)
 
 
 def test_the_ten_variables_of_the_sixteen():

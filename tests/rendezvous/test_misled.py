@@ -8,11 +8,12 @@ import pytest
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.misled import distance, false_meeting, paper_residual, turned_equations
+from pontryagin.rendezvous.misled import distance, false_meeting, paper_residual
 from pontryagin.rendezvous.quaternions import about_third, conjugate, product
 from pontryagin.rendezvous.shooting import Setting, equations
 from pontryagin.rendezvous.solution import Extremal
 from pontryagin.rendezvous.start import cold_start
+from pontryagin.rendezvous.turned import turned_equations
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [math.cos(0.2), 0.0, math.sin(0.2), 0.0])
 

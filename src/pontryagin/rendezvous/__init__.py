@@ -47,6 +47,8 @@ __getattr__, __dir__, __all__ = lazy.attach(
         "carry": "many",
         "Carried": "many",
         "multistart": "many",
+        "false_meeting": "misled",
+        "false_family": "meetings",
         "Elements": "elements",
         "solve_in_elements": "elements_solve",
         "least_fuel": "elements_fuel",

@@ -7,7 +7,6 @@ that a craft whose attitude at the end is lambda* turned about nu* by any angle 
 """
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,21 +16,12 @@ from pontryagin.rendezvous.flight import Flight
 from pontryagin.rendezvous.homotopy import Point, Root, between, follow, scales
 from pontryagin.rendezvous.problem import Rendezvous, number
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
-from pontryagin.rendezvous.shooting import (
-    Equations,
-    Setting,
-    by_goal,
-    end_rates,
-    equations,
-    goal_of,
-    mismatch,
-)
+from pontryagin.rendezvous.shooting import Equations, Setting
 from pontryagin.rendezvous.solution import Extremal, solve
+from pontryagin.rendezvous.turned import turned_equations
 
 Array = NDArray[np.float64]
 
-CHI = 10
-"""Place of chi among the twelve states."""
 STEPS = 200
 ITERATIONS = 8
 
@@ -85,26 +75,6 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
         last = point
     reached = 0.0 if last is None else last.parameter
     raise NotConverged(f"the family of false meetings went to {reached:.3g} rad only", abs(wanted - reached))
-
-
-def turned_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[Equations, Array]:
-    """`shooting.equations` towards lambda* turned about nu* by an angle, and their slope in the angle."""
-    whole = equations(setting, unknowns)
-    flight = whole.flight
-    shift = np.zeros(len(flight.end))
-    shift[CHI] = flight.chart
-    goal, moving = goal_of(setting, float(flight.end[3]))
-    turned = replace(flight, end=flight.end - angle * shift)
-    values, by_state, by_start = mismatch(turned, goal)
-    columns = by_state @ flight.slopes
-    columns[:, 3:6] += by_start
-    jacobian, residual = whole.jacobian.copy(), whole.residual.copy()
-    jacobian[:6, :6], residual[:6] = columns[:, :6], values
-    if setting.free:
-        jacobian[:6, 6] = by_state @ end_rates(flight) + by_goal(turned, goal, moving)
-    by_angle = np.zeros(len(residual))
-    by_angle[:6] = -by_state @ shift
-    return replace(whole, jacobian=jacobian, residual=residual), by_angle
 
 
 def _newton(setting: Setting, unknowns: Array, angle: float) -> Root:

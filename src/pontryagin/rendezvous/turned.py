@@ -1,6 +1,5 @@
 """The repaired equations towards a target turned about nu*: whose solutions satisfy what is printed."""
 
-import copy
 import math
 from dataclasses import replace
 
@@ -10,13 +9,22 @@ from numpy.typing import NDArray
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.flight import Flight
 from pontryagin.rendezvous.homotopy import Family, scales
-from pontryagin.rendezvous.quaternions import product, rotated
+from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.search import turning
-from pontryagin.rendezvous.shooting import Equations, Setting, by_goal, equations
+from pontryagin.rendezvous.shooting import (
+    Equations,
+    Setting,
+    by_goal,
+    end_rates,
+    equations,
+    goal_of,
+    mismatch,
+)
 from pontryagin.rendezvous.solution import Extremal
 
 Array = NDArray[np.float64]
-STEP = 1e-30
+CHI = 10
+"""Place of chi among the twelve states."""
 ITERATIONS = 12
 FLAT = 1e-12
 """Target and craft are in one plane when the quaternion between their planes leaves it by less than this."""
@@ -30,33 +38,32 @@ def towards_turned(solution: Extremal) -> Family:
         return turning(setting)
     normal = rotated(np.array([0.0, 0.0, 1.0]), setting.scaled.orientation)
     sense = math.copysign(1.0, float(normal @ solution.flight.costates[3:]))
-    return lambda unknowns, angle: _in_space(setting, unknowns, angle, sense)
+
+    def family(unknowns: Array, angle: float) -> tuple[Equations, Array]:
+        values, slope = turned_equations(setting, unknowns, sense * angle)
+        return values, sense * slope
+
+    return family
 
 
-def _in_space(setting: Setting, unknowns: Array, angle: float, sense: float) -> tuple[Equations, Array]:
-    """In space the axis of the turn depends on the costates: so do the target's place and the slopes."""
-    scaled = copy.copy(setting.scaled)
-    nu = unknowns[3:6]
-    scaled.orientation = product(about(nu, sense * angle), setting.scaled.orientation)
-    values = equations(setting.but(scaled=scaled), unknowns)
-    goal, _ = setting.scaled.target(float(values.flight.end[3]))
-    here = np.concatenate([goal[:3], product(about(nu, sense * angle), goal[3:])])
-
-    def slope(direction: Array, by_angle: float) -> Array:
-        moved = about(nu + 1j * STEP * direction, sense * (angle + 1j * STEP * by_angle))
-        turned = product(moved, goal[3:]).imag / STEP
-        return by_goal(values.flight, here, np.concatenate([np.zeros(3), turned]))
-
-    jacobian = values.jacobian.copy()
-    jacobian[:6, 3:6] += np.column_stack([slope(axis, 0.0) for axis in np.eye(3)])
-    own = replace(values.flight, scaled=setting.scaled)
-    return replace(values, flight=own, jacobian=jacobian), np.append(slope(np.zeros(3), 1.0), 0.0)
-
-
-def about(axis: NDArray, angle: complex) -> NDArray:
-    """The turn by an angle about an axis of any length, as a quaternion; also of complex arguments."""
-    unit = axis / np.sqrt(np.sum(axis**2))
-    return np.concatenate([[np.cos(angle / 2)], np.sin(angle / 2) * unit])
+def turned_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[Equations, Array]:
+    """`shooting.equations` towards lambda* turned about nu* by an angle, and their slope in the angle."""
+    whole = equations(setting, unknowns)
+    flight = whole.flight
+    shift = np.zeros(len(flight.end))
+    shift[CHI] = flight.chart
+    goal, moving = goal_of(setting, float(flight.end[3]))
+    turned = replace(flight, end=flight.end - angle * shift)
+    values, by_state, by_start = mismatch(turned, goal)
+    columns = by_state @ flight.slopes
+    columns[:, 3:6] += by_start
+    jacobian, residual = whole.jacobian.copy(), whole.residual.copy()
+    jacobian[:6, :6], residual[:6] = columns[:, :6], values
+    if setting.free:
+        jacobian[:6, 6] = by_state @ end_rates(flight) + by_goal(turned, goal, moving)
+    by_angle = np.zeros(len(residual))
+    by_angle[:6] = -by_state @ shift
+    return replace(whole, jacobian=jacobian, residual=residual), by_angle
 
 
 def refined(family: Family, unknowns: Array, angle: float) -> Flight:
