@@ -139,6 +139,18 @@ def place(A: ArrayLike, B: ArrayLike, phi: ArrayLike) -> Array:
     return np.stack(kernels.element_place(*columns), axis=-1)
 
 
+def relation_gradient(craft: Elements) -> Array:
+    """Of scal(A~ o i1 o B), (8,)."""
+    return np.concatenate([product(I1, craft.B), -product(I1, craft.A)])
+
+
+def place_gradient(craft: Elements) -> Array:
+    """Derivatives (6, 8) of R and V in A and B, fM = 1."""
+    inputs = np.concatenate([craft.A, craft.B, [craft.phi]])
+    steps = inputs[:, None] + 1e-30j * np.eye(9)[:, :8]
+    return np.array(kernels.element_place(*steps)).imag / 1e-30
+
+
 def _oscillation(R: Array, V: Array) -> Array:
     """u and w (..., 8) of R and V, fM = 1, by the formula that is regular there."""
     ahead = R[..., 0] >= 0

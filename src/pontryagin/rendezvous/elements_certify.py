@@ -14,12 +14,10 @@ from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.cartesian import cartesian_of, target_by_kepler
-from pontryagin.rendezvous.elements import I1, Elements, place
+from pontryagin.rendezvous.elements import I1, Elements, place, place_gradient, relation_gradient
 from pontryagin.rendezvous.elements_arcs import COSTATES, TIME
 from pontryagin.rendezvous.elements_flight import (
     ElementFlight,
-    place_gradient,
-    relation_gradient,
     start_of,
     switching,
 )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.cartesian import cartesian_of
-from pontryagin.rendezvous.elements import I1, Elements
+from pontryagin.rendezvous.elements import I1, Elements, relation_gradient
 from pontryagin.rendezvous.elements_arcs import (
     COLUMNS,
     COSTATES,
@@ -222,18 +222,6 @@ def start_of(scaled: Scaled) -> Elements:
     """The craft's elements at t0, in its axes eta there; phi = 0."""
     state = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
     return Elements.from_state(state[:3], state[3:])
-
-
-def relation_gradient(craft: Elements) -> Array:
-    """Of scal(A~ o i1 o B), (8,)."""
-    return np.concatenate([product(I1, craft.B), -product(I1, craft.A)])
-
-
-def place_gradient(craft: Elements) -> Array:
-    """Derivatives (6, 8) of R and V in A and B, fM = 1."""
-    inputs = np.concatenate([craft.A, craft.B, [craft.phi]])
-    steps = inputs[:, None] + 1e-30j * np.eye(9)[:, :8]
-    return np.array(kernels.element_place(*steps)).imag / 1e-30
 
 
 def basis(craft: Elements) -> Array:

@@ -9,13 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.cartesian import start_of as cartesian_start
-from pontryagin.rendezvous.elements import Elements
+from pontryagin.rendezvous.elements import Elements, place_gradient
 from pontryagin.rendezvous.elements_certify import ElementsCertificate, certify
 from pontryagin.rendezvous.elements_flight import (
     ElementFlight,
     Law,
     basis,
-    place_gradient,
     start_of,
     switching,
 )
