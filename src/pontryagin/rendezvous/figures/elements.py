@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PALETTE, RED, SEQUENTIAL, styled, subplots
+from pontryagin.rendezvous.cases import case
 from pontryagin.rendezvous.elements_flight import switching
 from pontryagin.rendezvous.elements_fuel import least_fuel
 from pontryagin.rendezvous.elements_solve import ElementsExtremal, solve_in_elements
@@ -136,9 +137,9 @@ def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure
     return figure
 
 
-def agreement(problems: Mapping[str, Rendezvous]) -> dict[str, list[Any]]:
-    """Each problem solved in the axes eta and in the elements: costs, durations, controls, residuals."""
-    rows = [(name, solve(problem)) for name, problem in problems.items()]
+def agreement(names: Sequence[str]) -> dict[str, list[Any]]:
+    """Cases of the report in the axes eta and in the elements: costs, durations, controls, residuals."""
+    rows = [(name, solve(case(name).problem)) for name in names]
     pairs = [(name, other, _own(other)) for name, other in rows]
     return {
         "case": [name for name, _, _ in pairs],
