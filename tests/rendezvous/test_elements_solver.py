@@ -263,12 +263,14 @@ def test_each_functional_is_least_along_its_own_extremal(fuel):
     assert first.cost < LEAP.peak * fuel.cost
 
 
-def test_a_free_duration_obeys_the_end_law():
-    given = problem(0, time_weight=0.01, energy_weight=1, peak=0.15)
+@pytest.mark.parametrize(("inclination", "time_weight", "peak"), [(0, 0.01, 0.15), (5, 0.2, 0.1)])
+def test_a_free_duration_obeys_the_end_law(inclination, time_weight, peak):
+    given = problem(inclination, time_weight=time_weight, energy_weight=1, peak=peak)
     free = least_fuel(given)
     assert free.certificate.holds(1e-10)
+    assert set(free.modes) == {"saturated", "coast"}
     n = np.linalg.norm(free.switching(free.duration), axis=1)[0]
-    assert given.peak * (n - 1) == pytest.approx(0.01, rel=1e-9)
+    assert given.peak * (n - 1) == pytest.approx(time_weight, rel=1e-9)
 
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):

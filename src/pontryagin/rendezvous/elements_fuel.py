@@ -78,11 +78,33 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
     value = problem.energy_weight * scaled.acceleration * scaled.time
-    smoothed = _smoothed(scaled, law, scaled.duration or _duration(scaled), revolutions)
-    sharp = _sharpened(scaled, law, smoothed)
-    if problem.free:
-        sharp = marched(scaled, law, sharp)
+    if scaled.duration is None:
+        smoothed, sharp = _free(scaled, law, revolutions)
+    else:
+        smoothed, sharp = _fixed(scaled, law, scaled.duration, revolutions)
     return ElementsExtremal(problem, sharp, value, tuple(smoothed))
+
+
+def _fixed(scaled: Scaled, law: Law, duration: float, revolutions: int) -> tuple[list[Root], Root]:
+    """The smoothed extremals and the sharp one of a fixed duration."""
+    smoothed = _narrowed(scaled, law, _wide(scaled, law, duration, revolutions), duration)
+    return smoothed, _sharpened(scaled, law, smoothed[-1], duration)
+
+
+def _free(scaled: Scaled, law: Law, revolutions: int) -> tuple[list[Root], Root]:
+    """The same where the terminal law stands in for the duration.
+
+    The smoothed thrust is led to the law, since with a jump arcs come and go along the durations; where that
+    family ends, the sharp extremal of one duration is.
+    """
+    duration = _duration(scaled)
+    wide = _wide(scaled, law, duration, revolutions)
+    try:
+        smoothed = _narrowed(scaled, law, marched(scaled, wide.flight.law, wide), None)
+        return smoothed, _sharpened(scaled, law, smoothed[-1], None)
+    except NotConverged:
+        smoothed, sharp = _fixed(scaled, law, duration, revolutions)
+        return smoothed, marched(scaled, law, sharp)
 
 
 def _duration(scaled: Scaled) -> float:
@@ -90,8 +112,8 @@ def _duration(scaled: Scaled) -> float:
     return 1.5 * first_duration(scaled, (scaled.peak / 2) ** 2)
 
 
-def _smoothed(scaled: Scaled, law: Law, duration: float, revolutions: int) -> list[Root]:
-    """The smoothed extremals at the widths, widest first, until one can be sharpened."""
+def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
+    """The extremal of the widest smoothed jump."""
     gentle = energy(scaled, duration, revolutions)
     wide = law.but(width=WIDTHS[0], peak=max(law.peak, ROOM * largest_thrust(gentle.flight)))
     root = led(Setting(scaled, wide, duration), scaled_to(gentle, wide))
@@ -99,15 +121,20 @@ def _smoothed(scaled: Scaled, law: Law, duration: float, revolutions: int) -> li
     def lowered(logarithm: float) -> Setting:
         return Setting(scaled, wide.but(peak=math.exp(logarithm)), duration)
 
-    found = [follow(lowered, root, math.log(wide.peak), math.log(law.peak))]
+    return follow(lowered, root, math.log(wide.peak), math.log(law.peak))
+
+
+def _narrowed(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> list[Root]:
+    """The smoothed extremals at the widths, widest first, until one can be sharpened."""
 
     def narrowed(logarithm: float) -> Setting:
         return Setting(scaled, law.but(width=math.exp(logarithm)), duration)
 
+    found = [wide]
     for width in WIDTHS[1:]:
         last = found[-1]
         found.append(follow(narrowed, last, math.log(last.flight.law.width), math.log(width)))
-        if width <= SHARPENED_FROM and _sharp(scaled, law, found[-1]) is not None:
+        if width <= SHARPENED_FROM and _sharp(scaled, law, found[-1], duration) is not None:
             break
     return found
 
@@ -122,16 +149,16 @@ def scaled_to(gentle: Root, law: Law) -> Array:
     return gentle.unknowns * np.append(np.full(6, factor), 1.0)
 
 
-def _sharp(scaled: Scaled, law: Law, smooth: Root) -> Root | None:
+def _sharp(scaled: Scaled, law: Law, smooth: Root, duration: float | None) -> Root | None:
     """The extremal with the jump itself, from a smoothed one; None where Newton's method fails."""
     try:
-        return newton(Setting(scaled, law, smooth.flight.duration), smooth.unknowns)
+        return newton(Setting(scaled, law, duration), smooth.unknowns)
     except NotConverged:
         return None
 
 
-def _sharpened(scaled: Scaled, law: Law, smoothed: list[Root]) -> Root:
-    root = _sharp(scaled, law, smoothed[-1])
+def _sharpened(scaled: Scaled, law: Law, smooth: Root, duration: float | None) -> Root:
+    root = _sharp(scaled, law, smooth, duration)
     if root is None:
-        raise NotConverged("the smoothed thrust could not be sharpened", smoothed[-1].flight.law.width)
+        raise NotConverged("the smoothed thrust could not be sharpened", smooth.flight.law.width)
     return root
