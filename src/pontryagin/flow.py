@@ -20,6 +20,8 @@ Flow = Callable[..., NDArray[np.float64]]
 Ends = Callable[..., tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 TOLERANCE = 1e-15
+ROUGH = 1e-10
+"""Of a flight that only guesses: what comes of it is polished by one to rounding."""
 STEPS = 100_000
 SMALL = 200
 """Right-hand sides of fewer operations than this are unrolled by heyoka: faster, but slow to compile."""

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.flow import TOLERANCE, has_heyoka
+from pontryagin.flow import ROUGH, TOLERANCE, has_heyoka
 from pontryagin.rendezvous import kernels
 
 Array = NDArray[np.float64]
@@ -65,10 +65,10 @@ def identity() -> Array:
 
 
 @functools.cache
-def arc(mode: Mode, ends: bool = True, taylor: bool | None = None) -> Arc:
+def arc(mode: Mode, ends: bool = True, taylor: bool | None = None, rough: bool = False) -> Arc:
     """The integrator of a mode; without ``ends`` it takes no notice of switches (alpha2 = 0)."""
     use_taylor = has_heyoka() if taylor is None else taylor
-    return _Taylor(mode, ends) if use_taylor else _RungeKutta(mode, ends)
+    return (_Taylor if use_taylor else _RungeKutta)(mode, ends, rough)
 
 
 def rates(function: Callable, x, eccentricity, chart) -> list:
@@ -91,7 +91,7 @@ def lifted(kernel: Callable) -> Callable:
 
 
 class _Taylor:
-    def __init__(self, mode: Mode, ends: bool) -> None:
+    def __init__(self, mode: Mode, ends: bool, rough: bool) -> None:
         import heyoka as hy
 
         x = hy.make_vars(*STATES)
@@ -106,7 +106,12 @@ class _Taylor:
             events = [hy.t_event(function, direction=growing)]
         self._hy = hy
         self._integrator = hy.taylor_adaptive(
-            system, np.ones(COUNT), pars=[0.0, 1.0], tol=TOLERANCE, compact_mode=True, t_events=events
+            system,
+            np.ones(COUNT),
+            pars=[0.0, 1.0],
+            tol=ROUGH if rough else TOLERANCE,
+            compact_mode=True,
+            t_events=events,
         )
         assert np.array_equal(self._integrator.state[COUNT:], identity().ravel())
 
@@ -143,8 +148,9 @@ class _Taylor:
 
 
 class _RungeKutta:
-    def __init__(self, mode: Mode, ends: bool) -> None:
+    def __init__(self, mode: Mode, ends: bool, rough: bool) -> None:
         self._kernel = getattr(kernels, mode)
+        self._tolerance = ROUGH if rough else 1e-13
         self._ends, self._direction = ends, 1.0 if mode == "unsaturated" else -1.0
 
     def _solve(self, whole: Array, begin: float, end: float, times, eccentricity: float, chart: int):
@@ -166,7 +172,14 @@ class _RungeKutta:
         events = [leaving] if self._ends else None
         with np.errstate(all="ignore"):
             result = solve_ivp(
-                rate, (begin, end), whole, "DOP853", times, events=events, rtol=1e-13, atol=1e-14
+                rate,
+                (begin, end),
+                whole,
+                "DOP853",
+                times,
+                events=events,
+                rtol=self._tolerance,
+                atol=self._tolerance / 10,
             )
         if result.status < 0 or not np.isfinite(result.y[:, -1:]).all():
             raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - begin)

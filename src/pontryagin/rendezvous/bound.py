@@ -43,7 +43,7 @@ def _lowered(loose: Setting, root: Root, peak: float) -> Root:
         return newton(loose.but(peak=peak), root.unknowns)
 
     def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        values = equations(loose.but(peak=math.exp(parameter)), unknowns)
+        values = equations(loose.but(peak=math.exp(parameter), rough=True), unknowns)
         return values, values.by_peak
 
     start, end = math.log(highest), math.log(peak)
@@ -67,7 +67,7 @@ def _least_time(setting: Setting, root: Root) -> Root:
 
     def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
         """In costates over |n(t_k)|, which stay of one size."""
-        there = setting.but(ratio=math.exp(parameter))
+        there = setting.but(ratio=math.exp(parameter), rough=True)
         size, growth = there.end_switching, there.end_switching_slopes[0]
         scale = np.array([size] * 6 + [1.0])
         values = equations(there, unknowns * scale)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.flow import TOLERANCE, has_heyoka
+from pontryagin.flow import ROUGH, TOLERANCE, has_heyoka
 from pontryagin.rendezvous import kernels
 
 Array = NDArray[np.float64]
@@ -28,7 +28,7 @@ Mode = Literal["unsaturated", "saturated", "coast", "smoothed"]
 
 ELEMENTS, COSTATES, TIME, SPENT = slice(0, 8), slice(8, 16), 16, 17
 COUNT, COLUMNS = 18, 6
-STEPS_PER_UNIT = 400
+STEPS_PER_UNIT = 80
 """An arc that needs more Taylor steps than this per unit of phi runs into a singularity."""
 
 
@@ -60,10 +60,10 @@ class Arc(Protocol):
 
 
 @functools.cache
-def arc(mode: Mode, taylor: bool | None = None) -> Arc:
+def arc(mode: Mode, taylor: bool | None = None, rough: bool = False) -> Arc:
     """The integrator of a mode: heyoka's Taylor series, or SciPy's DOP853 where heyoka has no wheel."""
     use_taylor = has_heyoka() if taylor is None else taylor
-    return _Taylor(mode) if use_taylor else _RungeKutta(mode)
+    return (_Taylor if use_taylor else _RungeKutta)(mode, rough)
 
 
 def steered(mode: Mode, n, constants, sqrt: Callable, tanh: Callable) -> tuple[list, object]:
@@ -112,7 +112,7 @@ RISING = {"unsaturated": 1.0, "saturated": -1.0, "coast": 1.0, "smoothed": 1.0}
 
 
 class _Taylor:
-    def __init__(self, mode: Mode) -> None:
+    def __init__(self, mode: Mode, rough: bool) -> None:
         import heyoka as hy
 
         def root(x):
@@ -139,7 +139,7 @@ class _Taylor:
             system,
             np.ones(COUNT),
             pars=[1.0] * self._count,
-            tol=TOLERANCE,
+            tol=ROUGH if rough else TOLERANCE,
             compact_mode=True,
             t_events=[event],
         )
@@ -176,8 +176,8 @@ class _Taylor:
 
 
 class _RungeKutta:
-    def __init__(self, mode: Mode) -> None:
-        self._mode = mode
+    def __init__(self, mode: Mode, rough: bool) -> None:
+        self._mode, self._tolerance = mode, ROUGH if rough else 1e-13
 
     def _solve(self, whole: Array, begin: float, end: float, grid, constants: Constants):
         from scipy.integrate import solve_ivp
@@ -197,7 +197,14 @@ class _RungeKutta:
         leaving.terminal, leaving.direction = True, RISING[self._mode]  # type: ignore[attr-defined]
         with np.errstate(all="ignore"):
             result = solve_ivp(
-                rate, (begin, end), whole, "DOP853", grid, events=[leaving], rtol=1e-13, atol=1e-14
+                rate,
+                (begin, end),
+                whole,
+                "DOP853",
+                grid,
+                events=[leaving],
+                rtol=self._tolerance,
+                atol=self._tolerance / 10,
             )
         if result.status < 0 or not np.isfinite(result.y[:, -1:]).all():
             raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - begin)

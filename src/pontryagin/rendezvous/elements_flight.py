@@ -231,9 +231,14 @@ def basis(craft: Elements) -> Array:
 
 
 def fly_elements(
-    scaled: Scaled, costates: Array, phi: float, law: Law, taylor: bool | None = None
+    scaled: Scaled,
+    costates: Array,
+    phi: float,
+    law: Law,
+    taylor: bool | None = None,
+    rough: bool = False,
 ) -> ElementFlight:
-    """Follow the extremal that starts with the given costates up to a half-angle.
+    """Follow the extremal that starts with the given costates up to a half-angle; roughly, as a guess.
 
     Raises
     ------
@@ -254,7 +259,7 @@ def fly_elements(
         pieces.append(Piece(begin, mode, whole))
         if len(pieces) > SWITCHES:
             raise NotConverged("the thrust switches too often", phi - begin)
-        begin, whole, switched = arc(mode, taylor).run(whole, begin, phi, law.constants(mode))
+        begin, whole, switched = arc(mode, taylor, rough).run(whole, begin, phi, law.constants(mode))
         if switched:
             following = OTHER[law.kind, mode]
             whole = _over(whole, begin, law, mode, following) if law.jumps else whole

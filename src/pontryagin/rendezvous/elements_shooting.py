@@ -6,7 +6,7 @@ are led from where the craft coasts to the target's, by shares, that goal stands
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,7 @@ Goal = Callable[[float], tuple[Array, Array]]
 STEP = 1e-30
 ITERATIONS = 25
 EXACT = 1e-13
+NEAR = 1e-7
 TRIES = 60
 LEAST_STEP = 1 / 128
 """Of the way that a family is followed, the least step."""
@@ -41,13 +42,17 @@ MEETING = 1e-6
 
 @dataclass(frozen=True)
 class Setting:
-    """What is solved for: a problem, a law of thrust, the duration where fixed; units of `Scaled`."""
+    """What is solved for: a problem, a law of thrust, the duration where fixed; units of `Scaled`.
+
+    ``rough`` are the points of a family on the way, flown to 1e-10 only.
+    """
 
     scaled: Scaled
     law: Law
     duration: float | None = None
     goal: Goal | None = None
     taylor: bool | None = None
+    rough: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,7 +100,9 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
     NotConverged
         Where the extremal cannot be followed.
     """
-    flight = fly_elements(setting.scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor)
+    flight = fly_elements(
+        setting.scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor, setting.rough
+    )
     columns = np.column_stack([flight.slopes, end_rates(flight)])
     values, by_state, by_phi = _place(flight)
     goal, moving = (setting.goal or target(setting.scaled))(flight.duration)
@@ -146,7 +153,7 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
         unknowns, here = moved
         size = float(np.linalg.norm(here.residual))
         scale = np.append(np.full(6, np.abs(unknowns[:6]).max() or 1.0), unknowns[6])
-        if np.abs(step / scale).max() < EXACT:
+        if np.abs(step / scale).max() < (NEAR if setting.rough else EXACT):
             break
     if not size < MEETING:
         raise NotConverged("Newton's method did not reach a meeting in the elements", size)
@@ -180,18 +187,18 @@ def follow(family: Callable[[float], Setting], root: Root, start: float, end: fl
     at, unknowns, step = start, root.unknowns, (end - start) / 4
     for _ in range(TRIES):
         if at == end:
-            return root
+            return newton(family(end), unknowns)
         there = end if abs(end - at) <= abs(step) * 1.0001 else at + step
         guess = unknowns.copy()
         if last is not None:
             guess += (there - at) / (at - last[0]) * (unknowns - last[1])
         try:
-            root = newton(family(there), guess, tries=8)
+            found = newton(replace(family(there), rough=True), guess, tries=8)
         except NotConverged:
             step /= 2
             if abs(step) < abs(end - start) * LEAST_STEP:
                 break
             continue
-        last, at, unknowns = (at, unknowns), there, root.unknowns
+        last, at, unknowns = (at, unknowns), there, found.unknowns
         step *= 1.6
     raise NotConverged("the family of extremals could not be followed", abs((end - at) / (end - start)))

@@ -131,8 +131,9 @@ def fly(
     bang: bool = False,
     chart: int | None = None,
     taylor: bool | None = None,
+    rough: bool = False,
 ) -> Flight:
-    """Follow the extremal that starts with the given costates.
+    """Follow the extremal that starts with the given costates; roughly, where it is but a guess.
 
     Raises
     ------
@@ -151,7 +152,7 @@ def fly(
         pieces.append(Piece(time, mode, whole))
         if len(pieces) > SWITCHES:
             raise NotConverged("the thrust switches too often", duration - time)
-        integrator = arc(mode, not bang and peak < np.inf, taylor)
+        integrator = arc(mode, not bang and peak < np.inf, taylor, rough)
         time, whole, left = integrator.run(whole, time, duration, scaled.eccentricity, chosen)
         loud = not loud
     end, slopes = whole[:COUNT], whole[COUNT:].reshape(COUNT, -1)

@@ -173,7 +173,7 @@ def marched(setting: Setting, fixed: Root) -> Iterator[Point]:
 
     def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
         duration = math.exp(parameter)
-        whole = equations(setting, np.append(unknowns, duration))
+        whole = equations(setting.but(rough=True), np.append(unknowns, duration))
         return whole, whole.jacobian[:6, 6] * duration
 
     start = math.log(fixed.flight.duration)
@@ -194,7 +194,8 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
     found: list[Found] = []
     last: Point | None = None
     cost = best
-    for point in follow(turning(setting), first.unknowns, 0.0, sign, step=0.3, steps=WALK, largest=1.5):
+    family = turning(setting.but(rough=True))
+    for point in follow(family, first.unknowns, 0.0, sign, step=0.3, steps=WALK, largest=1.5):
         for j, guess in _passed(last, point):
             lead = TAU * j
             try:

@@ -43,6 +43,8 @@ class Setting:
         t_k where fixed.
     taylor : bool or None
         As for `pontryagin.flow.flow`.
+    rough : bool
+        Whether extremals are flown to 1e-10 only: along curves, from which `newton` starts anew.
     """
 
     scaled: Scaled
@@ -51,6 +53,7 @@ class Setting:
     lead: float = 0.0
     duration: float | None = None
     taylor: bool | None = None
+    rough: bool = False
 
     @property
     def bang(self) -> bool:
@@ -154,7 +157,15 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
     """
     costates = unknowns[:6]
     duration = float(unknowns[6]) if setting.free else float(setting.duration or 0)
-    flight = fly(setting.scaled, costates, duration, setting.peak, setting.bang, taylor=setting.taylor)
+    flight = fly(
+        setting.scaled,
+        costates,
+        duration,
+        setting.peak,
+        setting.bang,
+        taylor=setting.taylor,
+        rough=setting.rough,
+    )
     goal, moving = goal_of(setting, float(flight.end[3]))
     values, by_state, by_start = mismatch(flight, goal)
     columns = by_state @ flight.slopes

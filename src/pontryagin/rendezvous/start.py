@@ -105,7 +105,7 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path)
     goal, rate = path(done)
 
     def evaluate(z: Array, towards: Array) -> tuple[Flight, Array, Array]:
-        flight = fly(scaled, z, duration, taylor=setting.taylor)
+        flight = fly(scaled, z, duration, taylor=setting.taylor, rough=True)
         values, by_state, by_start = mismatch(flight, towards)
         columns = (by_state @ flight.slopes)[:, :6]
         columns[:, 3:] += by_start
