@@ -160,7 +160,14 @@ def test_the_tables_hold_what_was_solved():
     rows = tables.solutions(found)
     assert rows["arcs"] == ["SU", "U"]
     assert_allclose([float(value) for value in rows["$J$"]], [one.cost for one in found.values()], rtol=1e-9)
-    assert all(float(value) < 1e-10 for value in rows["residual"])
+    assert_allclose(np.array(rows["direct $J$"], float), np.array(rows["$J$"], float), rtol=1e-6)
+    residuals = tables.certificates(found)
+    assert residuals.pop("case") == list(found)
+    assert all(1 < float(value) < 1e4 for value in residuals.pop("condition"))
+    largest = np.max([[float(value) for value in column] for column in residuals.values()], axis=0)
+    wanted = [float(one.certificate.residual) for one in found.values()]
+    assert_allclose(largest, wanted, rtol=0.5)
+    assert largest.max() < 1e-10
     judged = tables.judge(found)
     assert judged["direct/J − 1, 40"][1].endswith("(another)")
     assert tables.others(found)["case"].count("ellipse-mixed") == 4

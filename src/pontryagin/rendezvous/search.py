@@ -146,7 +146,8 @@ def first(setting: Setting, log: Search) -> Root:
                 root = cold_start(fixed, turns)
                 return root if setting.duration else _free(setting, root)
             except NotConverged as reason:
-                log.given_up.append(f"start with the duration {duration:.3g}, {turns} turns: {reason}")
+                asked = duration * setting.scaled.time
+                log.given_up.append(f"start with the duration {asked:.3g}, {turns} turns: {reason}")
     raise NotConverged("no first extremal was found", float("inf"))
 
 

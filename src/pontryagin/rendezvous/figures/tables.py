@@ -21,22 +21,37 @@ def titles() -> Columns:
 
 
 def solutions(found: Mapping[str, Extremal]) -> Columns:
-    """Duration, cost, meeting, arcs and certificate of every case."""
-    several = list(found.values())
-    certificates = [one.certificate for one in several]
+    """Duration, cost, direct cost on the finer mesh, meeting and arcs of every case."""
+    several, kept = list(found.values()), verdicts()
     return {
         "case": list(found),
         "$t_k$": [_time(one.duration, units(one.problem)) for one in several],
         "$J$": [f"{one.cost:.10g}" for one in several],
-        "$\\varphi^*_k$ [°]": [f"{np.degrees(one.arrival_anomaly):.3f}" for one in several],
+        "direct $J$": [f"{kept[name].costs[-1]:.7g}" for name in found],
+        "$\\varphi^*_k$ [°]": [f"{np.degrees(one.arrival_anomaly):.2f}" for one in several],
         "revolutions": [f"{one.revolutions:.3f}" for one in several],
         "arcs": [_arcs(one) for one in several],
-        "residual": [f"{float(one.residual):.0e}" for one in certificates],
-        "of (6)": [f"{float(one.attitude):.0e}" for one in certificates],
-        "Cartesian": [f"{float(one.cartesian):.0e}" for one in certificates],
-        "condition": [f"{float(one.condition):.0f}" for one in certificates],
         "others": [len(one.others) for one in several],
     }
+
+
+def certificates(found: Mapping[str, Extremal]) -> Columns:
+    """Every residual of every case, and the condition number."""
+    several = [one.certificate for one in found.values()]
+    residuals = {
+        "(5)": "boundary",
+        "(6)": "attitude",
+        "(16), end": "transversality",
+        "$H$": "hamiltonian",
+        "maximality": "maximality",
+        "16 equations": "agreement",
+        "Cartesian": "cartesian",
+    }
+    columns: Columns = {"case": list(found)}
+    for title, name in residuals.items():
+        columns[title] = [f"{float(getattr(one, name)):.0e}" for one in several]
+    columns["condition"] = [f"{float(one.condition):.0f}" for one in several]
+    return columns
 
 
 def _time(duration: float, own: Units) -> str:
