@@ -23,7 +23,7 @@ from pontryagin.rendezvous import (
 from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation import sapunkov_principle as principle
 from pontryagin.rendezvous.elements_certify import certify
-from pontryagin.rendezvous.elements_flight import Law, fly_elements
+from pontryagin.rendezvous.elements_flight import Law, fly_elements, switching
 from pontryagin.rendezvous.elements_shooting import Root, Setting, equations
 from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.start import cold_start
@@ -271,6 +271,25 @@ def test_a_free_duration_obeys_the_end_law(inclination, time_weight, peak):
     assert set(free.modes) == {"saturated", "coast"}
     n = np.linalg.norm(free.switching(free.duration), axis=1)[0]
     assert given.peak * (n - 1) == pytest.approx(time_weight, rel=1e-9)
+
+
+@pytest.mark.parametrize("law", [Law("fuel", 0.1, 0.1), Law("square", 0.01, 0.3)])
+def test_no_arc_hides_a_switch(law):
+    random = np.random.default_rng(5)
+    level = 1.0 if law.kind == "fuel" else 2 * law.peak
+    switches = 0
+    for costates in random.normal(size=(40, 6)) * random.choice([0.2, 0.4, 0.8], (40, 1)):
+        try:
+            flight = fly_elements(LEAP.scaled, costates, 4.0, law)
+        except pontryagin.NotConverged:
+            continue
+        ends = [*flight.switch_angles, flight.phi]
+        for piece, end in zip(flight.pieces, ends, strict=True):
+            inside = np.linspace(piece.begin, end, 202)[1:-1]
+            size = np.linalg.norm(switching(flight.sample(inside), inside), axis=1)
+            assert np.all((size > level) == (piece.mode == "saturated"))
+        switches += len(flight.switch_angles)
+    assert switches > 10
 
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):

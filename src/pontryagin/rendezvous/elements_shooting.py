@@ -23,6 +23,7 @@ from pontryagin.rendezvous.elements_flight import (
     switching,
     switching_gradient,
 )
+from pontryagin.rendezvous.homotopy import EXACT, POLISHED, expected, scales
 from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
@@ -31,8 +32,8 @@ Goal = Callable[[float], tuple[Array, Array]]
 
 STEP = 1e-30
 ITERATIONS = 25
-EXACT = 1e-13
-NEAR = 1e-7
+NEAR = 1e-9
+"""Relative correction to be expected at a point on the way of a family."""
 TRIES = 60
 LEAST_STEP = 1 / 128
 """Of the way that a family is followed, the least step."""
@@ -141,7 +142,7 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
         When the residual stays above 1e-6.
     """
     here = equations(setting, unknowns)
-    size = float(np.linalg.norm(here.residual))
+    size, correction = float(np.linalg.norm(here.residual)), np.inf
     for _ in range(tries):
         try:
             step = np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
@@ -152,8 +153,8 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
             break
         unknowns, here = moved
         size = float(np.linalg.norm(here.residual))
-        scale = np.append(np.full(6, np.abs(unknowns[:6]).max() or 1.0), unknowns[6])
-        if np.abs(step / scale).max() < (NEAR if setting.rough else EXACT):
+        last, correction = correction, float(np.abs(step / scales(unknowns)).max())
+        if expected(correction, last) < (NEAR if setting.rough else EXACT):
             break
     if not size < MEETING:
         raise NotConverged("Newton's method did not reach a meeting in the elements", size)
@@ -161,8 +162,11 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
 
 
 def _damped(setting: Setting, unknowns: Array, step: Array, size: float) -> tuple[Array, Equations] | None:
-    """The longest of the halved steps that makes the residual smaller; None if none does."""
-    for halving in range(7):
+    """The longest of the halved steps that makes the residual smaller; None if none does.
+
+    Near the solution only the whole step: what it cannot improve is rounding.
+    """
+    for halving in range(1 if size < POLISHED else 7):
         trial = unknowns + step / 2**halving
         if not 0.3 * unknowns[6] < trial[6] < 3 * unknowns[6]:
             continue

@@ -19,7 +19,10 @@ Family = Callable[[Array, float], tuple[Equations, Array]]
 """Unknowns and the parameter to the equations and their derivative in the parameter."""
 
 ITERATIONS = 12
-EXACT = 1e-13
+EXACT = 1e-15
+"""Relative correction to be expected, by quadratic convergence, of a step that is left undone."""
+POLISHED = 1e-9
+"""Residual below which Newton's method converges quadratically, or stands at rounding."""
 CLOSE = 1e-9
 """Relative size of a correction after which a point of a curve is taken."""
 STEPS = 400
@@ -63,22 +66,30 @@ def newton(setting: Setting, unknowns: Array, tolerance: float = EXACT) -> Root:
     size, correction = float(np.linalg.norm(here.residual)), np.inf
     for _ in range(ITERATIONS):
         step = np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
-        correction = float(np.abs(step / scales(unknowns)).max())
+        last, correction = correction, float(np.abs(step / scales(unknowns)).max())
         moved = _damped(setting, unknowns, step, size)
         if moved is None:
             break
         unknowns, here = moved
         size = float(np.linalg.norm(here.residual))
-        if correction < tolerance:
+        if expected(correction, last) < tolerance:
             break
     if not size < 1e-6:
         raise NotConverged("Newton's method did not reach a meeting", float(size))
     return Root(unknowns, here, correction)
 
 
+def expected(correction: float, last: float) -> float:
+    """The correction after two of quadratic convergence; after one, itself."""
+    return correction * min(1.0, (correction / last) ** 2) if last < np.inf else correction
+
+
 def _damped(setting: Setting, unknowns: Array, step: Array, size: float) -> tuple[Array, Equations] | None:
-    """The longest of the halved steps that makes the residual smaller; None if none does."""
-    for halving in range(6):
+    """The longest of the halved steps that makes the residual smaller; None if none does.
+
+    Near the solution only the whole step: what it cannot improve is rounding.
+    """
+    for halving in range(1 if size < POLISHED else 6):
         trial = unknowns + step / 2**halving
         if setting.free and not 0.2 * unknowns[6] < trial[6] < 5 * unknowns[6]:
             continue
