@@ -1,6 +1,9 @@
+import ast
 import re
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -113,3 +116,20 @@ def test_what_python_loads_for_a_module_is_in_its_closure(module):
     loaded = {REAL.modules[name] for name in done.stdout.split()}
     assert module in done.stdout.split()
     assert loaded <= closure(REAL, [f"import {module}"])
+
+
+def test_threads_parse_one_after_the_other(monkeypatch):
+    inside, crowds, parse = [], [], ast.parse
+
+    def watched(text):
+        inside.append(text)
+        crowds.append(len(inside))
+        time.sleep(0.002)
+        inside.pop()
+        return parse(text)
+
+    monkeypatch.setattr("pontryagin.report.dependencies.ast.parse", watched)
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(literals, [f"open('{i}.csv')" for i in range(40)]))
+    assert found == [{f"{i}.csv"} for i in range(40)]
+    assert crowds == [1] * 40

@@ -6,6 +6,7 @@ by a computed name depends on its whole package, one that looks for files depend
 
 import ast
 import hashlib
+import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,6 +18,7 @@ _LAZY = "lazy"
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
 _FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
+_ONE_AT_A_TIME = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -88,9 +90,15 @@ def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
     return state.hexdigest()[:24]
 
 
+def _parsed(text: str) -> ast.Module:
+    """Its syntax tree; CPython 3.11 counts the depth of all threads' trees together, and may trip over it."""
+    with _ONE_AT_A_TIME:
+        return ast.parse(text)
+
+
 def _needed(source: Source, text: str, package: str) -> set[str]:
     try:
-        tree = ast.parse(text)
+        tree = _parsed(text)
     except SyntaxError:
         return source.below(source.folder.name)
     needed: set[str] = set()
@@ -142,7 +150,7 @@ def _parents(source: Source, module: str) -> set[str]:
 
 
 def _data_beside(path: Path) -> set[Path]:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = _parsed(path.read_text(encoding="utf-8"))
     names = {getattr(node, "id", None) or getattr(node, "attr", None) for node in ast.walk(tree)}
     imported = {
         alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names
@@ -156,7 +164,7 @@ def _data_beside(path: Path) -> set[Path]:
 def literals(text: str) -> set[str]:
     """The short strings written in a piece of code; those that name a file are read by it, perhaps."""
     try:
-        tree = ast.parse(text)
+        tree = _parsed(text)
     except SyntaxError:
         return set()
     strings = (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
