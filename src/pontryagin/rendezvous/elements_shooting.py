@@ -23,7 +23,7 @@ from pontryagin.rendezvous.elements_flight import (
     switching,
     switching_gradient,
 )
-from pontryagin.rendezvous.homotopy import EXACT, POLISHED, expected, scales
+from pontryagin.rendezvous.homotopy import EXACT, NEAR, POLISHED, expected, scales
 from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
@@ -32,8 +32,6 @@ Goal = Callable[[float], tuple[Array, Array]]
 
 STEP = 1e-30
 ITERATIONS = 25
-NEAR = 1e-9
-"""Relative correction to be expected at a point on the way of a family."""
 TRIES = 60
 LEAST_STEP = 1 / 128
 """Of the way that a family is followed, the least step."""

@@ -21,6 +21,8 @@ Family = Callable[[Array, float], tuple[Equations, Array]]
 ITERATIONS = 12
 EXACT = 1e-15
 """Relative correction to be expected, by quadratic convergence, of a step that is left undone."""
+NEAR = 1e-8
+"""The same where flights are rough."""
 POLISHED = 1e-9
 """Residual below which Newton's method converges quadratically, or stands at rounding."""
 CLOSE = 1e-9
@@ -54,7 +56,7 @@ def scales(unknowns: Array) -> Array:
     return np.array([largest] * 6 + list(np.abs(unknowns[6:])))
 
 
-def newton(setting: Setting, unknowns: Array, tolerance: float = EXACT) -> Root:
+def newton(setting: Setting, unknowns: Array) -> Root:
     """Newton's method with halved steps; what is handed out could not be improved further.
 
     Raises
@@ -62,21 +64,42 @@ def newton(setting: Setting, unknowns: Array, tolerance: float = EXACT) -> Root:
     NotConverged
         When the residual stays above 1e-6.
     """
+    unknowns, correction = _approach(setting.but(rough=True), unknowns)
     here = equations(setting, unknowns)
-    size, correction = float(np.linalg.norm(here.residual)), np.inf
+    size = float(np.linalg.norm(here.residual))
     for _ in range(ITERATIONS):
-        step = np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
-        last, correction = correction, float(np.abs(step / scales(unknowns)).max())
+        step, last = _step(here), correction
+        correction = float(np.abs(step / scales(unknowns)).max())
         moved = _damped(setting, unknowns, step, size)
         if moved is None:
             break
         unknowns, here = moved
         size = float(np.linalg.norm(here.residual))
-        if expected(correction, last) < tolerance:
+        if expected(correction, last) < EXACT:
             break
     if not size < 1e-6:
         raise NotConverged("Newton's method did not reach a meeting", float(size))
     return Root(unknowns, here, correction)
+
+
+def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:
+    """The first steps, flown roughly, until an exact one is worth it; the last correction."""
+    here = equations(rough, unknowns)
+    correction = np.inf
+    for _ in range(ITERATIONS):
+        step, last = _step(here), correction
+        correction = float(np.abs(step / scales(unknowns)).max())
+        if expected(correction, last) < NEAR:
+            return unknowns + step, correction
+        moved = _damped(rough, unknowns, step, float(np.linalg.norm(here.residual)))
+        if moved is None:
+            return unknowns, np.inf
+        unknowns, here = moved
+    return unknowns, np.inf
+
+
+def _step(here: Equations) -> Array:
+    return np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
 
 
 def expected(correction: float, last: float) -> float:
