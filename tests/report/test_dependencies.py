@@ -83,6 +83,14 @@ def test_what_cannot_be_decided_depends_on_all_papers(source, code):
     assert names(source, code) == everything - {"report", "cli"}
 
 
+def test_what_lies_beside_the_report_is_no_paper_s_business(source):
+    (source.folder / "files.py").write_text("from pathlib import Path\nHERE = Path(__file__).parent")
+    (source.folder / "report" / "report.css").write_text("p { margin: 0 }")
+    (source.folder / "table" / "ends.csv").write_text("1")
+    found = names(Source(source.folder), "import pontryagin.files")
+    assert found == {"pontryagin", "files", "a.txt", "ends.csv"}
+
+
 def test_a_key_changes_with_every_part_and_with_their_borders(tmp_path):
     (tmp_path / "a").write_text("1")
     keys = {digest("ab", "c"), digest("a", "bc"), digest("abc"), digest(tmp_path / "a", root=tmp_path)}

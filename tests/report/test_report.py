@@ -178,6 +178,15 @@ def test_a_formula_that_cannot_be_converted_fails_the_build_at_its_cell(checkout
     assert not (tmp_path / "a.pdf").exists()
 
 
+def test_names_and_numbers_in_a_table_are_not_broken(checkout):
+    long = "a sentence that goes on for longer than a name"
+    read = text.read(cells(f"| case | J |\n| - | - |\n| inclined-10 | 1e-15 |\n| {long} | $x + y$ |"))
+    page = render_html(read.document, checkout.root, TITLE)
+    cell = re.compile(r"<td([^>]*)>(.*?)</td>", re.DOTALL)
+    kept = {re.sub("<[^>]*>", "", content): "short" in marks for marks, content in cell.findall(page)}
+    assert kept == {"inclined-10": True, "1e-15": True, long: False, r"\(x + y\)": True}
+
+
 def test_a_missing_picture_fails_the_build(checkout):
     read = text.read(cells("![a picture](figures/none.svg)"))
     with pytest.raises(tree.PandocWarning, match=r"figures/none\.svg"):

@@ -9,7 +9,7 @@ import hashlib
 import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
@@ -75,7 +75,7 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
         text = source.modules[module].read_text(encoding="utf-8")
         open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
     files = {source.modules[module] for module in known}
-    return files | {data for path in files for data in _data_beside(path)}
+    return files | {data for path in files for data in _data_beside(source, path)}
 
 
 def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
@@ -96,13 +96,20 @@ def _parsed(text: str) -> ast.Module:
         return ast.parse(text)
 
 
+@cache
+def _telling(text: str) -> tuple[ast.AST, ...]:
+    """The nodes of its syntax tree that can name a module."""
+    kinds = (ast.Import, ast.ImportFrom, ast.Constant, ast.Call)
+    return tuple(node for node in ast.walk(_parsed(text)) if isinstance(node, kinds))
+
+
 def _needed(source: Source, text: str, package: str) -> set[str]:
     try:
-        tree = _parsed(text)
+        nodes = _telling(text)
     except SyntaxError:
         return source.below(source.folder.name)
     needed: set[str] = set()
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Import):
             needed |= set().union(*(_named(source, alias.name) for alias in node.names))
         elif isinstance(node, ast.ImportFrom):
@@ -120,16 +127,17 @@ def _needed(source: Source, text: str, package: str) -> set[str]:
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     function = call.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    written = [node.value for node in ast.walk(call) if isinstance(node, ast.Constant)]
     if name == "attach":
         return source.below(package)
+    if name not in _COMPUTED | _COMMANDS:
+        return set()
+    written = [node.value for node in ast.walk(call) if isinstance(node, ast.Constant)]
     if name in _COMPUTED:
         constant = bool(call.args) and isinstance(call.args[0], ast.Constant)
         exact = constant and str(written[0]) in source.modules
         return set() if exact else source.below(package)
-    if name in _COMMANDS and any(source.folder.name in str(value) for value in written):
-        return source.below(source.folder.name)
-    return set()
+    named = any(source.folder.name in str(value) for value in written)
+    return source.below(source.folder.name) if named else set()
 
 
 def _absolute(node: ast.ImportFrom, package: str) -> str:
@@ -149,16 +157,28 @@ def _parents(source: Source, module: str) -> set[str]:
     return _named(source, module) - {module}
 
 
-def _data_beside(path: Path) -> set[Path]:
-    tree = _parsed(path.read_text(encoding="utf-8"))
+def _data_beside(source: Source, path: Path) -> set[Path]:
+    """What a module that looks for files may find; what lies above the papers is found from there alone."""
+    if not _looks_for_files(path.read_text(encoding="utf-8")):
+        return set()
+    above = [source.folder / name for name in _ABOVE_THE_PAPERS]
+    hidden = [folder for folder in above if not path.is_relative_to(folder)]
+    beside = (found for found in path.parent.rglob("*") if found.is_file())
+    return {
+        found
+        for found in beside
+        if found.suffix not in {".py", ".pyc"} and not any(map(found.is_relative_to, hidden))
+    }
+
+
+@cache
+def _looks_for_files(text: str) -> bool:
+    tree = _parsed(text)
     names = {getattr(node, "id", None) or getattr(node, "attr", None) for node in ast.walk(tree)}
     imported = {
         alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names
     }
-    if not _FILE_READERS & (names | imported):
-        return set()
-    beside = (found for found in path.parent.rglob("*") if found.is_file())
-    return {found for found in beside if found.suffix not in {".py", ".pyc"}}
+    return bool(_FILE_READERS & (names | imported))
 
 
 def literals(text: str) -> set[str]:

@@ -9,6 +9,8 @@ from pontryagin.report import tree
 
 ASSETS = Path(__file__).parent / "assets"
 MATHJAX = Path(__file__).parent / "vendor" / "mathjax" / "tex-svg-full.js"
+SHORT = 24
+"""Characters of a table cell that stay on one line."""
 
 
 def render_html(document: tree.Node, root: Path, title: dict[str, str]) -> str:
@@ -46,6 +48,7 @@ def _for_html(node: tree.Node) -> list[tree.Node] | None:
         return [fold, node, tree.raw("html", "</details>")]
     if kind == "Table":
         _natural_widths(node)
+        _unbroken(node)
         return [{"t": "Div", "c": [["", ["wide"], []], [node]]}]
     if kind == "Figure":
         return [_with_maker(node)]
@@ -76,6 +79,15 @@ def _maker(file: str) -> tree.Node:
 
 def _natural_widths(table: tree.Node) -> None:
     table["c"][2] = [[alignment, {"t": "ColWidthDefault"}] for alignment, _ in table["c"][2]]
+
+
+def _unbroken(table: tree.Node) -> None:
+    """Mark the cells that are too short to be broken: names and numbers, hyphens in them or not."""
+    for _, _, headed, rows in table["c"][4]:
+        for _, cells in [*headed, *rows]:
+            for cell in cells:
+                if tree.length(cell[4]) <= SHORT:
+                    cell[0][1] = [*cell[0][1], "short"]
 
 
 def _check_vendored() -> None:

@@ -72,6 +72,13 @@ def elements(node: Any, kind: str) -> Iterator[Node]:
             yield from elements(item, kind)
 
 
+def length(node: Any) -> int:
+    """Characters of the text below `node`; a formula counts as it is written in TeX."""
+    words = sum(len(found["c"]) for found in elements(node, "Str"))
+    formulas = sum(len(found["c"][1]) for kind in ("Math", "Code") for found in elements(node, kind))
+    return words + formulas + sum(1 for _ in elements(node, "Space"))
+
+
 def identifiers(node: Any) -> Iterator[str]:
     """Every identifier below `node` that a link can lead to."""
     if isinstance(node, list) and len(node) == 3 and isinstance(node[0], str) and isinstance(node[1], list):
