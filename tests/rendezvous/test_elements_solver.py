@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.testing import assert_allclose
 
 import pontryagin
 from pontryagin.rendezvous import (
@@ -290,6 +291,20 @@ def test_no_arc_hides_a_switch(law):
             assert np.all((size > level) == (piece.mode == "saturated"))
         switches += len(flight.switch_angles)
     assert switches > 10
+
+
+def test_no_step_leaps_over_a_burn_under_a_sharp_jump():
+    law = Law("fuel", 0.0, 0.2, width=0.02)
+    random = np.random.default_rng(3)
+    compared = 0
+    for costates in random.normal(size=(40, 6)) * random.choice([0.2, 0.4, 0.8], (40, 1)):
+        try:
+            exact, rough = (fly_elements(LEAP.scaled, costates, 3.0, law, rough=r).end for r in (False, True))
+        except pontryagin.NotConverged:
+            continue
+        assert_allclose(rough, exact, atol=1e-4)
+        compared += 1
+    assert compared > 20
 
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):

@@ -28,6 +28,11 @@ Mode = Literal["unsaturated", "saturated", "coast", "smoothed"]
 
 ELEMENTS, COSTATES, TIME, SPENT = slice(0, 8), slice(8, 16), 16, 17
 COUNT, COLUMNS = 18, 6
+STRIDE = 8.0
+"""Longest step of phi under a smoothed jump, in its widths.
+
+A coast under it is a straight line to rounding, and steps without limit would leap over the burn behind it.
+"""
 STEPS_PER_UNIT = 80
 """An arc that needs more Taylor steps than this per unit of phi runs into a singularity."""
 
@@ -134,7 +139,7 @@ class _Taylor:
         system = hy.var_ode_sys(list(zip(x, rates, strict=True)), x[8:14], order=1)
         sense = hy.event_direction.positive if RISING[mode] > 0 else hy.event_direction.negative
         event = hy.t_event(_beyond(x, hy.time, constants, functions), direction=sense)
-        self._hy, self._count = hy, 4 if mode == "smoothed" else 3
+        self._hy, self._mode, self._count = hy, mode, 4 if mode == "smoothed" else 3
         self._integrator = hy.taylor_adaptive(
             system,
             np.ones(COUNT),
@@ -158,7 +163,8 @@ class _Taylor:
 
     def run(self, whole: Array, begin: float, end: float, constants: Constants) -> Reached:
         integrator = self._begin(whole, begin, constants)
-        outcome = integrator.propagate_until(end, max_steps=_steps(end - begin))[0]
+        limits = {"max_delta_t": _stride(self._mode, constants), "max_steps": _steps(end - begin)}
+        outcome = integrator.propagate_until(end, **limits)[0]
         switched = int(outcome) == -1
         if not switched:
             self._require(outcome, end - integrator.time)
@@ -166,7 +172,8 @@ class _Taylor:
 
     def sample(self, whole: Array, grid: Array, constants: Constants) -> Array:
         integrator = self._begin(whole, grid[0], constants)
-        outcome, *_, states = integrator.propagate_grid(grid, max_steps=_steps(grid[-1] - grid[0]))
+        limits = {"max_delta_t": _stride(self._mode, constants), "max_steps": _steps(grid[-1] - grid[0])}
+        outcome, *_, states = integrator.propagate_grid(grid, **limits)
         filled = states[:, :COUNT]
         if int(outcome) == -1:  # the last phi is the switch itself
             filled[~np.isfinite(filled).all(axis=1)] = integrator.state[:COUNT]
@@ -203,6 +210,7 @@ class _RungeKutta:
                 "DOP853",
                 grid,
                 events=[leaving],
+                max_step=_stride(self._mode, constants),
                 rtol=self._tolerance,
                 atol=self._tolerance / 10,
             )
@@ -221,6 +229,10 @@ class _RungeKutta:
         missing = len(grid) - result.y.shape[1]  # the last phi is the switch itself
         tail = [result.y_events[0][0]] * missing if missing else []
         return np.vstack([result.y.T, *tail])
+
+
+def _stride(mode: Mode, constants: Constants) -> float:
+    return STRIDE * constants.width if mode == "smoothed" else np.inf
 
 
 def _steps(span: float) -> int:
