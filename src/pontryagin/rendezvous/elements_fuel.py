@@ -78,32 +78,22 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
     value = problem.energy_weight * scaled.acceleration * scaled.time
-    if scaled.duration is None:
-        smoothed, sharp = _free(scaled, law, revolutions)
-    else:
-        smoothed, sharp = _fixed(scaled, law, scaled.duration, revolutions)
+    duration = scaled.duration or _duration(scaled)
+    wide = _wide(scaled, law, duration, revolutions)
+    smoothed, sharp = _freed(scaled, law, wide) if problem.free else _sharpened(scaled, law, wide, duration)
     return ElementsExtremal(problem, sharp, value, tuple(smoothed))
 
 
-def _fixed(scaled: Scaled, law: Law, duration: float, revolutions: int) -> tuple[list[Root], Root]:
-    """The smoothed extremals and the sharp one of a fixed duration."""
-    smoothed = _narrowed(scaled, law, _wide(scaled, law, duration, revolutions), duration)
-    return smoothed, _sharpened(scaled, law, smoothed[-1], duration)
-
-
-def _free(scaled: Scaled, law: Law, revolutions: int) -> tuple[list[Root], Root]:
-    """The same where the terminal law stands in for the duration.
+def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
+    """As `_sharpened`, with the terminal law in place of the duration.
 
     The smoothed thrust is led to the law, since with a jump arcs come and go along the durations; where that
     family ends, the sharp extremal of one duration is.
     """
-    duration = _duration(scaled)
-    wide = _wide(scaled, law, duration, revolutions)
     try:
-        smoothed = _narrowed(scaled, law, marched(scaled, wide.flight.law, wide), None)
-        return smoothed, _sharpened(scaled, law, smoothed[-1], None)
+        return _sharpened(scaled, law, marched(scaled, wide.flight.law, wide), None)
     except NotConverged:
-        smoothed, sharp = _fixed(scaled, law, duration, revolutions)
+        smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
         return smoothed, marched(scaled, law, sharp)
 
 
@@ -124,8 +114,8 @@ def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
     return follow(lowered, root, math.log(wide.peak), math.log(law.peak))
 
 
-def _narrowed(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> list[Root]:
-    """The smoothed extremals at the widths, widest first, until one can be sharpened."""
+def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> tuple[list[Root], Root]:
+    """The smoothed extremals, widest first, and the one with the jump itself that the last leads to."""
 
     def narrowed(logarithm: float) -> Setting:
         return Setting(scaled, law.but(width=math.exp(logarithm)), duration)
@@ -134,9 +124,12 @@ def _narrowed(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> l
     for width in WIDTHS[1:]:
         last = found[-1]
         found.append(follow(narrowed, last, math.log(last.flight.law.width), math.log(width)))
-        if width <= SHARPENED_FROM and _sharp(scaled, law, found[-1], duration) is not None:
-            break
-    return found
+        if width <= SHARPENED_FROM:
+            try:
+                return found, newton(Setting(scaled, law, duration), found[-1].unknowns)
+            except NotConverged:
+                continue
+    raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
 
 
 def scaled_to(gentle: Root, law: Law) -> Array:
@@ -147,18 +140,3 @@ def scaled_to(gentle: Root, law: Law) -> Array:
     share = min(0.9, size / 2 / law.peak)
     factor = max(0.1, 1 + law.width * math.atanh(2 * share - 1)) / size
     return gentle.unknowns * np.append(np.full(6, factor), 1.0)
-
-
-def _sharp(scaled: Scaled, law: Law, smooth: Root, duration: float | None) -> Root | None:
-    """The extremal with the jump itself, from a smoothed one; None where Newton's method fails."""
-    try:
-        return newton(Setting(scaled, law, duration), smooth.unknowns)
-    except NotConverged:
-        return None
-
-
-def _sharpened(scaled: Scaled, law: Law, smooth: Root, duration: float | None) -> Root:
-    root = _sharp(scaled, law, smooth, duration)
-    if root is None:
-        raise NotConverged("the smoothed thrust could not be sharpened", smooth.flight.law.width)
-    return root
