@@ -6,8 +6,7 @@ from benchmarks.contest import worst
 from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import MOMENT_CLASSES, TRANSFER_CLASSES
 from benchmarks.triple_integrator.transfers import by_pontryagin
-from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
-from pontryagin.triple_integrator import time as least_time
+from pontryagin.triple_integrator import Maneuver, arrival, minimum_energy, minimum_impulse, minimum_peak
 
 HEADINGS = ("problem", "class", "problems", "unsolved", "worst miss", "worst gap")
 
@@ -64,7 +63,7 @@ def _least_time(name: str, count: int) -> tuple:
     work = problems.transfers(name, count)
     answers = by_pontryagin(work)
     columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
-    bound = least_time.solve_stack(*columns, work.force, work.peak)[:, 5]
+    bound = arrival.solve_stack(*columns, work.force, work.peak)[:, 5]
     solved = answers.solved
     gap = _gap(answers.duration[solved], bound[solved])
     return ("least time", name, count, float(1 - solved.mean()), worst(answers.miss[solved]), gap)

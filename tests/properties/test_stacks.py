@@ -7,6 +7,7 @@ from numpy.testing import assert_array_equal
 from pontryagin import jit
 from pontryagin.triple_integrator import (
     Maneuver,
+    arrival,
     energy,
     impulse,
     minimum_energy,
@@ -14,7 +15,6 @@ from pontryagin.triple_integrator import (
     minimum_peak,
     minimum_time,
     peak,
-    time,
 )
 
 COUNT = 100_000
@@ -22,7 +22,7 @@ KERNELS = {
     "energy": (energy.solve_energy, energy.solve_stack),
     "peak": (peak.solve_peak, peak.solve_stack),
     "impulse": (impulse.solve_impulse, impulse.solve_stack),
-    "time": (time.solve_time, time.solve_stack),
+    "time": (arrival.solve_time, arrival.solve_stack),
 }
 
 
