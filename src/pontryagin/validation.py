@@ -1,6 +1,7 @@
 """Checks of what users pass in: each names the argument, what it got and what it takes."""
 
 from math import isfinite
+from operator import index
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,6 +61,22 @@ def vectors(name: str, value: ArrayLike, length: int) -> NDArray[np.float64]:
     if array.ndim == 0 or array.shape[-1] != length:
         raise ValueError(f"{name} must be an array (..., {length}), got shape {array.shape}")
     return array
+
+
+def integer(name: str, value: object) -> int:
+    """`value` as an integer, of whichever sign.
+
+    Raises
+    ------
+    TypeError
+        If it is none.
+    """
+    try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        return index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number, got {value!r}") from None
 
 
 def positive(name: str, value: ArrayLike) -> NDArray[np.float64]:

@@ -76,6 +76,7 @@ class TestAnswers:
         assert told["others"]["cost"] == [other.cost for other in leap.others]
         assert told["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
         assert told["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
+        assert told["searched"]["ends"] == leap.searched.ends and len(leap.searched.ends) == 2
         t = np.linspace(0, 6, 5)
         assert told["samples"]["t"] == t.tolist()
         for name in ("state", "costate", "control"):

@@ -1,3 +1,4 @@
+import json
 import re
 import subprocess
 import sys
@@ -6,6 +7,7 @@ from html import unescape
 from html.parser import HTMLParser
 
 import pytest
+import typst
 
 from pontryagin.report import assemble, browser, publish, text, tree
 from pontryagin.report.execute import execute
@@ -185,6 +187,15 @@ def test_names_and_numbers_in_a_table_are_not_broken(checkout):
     cell = re.compile(r"<td([^>]*)>(.*?)</td>", re.DOTALL)
     kept = {re.sub("<[^>]*>", "", content): "short" in marks for marks, content in cell.findall(page)}
     assert kept == {"inclined-10": True, "1e-15": True, long: False, r"\(x + y\)": True}
+
+
+def test_tables_without_a_caption_take_no_number_on_paper_either(checkout, tmp_path):
+    table = "| case | J |\n| - | - |\n| one | 1 |"
+    read = text.read(cells(f"{table}\n\n{table}\n\n: Numbered.\n\n{table}"))
+    draft = tmp_path / "a.typ"
+    draft.write_text(typst_text(read.document, TITLE), encoding="utf-8")
+    numbers = json.loads(typst.query(str(draft), "figure.where(kind: table)", field="numbering"))
+    assert numbers == [None, "1", None]
 
 
 def test_a_missing_picture_fails_the_build(checkout):

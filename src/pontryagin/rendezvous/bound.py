@@ -35,7 +35,15 @@ def largest_thrust(flight: Flight) -> float:
 
 
 def _lowered(loose: Setting, root: Root, peak: float) -> Root:
-    """Bring the bound down to p_max."""
+    """Bring the bound down to p_max.
+
+    Raises
+    ------
+    Infeasible
+        Where the costates run away: there the bound is the least with which this family makes its duration.
+    NotConverged
+        Where the family turns back, or cannot be followed.
+    """
     if peak == math.inf:
         return root
     highest = 1.001 * largest_thrust(root.flight)
@@ -52,14 +60,17 @@ def _lowered(loose: Setting, root: Root, peak: float) -> Root:
     for point in follow(family, root.unknowns, start, end, steps=LOWER, largest=1.0):
         if last is not None and last.parameter > end >= point.parameter:
             return newton(loose.but(peak=peak), between(last, point, end))
-        if (
-            point.parameter > start
-            or np.abs(point.unknowns[:6]).max() > RUNAWAY * np.abs(root.unknowns[:6]).max()
-        ):
+        if np.abs(point.unknowns[:6]).max() > RUNAWAY * np.abs(root.unknowns[:6]).max():
+            raise Infeasible(f"{_how_far(loose, least, end)}: the costates grow beyond measure")
+        if point.parameter > start:
             break
         last, least = point, min(least, point.parameter)
-    units = loose.scaled.acceleration
-    raise Infeasible(f"the bound went down to {math.exp(least) * units:.6g}, not to {peak * units:.6g}")
+    raise NotConverged(f"{_how_far(loose, least, end)}: the family turns back or ends", least - end)
+
+
+def _how_far(loose: Setting, least: float, end: float) -> str:
+    reached, wanted = (math.exp(x) * loose.scaled.acceleration for x in (least, end))
+    return f"the bound went down to {reached:.6g}, not to {wanted:.6g}"
 
 
 def _least_time(setting: Setting, root: Root) -> Root:

@@ -40,7 +40,8 @@ class ElementsCertificate(MaximumPrinciple):
     transversality : () array
         Momentum of the turn, relative to the largest costate, and at a free duration the terminal law.
     hamiltonian : () array
-        |H|, or at a fixed duration its change, in units of the largest running cost.
+        |H| with what the target's motion adds, which is constant and at a free duration 0; at a fixed one
+        the change of H. In units of the largest running cost.
     maximality : () array
         As in `MaximumPrinciple`, in units of the largest running cost.
     cartesian : () array
@@ -54,6 +55,17 @@ class ElementsCertificate(MaximumPrinciple):
         Largest relative difference between |n| and its level at the switches.
     condition : () array
         Condition number of the shooting equations, costates measured by the largest and phi by itself.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve_in_elements
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> proof = solve_in_elements(leap).certificate
+    >>> proof.holds(1e-10), bool(proof.relation < 1e-12)
+    (True, True)
     """
 
     cartesian: NDArray[np.float64]

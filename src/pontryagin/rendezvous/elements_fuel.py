@@ -12,13 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements_flight import Law, switching
+from pontryagin.rendezvous.elements_flight import switching
+from pontryagin.rendezvous.elements_law import Law
 from pontryagin.rendezvous.elements_shooting import Root, Setting, follow, newton
 from pontryagin.rendezvous.elements_solve import ElementsExtremal, largest_thrust, require
 from pontryagin.rendezvous.elements_start import energy, led, marched
 from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.search import first_duration
+from pontryagin.validation import integer
 
 Array = NDArray[np.float64]
 
@@ -49,6 +51,8 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
 
     Raises
     ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, or ``revolutions`` no integer.
     ValueError
         If the peak is infinite: the optimum is then a few impulses, and no thrust; or if ``energy_weight``
         is 0: that is the least time, which `solve` and `solve_in_elements` find.
@@ -68,6 +72,7 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     (('saturated', 'coast', 'saturated'), True)
     """
     require(problem)
+    integer("revolutions", revolutions)
     if problem.energy_weight == 0:
         raise ValueError("energy_weight must be greater than 0, got 0: nothing but time would cost")
     if problem.peak == math.inf:
@@ -91,7 +96,7 @@ def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
     family ends, the sharp extremal of one duration is.
     """
     try:
-        return _sharpened(scaled, law, marched(scaled, wide.flight.law, wide), None)
+        return _sharpened(scaled, law, wide, None)
     except NotConverged:
         smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
         return smoothed, marched(scaled, law, sharp)
@@ -107,9 +112,12 @@ def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
     gentle = energy(scaled, duration, revolutions)
     wide = law.but(width=WIDTHS[0], peak=max(law.peak, ROOM * largest_thrust(gentle.flight)))
     root = led(Setting(scaled, wide, duration), scaled_to(gentle, wide))
+    fixed = scaled.duration
+    if fixed is None:
+        root = marched(scaled, wide, root)
 
     def lowered(logarithm: float) -> Setting:
-        return Setting(scaled, wide.but(peak=math.exp(logarithm)), duration)
+        return Setting(scaled, wide.but(peak=math.exp(logarithm)), fixed)
 
     return follow(lowered, root, math.log(wide.peak), math.log(law.peak))
 

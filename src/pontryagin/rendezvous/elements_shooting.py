@@ -17,13 +17,13 @@ from pontryagin.rendezvous.cartesian import target_by_kepler
 from pontryagin.rendezvous.elements_arcs import TIME
 from pontryagin.rendezvous.elements_flight import (
     ElementFlight,
-    Law,
     end_rates,
     fly_elements,
     switching,
     switching_gradient,
 )
-from pontryagin.rendezvous.homotopy import EXACT, NEAR, POLISHED, expected, scales
+from pontryagin.rendezvous.elements_law import Law
+from pontryagin.rendezvous.homotopy import EXACT, NEAR, POLISHED, expected, scales, tolerance
 from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
@@ -35,8 +35,8 @@ ITERATIONS = 25
 TRIES = 60
 LEAST_STEP = 1 / 128
 """Of the way that a family is followed, the least step."""
-MEETING = 1e-6
-"""Residual above which Newton's method has not arrived."""
+ROUGH_MEETING = 1e-6
+"""Residual above which Newton's method has not arrived, on the way of a family."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
     Raises
     ------
     NotConverged
-        When the residual stays above 1e-6.
+        When the residual stays above `homotopy.tolerance`, or 1e-6 where the flights are rough.
     """
     here = equations(setting, unknowns)
     size, correction = float(np.linalg.norm(here.residual)), np.inf
@@ -154,7 +154,7 @@ def newton(setting: Setting, unknowns: Array, tries: int = ITERATIONS) -> Root:
         last, correction = correction, float(np.abs(step / scales(unknowns)).max())
         if expected(correction, last) < (NEAR if setting.rough else EXACT):
             break
-    if not size < MEETING:
+    if not size <= (ROUGH_MEETING if setting.rough else tolerance(here.jacobian, unknowns)):
         raise NotConverged("Newton's method did not reach a meeting in the elements", size)
     return Root(unknowns, here)
 

@@ -13,11 +13,11 @@ from pontryagin.rendezvous.elements import Elements, place_gradient
 from pontryagin.rendezvous.elements_certify import ElementsCertificate, certify
 from pontryagin.rendezvous.elements_flight import (
     ElementFlight,
-    Law,
     basis,
     start_of,
     switching,
 )
+from pontryagin.rendezvous.elements_law import Law
 from pontryagin.rendezvous.elements_shooting import Root, Setting, follow, newton
 from pontryagin.rendezvous.elements_start import energy, marched
 from pontryagin.rendezvous.flight import Flight
@@ -25,8 +25,8 @@ from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.search import END_SHARES, first_duration
-from pontryagin.rendezvous.solution import Extremal
-from pontryagin.validation import times
+from pontryagin.rendezvous.solution import Extremal, require_extremal
+from pontryagin.validation import integer, times
 
 Array = NDArray[np.float64]
 
@@ -48,6 +48,17 @@ class ElementsExtremal:
         The unit of the cost.
     smoothed : tuple of Root
         Extremals with the thrust's jump smoothed, by falling width, that led here; of `least_fuel` alone.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve_in_elements
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> found = solve_in_elements(leap)
+    >>> found.elements([0.0, 6.0]).A.shape, found.control([0.0, 6.0]).shape, found.switch_times.shape
+    ((2, 4), (2, 3), (0,))
     """
 
     problem: Rendezvous
@@ -120,7 +131,7 @@ class ElementsExtremal:
 def solve_in_elements(
     problem: Rendezvous, start: Extremal | None = None, revolutions: int = 0
 ) -> ElementsExtremal:
-    """A rendezvous of least integral of alpha1 + alpha2 p^2, by the maximum principle in Sapunkov's elements.
+    """A rendezvous of least integral of alpha1 + alpha2 p^2 in Sapunkov's elements, his (1).
 
     The elements of the goal are led from the craft's to the target's; then the duration is changed until the
     terminal law holds, and the bound lowered. One family of extremals is followed; `solve` looks at several.
@@ -134,8 +145,15 @@ def solve_in_elements(
     revolutions : int
         How many more than the number nearest to what the craft would make coasting; without ``start``.
 
+    Returns
+    -------
+    ElementsExtremal
+        The one extremal that the family leads to.
+
     Raises
     ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, ``start`` no `Extremal`, or ``revolutions`` no integer.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``).
     NotConverged
@@ -153,9 +171,11 @@ def solve_in_elements(
     (0.023882, True)
     """
     require(problem)
+    integer("revolutions", revolutions)
     scaled = problem.scaled
     law = Law("square", scaled.ratio, scaled.peak)
     if start is not None:
+        require_extremal("start", start)
         return ElementsExtremal(
             problem, newton(Setting(scaled, law, scaled.duration), carried(start)), scaled.value
         )

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.cartesian import target_by_kepler
 from pontryagin.rendezvous.elements import I1, Elements, place
-from pontryagin.rendezvous.elements_flight import Law, fly_elements, start_of
+from pontryagin.rendezvous.elements_flight import fly_elements, start_of
+from pontryagin.rendezvous.elements_law import Law
 from pontryagin.rendezvous.elements_shooting import Root, Setting, equations, follow, newton
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.scaled import Scaled

@@ -25,6 +25,8 @@ NEAR = 1e-8
 """The same where flights are rough."""
 POLISHED = 1e-9
 """Residual below which Newton's method converges quadratically, or stands at rounding."""
+MEETING = 1e-10
+"""Residual of a meeting, where its conditioning allows."""
 CLOSE = 1e-9
 """Relative size of a correction after which a point of a curve is taken."""
 STEPS = 400
@@ -62,7 +64,7 @@ def newton(setting: Setting, unknowns: Array) -> Root:
     Raises
     ------
     NotConverged
-        When the residual stays above 1e-6.
+        When the residual stays above `tolerance`.
     """
     unknowns, correction = _approach(setting.but(rough=True), unknowns)
     here = equations(setting, unknowns)
@@ -77,9 +79,15 @@ def newton(setting: Setting, unknowns: Array) -> Root:
         size = float(np.linalg.norm(here.residual))
         if expected(correction, last) < EXACT:
             break
-    if not size < 1e-6:
+    if not size <= tolerance(here.jacobian, unknowns):
         raise NotConverged("Newton's method did not reach a meeting", float(size))
     return Root(unknowns, here, correction)
+
+
+def tolerance(jacobian: Array, unknowns: Array) -> float:
+    """The residual of a meeting: 1e-10, or what rounding makes of it where the equations are worse."""
+    condition = float(np.linalg.cond(jacobian * scales(unknowns)))
+    return max(MEETING, 100 * float(np.finfo(float).eps) * condition)
 
 
 def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:

@@ -12,12 +12,15 @@ from pontryagin.rendezvous.homotopy import newton
 from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.search import Search
 from pontryagin.rendezvous.shooting import SEEN, STEP, Setting
 from pontryagin.rendezvous.solution import Extremal, distinct
 from pontryagin.validation import positive, vectors
 
 Array = NDArray[np.float64]
 ITERATIONS, HALVINGS = 30, 6
+FAINT = 1e-8
+"""In the place of nu = 0, which has no direction; the slopes change by as much."""
 NEAR = 1e-8
 """Residual from which Newton's method for one flight does the rest."""
 
@@ -40,6 +43,17 @@ class Carried:
         Derivatives of the miss in the costates at t0, by the variational equations.
     switches : (...) array of int
         How often the thrust met its bound or left it.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, carry
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> there = carry(leap, np.zeros((2, 3, 6)))
+    >>> there.state.shape, there.slopes.shape, int(there.switches.max())
+    ((2, 3, 8), (2, 3, 6, 6), 0)
     """
 
     reached: NDArray[np.bool_]
@@ -51,7 +65,7 @@ class Carried:
 
 
 def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None = None) -> Carried:
-    """Carry extremals from their costates at t0 to their ends, many at once.
+    """Carry extremals, (2), (8)-(14), from their costates at t0 to their ends, many at once.
 
     heyoka's vector mode does it, switches of the thrust included; without heyoka they go one by one.
 
@@ -63,6 +77,11 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
         rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
     durations : (...) array_like, optional
         When each ends; by default the problem's own fixed duration.
+
+    Returns
+    -------
+    Carried
+        One row for each start.
 
     Raises
     ------
@@ -94,7 +113,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
         raise ValueError(
             f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {wanted.shape}"
         ) from None
-    inside = np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6)
+    inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
     times = np.broadcast_to(wanted / scaled.time, shape).ravel()
     flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
     miss, slopes = misses(scaled, flights)
@@ -113,6 +132,13 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
         (slopes / scaled.costate_units).reshape(*shape, 6, 6),
         flights.switches.reshape(shape),
     )
+
+
+def _directed(costates: Array) -> Array:
+    """Those without nu are given a little of it along i3: the flight is the same, and chi has its axis."""
+    given = np.array(costates)
+    given[~given[:, 3:].any(axis=1), 5] = FAINT
+    return given
 
 
 def relative_attitude(flights: Flights) -> Array:
@@ -149,6 +175,11 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     costates : (k, 6) array_like
         Starts: rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
 
+    Returns
+    -------
+    tuple of Extremal
+        Each extremal once; none where no start led to one. The first's `searched` counts the starts lost.
+
     Raises
     ------
     ValueError, TypeError
@@ -173,15 +204,19 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
         raise ValueError(f"costates must be an array (k, 6), got shape {starts.shape}")
     scaled = problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    ends, sizes = newton_from_all(setting, starts / scaled.costate_units)
+    ends, sizes = newton_from_all(setting, _directed(starts / scaled.costate_units))
     found: list[Extremal] = []
     for unknowns in ends[sizes < NEAR]:
         try:
             found.append(Extremal(problem, newton(setting, unknowns)))
         except NotConverged:
             continue
-    best = distinct(found)
-    return tuple(best[:1] and [replace(best[0], others=tuple(best[1:])), *best[1:]])
+    best, *others = distinct(found) or (None,)
+    if best is None:
+        return ()
+    lost = f"{len(starts) - len(found)} of {len(starts)} starts, from which no meeting was reached"
+    log = Search(durations=[setting.duration or 0.0], given_up=[lost])
+    return (replace(best, others=tuple(others), searched=log), *others)
 
 
 def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:

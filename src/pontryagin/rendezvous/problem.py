@@ -42,7 +42,7 @@ def unit_quaternion(name: str, value: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class Orbit:
-    """The target's Kepler ellipse and its place on it at the start.
+    """The target's Kepler ellipse, (5), and its place on it at the start, (4).
 
     Parameters
     ----------
@@ -96,7 +96,19 @@ class Orbit:
         pericentre: float,
         anomaly: float,
     ) -> "Orbit":
-        """The orbit whose node, inclination and pericentre's argument are given, in radians.
+        """The orbit whose node, inclination and pericentre's argument are given.
+
+        Parameters
+        ----------
+        parameter, eccentricity, anomaly : float
+            As for `Orbit`.
+        node, inclination, pericentre : float
+            Longitude of the node, inclination, and the pericentre's argument, in radians.
+
+        Raises
+        ------
+        ValueError, TypeError
+            Naming the argument that is not a finite number, or not as for `Orbit`.
 
         Examples
         --------
@@ -115,7 +127,7 @@ class Orbit:
 
 @dataclass(frozen=True)
 class Chaser:
-    """Where the craft is at t0 and how it moves.
+    """Where the craft is at t0 and how it moves, (4).
 
     Parameters
     ----------
@@ -158,7 +170,7 @@ class Chaser:
 
 @dataclass(frozen=True)
 class Rendezvous:
-    """Meet the target with the least integral of alpha1 + alpha2 p^2, under |p| <= p_max.
+    """Meet the target, (5), (6), with the least integral (7) of alpha1 + alpha2 p^2 under |p| <= p_max, (1).
 
     Parameters
     ----------

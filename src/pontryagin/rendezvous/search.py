@@ -41,10 +41,23 @@ From one of them alone the curve may turn back before the thrust is saturated, o
 
 @dataclass
 class Search:
-    """What was looked at: filled in as the search goes on."""
+    """What was looked at: filled in as the search goes on.
+
+    Attributes
+    ----------
+    durations : list of float
+        Of the first extremals, in the solver's unit.
+    revolutions : list of int
+        Of the extremals of the unbounded problem, more than the first one's.
+    ends : list of str
+        Where each walk through the revolutions ended, and why.
+    given_up : list of str
+        What was not reached or not followed on, and why.
+    """
 
     durations: list[float] = field(default_factory=list)
     revolutions: list[int] = field(default_factory=list)
+    ends: list[str] = field(default_factory=list)
     given_up: list[str] = field(default_factory=list)
 
 
@@ -56,9 +69,10 @@ def extremals(setting: Setting, log: Search) -> list[Root]:
     NotConverged
         If none was reached.
     Infeasible
-        If the bound is too small for the fixed duration on every curve followed.
+        If none was, and on a curve followed the bound came to the least for the fixed duration.
     """
     roots: list[Root] = []
+    short = False
     for ratio in _loose_ratios(setting):
         loose = setting.but(peak=math.inf, ratio=ratio)
         try:
@@ -66,21 +80,31 @@ def extremals(setting: Setting, log: Search) -> list[Root]:
         except NotConverged as reason:
             log.given_up.append(f"the unbounded problem: {reason}")
             continue
-        for j, known in enumerate(sorted(found, key=value)[: 2 if setting.bang else KEPT]):
+        found.sort(key=value)
+        for j, known in enumerate(_kept(setting, found, log)):
             try:
                 roots.append(bounded(setting, loose.but(lead=known.lead), known.root))
             except (NotConverged, Infeasible) as reason:
+                short = short or isinstance(reason, Infeasible)
                 log.given_up.append(f"extremal {j + 1} of the unbounded problem: {reason}")
-    if not roots:
-        raise _failure(setting, log)
-    return roots
-
-
-def _failure(setting: Setting, log: Search) -> Exception:
+    if roots:
+        return roots
     reasons = "; ".join(log.given_up)
-    if not setting.free:
-        return Infeasible(f"no extremal of this duration stays within the peak: {reasons}")
-    return NotConverged(f"no extremal was reached: {reasons}", float("inf"))
+    if short and not setting.free:
+        raise Infeasible(f"no extremal of this duration stays within the peak: {reasons}")
+    raise NotConverged(f"no extremal was reached: {reasons}", float("inf"))
+
+
+def _kept(setting: Setting, found: list["Found"], log: Search) -> list["Found"]:
+    """Those that are taken on to the bound, cheapest first; without one all of them."""
+    most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
+    if most < len(found):
+        dear = value(found[most]) / value(found[0])
+        log.given_up.append(
+            f"{len(found) - most} extremals of the unbounded problem were not taken to the bound: there they "
+            f"cost {dear:.3g} times the best and more"
+        )
+    return found[:most]
 
 
 def _loose_ratios(setting: Setting) -> list[float]:
@@ -194,7 +218,7 @@ def _through_revolutions(setting: Setting, first: Root, log: Search) -> list[Fou
 def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) -> list[Found]:
     found: list[Found] = []
     last: Point | None = None
-    cost = best
+    cost, end = best, ""
     family = turning(setting.but(rough=True))
     for point in follow(family, first.unknowns, 0.0, sign, step=0.3, steps=WALK, largest=1.5):
         for j, guess in _passed(last, point):
@@ -208,10 +232,20 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
             log.revolutions.append(j)
             cost = value(found[-1])
             best = min(best, cost)
-        if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5) or cost > WORSE * best:
+        end = _end(point, cost / best)
+        if end:
             break
         last = point
+    way = "forwards" if sign > 0 else "backwards"
+    log.ends.append(f"{way}, to {point.parameter / TAU:+.2f}: {end or 'the curve could not be followed on'}")
     return found
+
+
+def _end(point: Point, dear: float) -> str:
+    """Why the walk through the revolutions goes no farther; empty if it does."""
+    if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
+        return f"{REVOLUTIONS} revolutions were looked at"
+    return f"the last meeting cost {dear:.3g} times the best" if dear > WORSE else ""
 
 
 def _passed(last: Point | None, point: Point) -> list[tuple[int, Array]]:

@@ -36,7 +36,20 @@ class Extremal:
     others : tuple of Extremal
         The other extremals found, by cost; only the best one has them.
     searched : Search
-        Durations started from, revolutions more or fewer, and what was given up and why.
+        Where extremals were looked for and what was given up, and why; None with a ``start``.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> best = solve(leap)
+    >>> best.state([0.0, 6.0]).shape, best.costate([0.0, 6.0]).shape, best.control([0.0, 6.0]).shape
+    ((2, 8), (2, 6), (2, 3))
+    >>> len(best.others), best.modes, best.searched.revolutions
+    (1, ('unsaturated',), [0, 1])
     """
 
     problem: Rendezvous
@@ -120,8 +133,9 @@ class Extremal:
 
 
 def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
-    """The best extremal found of a rendezvous; the others found are its `others`.
+    """The best extremal found of the rendezvous (1)-(7); the others found are its `others`.
 
+    Solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
     From coasting the costates are led to a transfer without bound, by families over the duration and over
     the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
     saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
@@ -135,13 +149,21 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         A solution of a problem close to this one; its costates are then taken as the start of Newton's
         method, and nothing else is looked for.
 
+    Returns
+    -------
+    Extremal
+        The cheapest found. Without a bound all extremals that the search came upon are among its
+        ``others``; with one, those that could be brought under it.
+
     Raises
     ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
-        bound on all families followed.
+        bound: no extremal was reached, and on a family followed the costates grew beyond measure.
     NotConverged
-        If no extremal was reached.
+        If no extremal was reached otherwise.
 
     Examples
     --------
@@ -165,11 +187,24 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     scaled = problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
     if start is not None:
+        require_extremal("start", start)
         return Extremal(problem, newton(setting, _unknowns(start, problem)))
     log = Search()
     found = [Extremal(problem, root) for root in extremals(setting, log)]
     best, *others = distinct(found)
     return replace(best, others=tuple(others), searched=log)
+
+
+def require_extremal(name: str, given: object) -> None:
+    """Raise unless it is a solution by `solve`.
+
+    Raises
+    ------
+    TypeError
+        Naming the argument.
+    """
+    if not isinstance(given, Extremal):
+        raise TypeError(f"{name} must be an Extremal, as solve returns, got {given!r}")
 
 
 def _unknowns(start: Extremal, problem: Rendezvous) -> Array:

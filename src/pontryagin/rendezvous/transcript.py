@@ -68,6 +68,7 @@ def transcript(extremal: Extremal) -> Report:
         told["searched"] = {
             "durations": [unit * duration for duration in log.durations],
             "revolutions": sorted(set(log.revolutions)),
+            "ends": list(log.ends),
             "given_up": list(log.given_up),
         }
     return told
@@ -108,6 +109,7 @@ def shown(told: Report) -> Report:
         table["searched"] = {
             "from durations": [float(f"{duration:.5g}") for duration in searched["durations"]],
             "revolutions more": searched["revolutions"],
+            "walks ended": searched["ends"],
             "ways given up": len(searched["given_up"]),
         }
     order = ("problem", "solution", "certificate", "others found", "searched")

@@ -212,7 +212,7 @@ def lifted_force():
     return Proof(argument, display=r"q = P(u)\,p")
 
 
-@claim("(1): F1", "F1 = u²q + (w, q)w", verdict="holds")
+@claim("(1): F1", "what drives the elements", verdict="holds")
 def driving_force():
     key = "F_1"
 
