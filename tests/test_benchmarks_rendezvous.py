@@ -4,7 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.rendezvous import aims, elsewhere, figures, forms, problems, solves, stacks, starts, systems
+from benchmarks.rendezvous import (
+    aims,
+    elsewhere,
+    figures,
+    forms,
+    integrators,
+    problems,
+    solves,
+    stacks,
+    starts,
+    systems,
+)
 from benchmarks.rendezvous.collocated import collocated, cost
 from benchmarks.rendezvous.systems import EIGHT, PROBLEMS, REDUCED
 from matplotlib.container import BarContainer
@@ -70,6 +81,11 @@ def test_fewer_equations_take_fewer_operations():
     for derivatives in (False, True):
         counts = [forms.operations(size, "unsaturated", derivatives) for size in systems.SYSTEMS]
         assert counts == sorted(counts, reverse=True) and len(set(counts)) == 4
+
+
+def test_both_integrators_make_the_same_derivatives():
+    table = integrators.table(quick=True)
+    assert table["difference of derivatives"][0] < 1e-9 and table["times slower"][0] > 1
 
 
 def test_solve_bvp_finds_our_costs(extremal):

@@ -1,7 +1,17 @@
 """Everything that is measured about the fourth paper's solver."""
 
 from benchmarks.papers import Measured
-from benchmarks.rendezvous import aims, elsewhere, figures, forms, problems, solves, stacks, starts
+from benchmarks.rendezvous import (
+    aims,
+    elsewhere,
+    figures,
+    forms,
+    integrators,
+    problems,
+    solves,
+    stacks,
+    starts,
+)
 
 NOTES = (
     "Units are such that fM = 1 and the craft starts near r = 1. All forms hold r, v1, c, phi* and rho, s1,",
@@ -37,6 +47,7 @@ def measure(quick: bool) -> Measured:
     times, flights = solves.table(quick), stacks.flights(quick)
     tables = {
         "forms": ("Right-hand sides and flights of the four forms", costs),
+        "integrators": ("A flight with its derivatives by two integrators", integrators.table(quick)),
         "starts": ("Newton's method from random starts, and the Jacobian at the solution", ends),
         "solves": ("Warm solves side by side, one thread", times),
         "warm": ("Warm solves against the aim", aims.warm(quick)),
