@@ -9,8 +9,10 @@ from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Rendezvous, solve
 from pontryagin.rendezvous.bound import bounded
 from pontryagin.rendezvous.cases import Case, cases
+from pontryagin.rendezvous.first import first
 from pontryagin.rendezvous.homotopy import Root
-from pontryagin.rendezvous.search import END_SHARES, Search, first
+from pontryagin.rendezvous.search import END_SHARES
+from pontryagin.rendezvous.searched import Search
 
 WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
 """Seconds on one core."""

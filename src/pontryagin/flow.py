@@ -33,6 +33,9 @@ def has_heyoka() -> bool:
     if importlib.util.find_spec("heyoka") is None:
         print("pontryagin: heyoka is not installed; flows use SciPy's DOP853, slower", file=sys.stderr)
         return False
+    import heyoka
+
+    heyoka.set_logger_level_error()  # a trial step into a singularity is refused, and warrants no line
     return True
 
 

@@ -202,6 +202,7 @@ def record(
     """
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
+        Path(draft).touch()  # rerun tells of a place that cannot be written by no error of its own
         with rr.RecordingStream("pontryagin", recording_id=name) as stream:
             stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
             yield Recording(stream)

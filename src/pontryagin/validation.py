@@ -51,6 +51,8 @@ def _from_objects(name: str, array: NDArray, takes: str) -> NDArray[np.float64]:
         if any(entry is None for entry in array.flat):
             raise TypeError
         return array.astype(float)
+    except OverflowError:
+        raise ValueError(f"{name} must be {takes} that double precision holds, got more") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be {takes}, got {array.tolist()!r}") from None
 

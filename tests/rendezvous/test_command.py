@@ -15,7 +15,7 @@ from pontryagin.recording import read_back
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, asked, solve, transcript
 from pontryagin.rendezvous.cases import cases, chaser_on
 from pontryagin.rendezvous.homotopy import Root
-from pontryagin.rendezvous.search import Search
+from pontryagin.rendezvous.searched import Search
 from pontryagin.rendezvous.shooting import Setting, equations
 
 CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}

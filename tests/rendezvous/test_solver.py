@@ -15,7 +15,9 @@ from pontryagin.rendezvous.cases import chaser_on
 from pontryagin.rendezvous.certify import certify
 from pontryagin.rendezvous.flight import fly
 from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.search import Search, energy, extremals
+from pontryagin.rendezvous.quadrature import energy
+from pontryagin.rendezvous.search import extremals
+from pontryagin.rendezvous.searched import Search
 from pontryagin.rendezvous.shooting import Setting, end_thrust, equations
 from pontryagin.rendezvous.start import cold_start
 

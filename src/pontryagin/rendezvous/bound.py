@@ -74,7 +74,7 @@ def _how_far(loose: Setting, least: float, end: float) -> str:
 
 
 def _least_time(setting: Setting, root: Root) -> Root:
-    """Raise alpha1/alpha2 until everything is saturated; then alpha2 = 0."""
+    """Raise alpha1/alpha2 until everything is saturated, or as far as it goes; then alpha2 = 0."""
 
     def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
         """In costates over |n(t_k)|, which stay of one size."""
@@ -89,15 +89,20 @@ def _least_time(setting: Setting, root: Root) -> Root:
     start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
     bang = setting.but(ratio=math.inf)
     reason = "alpha1/alpha2 could not be raised"
+    last: Point | None = None
     for point in follow(family, root.unknowns / scale, start, end, step=0.3, steps=RISE, largest=3.0):
         pieces = point.equations.flight.pieces
+        last = point
         if len(pieces) == 1 and pieces[0].mode == "saturated":
-            rescaled = np.append(point.unknowns[:6] / setting.peak, point.unknowns[6])
-            return newton(bang, rescaled)
+            break
         if point.parameter > end:
             reason = "the thrust vanishes on the way"
             break
         if point.parameter < start:
             reason = "the family turns back"
             break
-    raise NotConverged(reason, float("inf"))
+    try:
+        assert last is not None
+        return newton(bang, np.append(last.unknowns[:6] / setting.peak, last.unknowns[6]))
+    except NotConverged as failure:
+        raise NotConverged(reason, failure.residual) from failure

@@ -55,13 +55,21 @@ def start_of(flight: Flight) -> Array:
 
 
 def fly_cartesian(flight: Flight, times: Array) -> Array:
-    """R, V, psi_R and psi_V (k, 12) at ascending times, in the axes eta of t0, in the units of `Scaled`."""
+    """R, V, psi_R, psi_V and the integral of p^2 (k, 13) at ascending times.
+
+    In the axes eta of t0 and the units of `Scaled`.
+    """
 
     def rates(mode: str) -> Callable:
         kernel, scale = getattr(kernels, f"cartesian_{mode}"), flight.peak if mode == "saturated" else 1.0
-        return lambda x: np.array(kernel(*x, 1.0, scale))
 
-    return integrate(rates, flight, start_of(flight), times)
+        def along(x: Array) -> Array:
+            square = flight.peak**2 if mode == "saturated" else x[9:12] @ x[9:12] / 4
+            return np.array([*kernel(*x[:12], 1.0, scale), square])
+
+        return along
+
+    return integrate(rates, flight, np.append(start_of(flight), 0.0), times)
 
 
 def target_by_kepler(scaled: Scaled, time: float) -> Array:

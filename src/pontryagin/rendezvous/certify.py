@@ -16,6 +16,7 @@ from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.cartesian import cartesian_of, fly_cartesian, integrate, target_by_kepler
 from pontryagin.rendezvous.flight import Flight, switching
 from pontryagin.rendezvous.homotopy import Root, scales
+from pontryagin.rendezvous.quadrature import energy
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 
 Array = NDArray[np.float64]
@@ -48,6 +49,8 @@ class RendezvousCertificate(MaximumPrinciple):
     cartesian : () array
         Distance between craft and target at the meeting, and difference of their velocities, by Newton's
         law in inertial axes and Kepler's equation.
+    cost : () array
+        Relative difference of the integral of p^2 from the one that Newton's law carries along.
     condition : () array
         Condition number of the shooting equations: how much larger the costates' error can be.
 
@@ -66,13 +69,14 @@ class RendezvousCertificate(MaximumPrinciple):
     attitude: NDArray[np.float64]
     agreement: NDArray[np.float64]
     cartesian: NDArray[np.float64]
+    cost: NDArray[np.float64]
     condition: NDArray[np.float64]
 
     @cached_property
     def residual(self) -> NDArray[np.float64]:
         """The largest of all but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
-        return np.max([*own, self.attitude, self.agreement, self.cartesian], axis=0)
+        return np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0)
 
 
 def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousCertificate:
@@ -84,18 +88,19 @@ def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousC
     running = float(np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1)))
     largest = max(running, FAINT * float(np.abs(flight.costates).max()), TINY)
     constant = anomaly_constant(flight)
-    energy = hamiltonian(reduced, thrust, constant, weights)
+    values = hamiltonian(reduced, thrust, constant, weights)
     end = whole[-1]
     goal, _ = flight.scaled.target(float(end[3]))
     law = terminal_law(reduced[-1], thrust[-1], weights) / largest if free else 0.0
     return RendezvousCertificate(
         boundary=np.abs(reduced[-1, :3] - goal[:3]).max(),
         transversality=np.maximum(abs(law), transversality(end, flight.scaled.eccentricity)),
-        hamiltonian=np.abs(energy - (0.0 if free else energy[-1])).max() / largest,
+        hamiltonian=np.abs(values - (0.0 if free else values[-1])).max() / largest,
         maximality=np.asarray(np.max(maximality(flight, reduced, thrust, weights)) / largest),
         attitude=np.abs(product(conjugate(end[4:8]), goal[3:])[1:]).max(),
         agreement=np.maximum(agreement(flight, reduced, whole), apart(flight, reduced, inertial)),
         cartesian=np.abs(inertial[-1, :6] - target_by_kepler(flight.scaled, flight.duration)).max(),
+        cost=np.asarray(abs(energy(flight) - inertial[-1, 12]) / max(float(inertial[-1, 12]), TINY)),
         condition=np.asarray(condition(root)),
     )
 
@@ -179,7 +184,7 @@ def apart(flight: Flight, reduced: Array, inertial: Array) -> float:
     """Largest difference of R, V and n from Newton's law, n relative to the largest costate."""
     attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - inertial[:, :6]
-    n = rotated(switching(reduced), attitude) - inertial[:, 9:]
+    n = rotated(switching(reduced), attitude) - inertial[:, 9:12]
     largest = max(np.abs(reduced[:, 4:10]).max(), TINY)
     return float(max(np.abs(places).max(), np.abs(n).max() / largest))
 

@@ -12,9 +12,11 @@ from pontryagin.validation import common_shape, finite, positive, vectors
 Array = NDArray[np.float64]
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
+RELATED = 1e-6
+"""By what the bilinear relation may be missed, relative to A^2 + B^2."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Elements:
     """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.
 
@@ -34,7 +36,8 @@ class Elements:
     Raises
     ------
     ValueError, TypeError
-        Naming the argument that is not as above.
+        Naming the argument that is not as above; or if A and B both vanish, or do not satisfy
+        scal(A~ o i1 o B) = 0, as those of a place and a velocity do.
 
     Examples
     --------
@@ -53,14 +56,17 @@ class Elements:
     def __post_init__(self) -> None:
         A, B = vectors("A", self.A, 4), vectors("B", self.B, 4)
         phi = finite("phi", self.phi, "a number or an array of them")
-        gravity = positive("gravity", self.gravity)
-        if gravity.ndim:
-            raise ValueError(f"gravity must be one number, got an array of shape {gravity.shape}")
+        gravity = _gravity(self.gravity)
         shape = common_shape(A=A.shape[:-1], B=B.shape[:-1], phi=phi.shape)
         for name, value in (("A", A), ("B", B)):
             object.__setattr__(self, name, np.broadcast_to(value, (*shape, 4)))
         object.__setattr__(self, "phi", np.broadcast_to(phi, shape))
-        object.__setattr__(self, "gravity", float(gravity))
+        object.__setattr__(self, "gravity", gravity)
+        if np.any(self.Q == 0):
+            raise ValueError("A and B must not both vanish, got 0, 0, 0, 0 for either")
+        if np.any(off := np.abs(self.relation) > RELATED * self.Q):
+            worst = float(np.broadcast_to(self.relation, off.shape)[off].flat[0])
+            raise ValueError(f"A and B must satisfy scal(A~ o i1 o B) = 0, got {worst:.6g}")
 
     @classmethod
     def from_state(cls, position: ArrayLike, velocity: ArrayLike, gravity: float = 1.0) -> "Elements":
@@ -76,8 +82,10 @@ class Elements:
         >>> Elements.from_state([-2.0, 0, 0], [0, 0, 0.5]).position
         array([-2.,  0.,  0.])
         """
-        R, V = np.broadcast_arrays(vectors("position", position, 3), vectors("velocity", velocity, 3))
-        scale = float(positive("gravity", gravity))
+        R, V = vectors("position", position, 3), vectors("velocity", velocity, 3)
+        common_shape(position=R.shape[:-1], velocity=V.shape[:-1])
+        R, V = np.broadcast_arrays(R, V)
+        scale = _gravity(gravity)
         r = np.linalg.norm(R, axis=-1)
         if np.any(r == 0):
             raise ValueError("position must not be the centre of attraction, got 0, 0, 0")
@@ -128,9 +136,16 @@ class Elements:
 
     def turned(self, angle: ArrayLike) -> "Elements":
         """A and B turned together by exp(i1 angle): other numbers, the same place and velocity."""
-        half = np.asarray(angle, dtype=float)[..., None]
+        half = finite("angle", angle, "a number or an array of them")[..., None]
         turn = np.cos(half) * np.array([1.0, 0, 0, 0]) + np.sin(half) * I1
         return Elements(product(turn, self.A), product(turn, self.B), self.phi, self.gravity)
+
+
+def _gravity(value: ArrayLike) -> float:
+    gravity = positive("gravity", value)
+    if gravity.ndim:
+        raise ValueError(f"gravity must be one number, got an array of shape {gravity.shape}")
+    return float(gravity)
 
 
 def place(A: ArrayLike, B: ArrayLike, phi: ArrayLike) -> Array:

@@ -17,9 +17,9 @@ from pontryagin.rendezvous.elements_law import Law
 from pontryagin.rendezvous.elements_shooting import Root, Setting, follow, newton
 from pontryagin.rendezvous.elements_solve import ElementsExtremal, largest_thrust, require
 from pontryagin.rendezvous.elements_start import energy, led, marched
+from pontryagin.rendezvous.first import first_duration
 from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.rendezvous.scaled import Scaled
-from pontryagin.rendezvous.search import first_duration
 from pontryagin.validation import integer
 
 Array = NDArray[np.float64]
@@ -54,8 +54,9 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     TypeError
         If ``problem`` is no `Rendezvous`, or ``revolutions`` no integer.
     ValueError
-        If the peak is infinite: the optimum is then a few impulses, and no thrust; or if ``energy_weight``
-        is 0: that is the least time, which `solve` and `solve_in_elements` find.
+        If the peak is infinite: the optimum is then a few impulses, and no thrust; if ``energy_weight``
+        is 0: that is the least time, which `solve` and `solve_in_elements` find; or if the duration is
+        free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing.
     NotConverged

@@ -20,11 +20,12 @@ from pontryagin.rendezvous.elements_flight import (
 from pontryagin.rendezvous.elements_law import Law
 from pontryagin.rendezvous.elements_shooting import Root, Setting, follow, newton
 from pontryagin.rendezvous.elements_start import energy, marched
-from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.first import first_duration, require_apart
 from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.quadrature import half_anomaly
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.scaled import Scaled
-from pontryagin.rendezvous.search import END_SHARES, first_duration
+from pontryagin.rendezvous.search import END_SHARES
 from pontryagin.rendezvous.solution import Extremal, require_extremal
 from pontryagin.validation import integer, times
 
@@ -98,31 +99,32 @@ class ElementsExtremal:
         return certify(self.root, self.problem.free)
 
     def _sampled(self, t: ArrayLike) -> tuple[Array, Array]:
+        """phi (..., k) and the states (..., k, n) at the times t."""
         inside = times("t", t, np.array(0.0), np.array(self.duration)) / self.problem.scaled.time
         grid, back = np.unique(np.clip(inside, 0.0, self.flight.duration), return_inverse=True)
         phi = self.flight.angle_at(grid)
         return phi[back], self.flight.sample(phi)[back]
 
     def elements(self, t: ArrayLike) -> Elements:
-        """A, B and phi at the times t (k,), of the inertial axes, in the user's units."""
+        """A, B and phi at the times t (..., k), of the inertial axes, in the user's units."""
         scaled = self.problem.scaled
         phi, states = self._sampled(t)
         back = conjugate(self.problem.chaser.attitude)
-        A, B = (math.sqrt(scaled.length) * product(states[:, i : i + 4], back) for i in (0, 4))
+        A, B = (math.sqrt(scaled.length) * product(states[..., i : i + 4], back) for i in (0, 4))
         return Elements(A, B, phi, self.problem.gravity)
 
     def _inertial(self, vectors: Array) -> Array:
-        return rotated(vectors, np.broadcast_to(self.problem.chaser.attitude, (len(vectors), 4)))
+        return rotated(vectors, np.broadcast_to(self.problem.chaser.attitude, (*vectors.shape[:-1], 4)))
 
     def control(self, t: ArrayLike) -> Array:
-        """p in inertial axes at the times t (k,), (k, 3)."""
+        """p in inertial axes at the times t (..., k), (..., k, 3)."""
         phi, _ = self._sampled(t)
         order, back = np.unique(phi, return_inverse=True)
         thrust = self.flight.thrust(self.flight.sample(order), order)[back]
         return self._inertial(thrust) * self.problem.scaled.acceleration
 
     def switching(self, t: ArrayLike) -> Array:
-        """n in inertial axes at the times t (k,), (k, 3), in units of the cost over velocity."""
+        """n in inertial axes at the times t (..., k), (..., k, 3), in units of the cost over velocity."""
         phi, states = self._sampled(t)
         scaled = self.problem.scaled
         return self._inertial(switching(states, phi)) * (self.value * scaled.time / scaled.length)
@@ -154,6 +156,8 @@ def solve_in_elements(
     ------
     TypeError
         If ``problem`` is no `Rendezvous`, ``start`` no `Extremal`, or ``revolutions`` no integer.
+    ValueError
+        If the duration is free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``).
     NotConverged
@@ -191,6 +195,8 @@ def require(problem: Rendezvous) -> None:
         If it is none.
     Infeasible
         If the duration is free and costs nothing.
+    ValueError
+        If it is free and the craft is with the target at the start.
     """
     if not isinstance(problem, Rendezvous):
         raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")
@@ -199,31 +205,29 @@ def require(problem: Rendezvous) -> None:
             "time_weight is 0 and the duration is free: a longer flight is always cheaper, so that there is "
             "no best one; fix the duration, or give time_weight a positive value"
         )
+    if problem.free:
+        require_apart(problem.scaled)
 
 
 def carried(start: Extremal) -> Array:
     """A solution's costates as those of A and B, and phi at its end: the unknowns (7,).
 
     With M the derivative of R and V in A and B, a and b are M' psi.
+
+    Raises
+    ------
+    Infeasible
+        Where the start leaves the ellipses.
     """
     flight = start.flight
     craft = start_of(flight.scaled)
     costates = basis(craft).T @ place_gradient(craft).T @ cartesian_start(flight)[6:]
-    return np.append(costates, half_anomaly(flight))
-
-
-def half_anomaly(flight: Flight) -> float:
-    """phi at the end of a flight in r, v1, c: the integral of dt/(r sqrt(2Q)), Q = -1/h."""
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    edges = np.unique([*np.linspace(0, flight.duration, 2 + int(4 * flight.duration)), *flight.switch_times])
-    half = np.diff(edges)[:, None] / 2
-    r, v1, c = flight.sample((edges[:-1, None] + half * (1 + nodes)).ravel()).T[:3]
-    energy = (v1**2 + (c / r) ** 2) / 2 - 1 / r
-    if np.any(energy >= 0):
+    phi = half_anomaly(flight)
+    if math.isnan(phi):
         raise Infeasible(
             "start flies through a parabola or a hyperbola, on which the elements A and B do not exist"
         )
-    return float(np.sum(half * weights * (np.sqrt(-energy / 2) / r).reshape(-1, 12)))
+    return np.append(costates, phi)
 
 
 def _found(scaled: Scaled, law: Law, revolutions: int) -> Root:

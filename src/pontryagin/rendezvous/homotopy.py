@@ -107,7 +107,10 @@ def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:
 
 
 def _step(here: Equations) -> Array:
-    return np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
+    try:
+        return np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
+    except np.linalg.LinAlgError:
+        raise NotConverged("the equations are singular", float(np.abs(here.residual).max())) from None
 
 
 def expected(correction: float, last: float) -> float:

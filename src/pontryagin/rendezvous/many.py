@@ -12,7 +12,7 @@ from pontryagin.rendezvous.homotopy import newton
 from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.scaled import Scaled
-from pontryagin.rendezvous.search import Search
+from pontryagin.rendezvous.searched import Search
 from pontryagin.rendezvous.shooting import SEEN, STEP, Setting
 from pontryagin.rendezvous.solution import Extremal, distinct
 from pontryagin.validation import positive, vectors
@@ -115,7 +115,8 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
     times = np.broadcast_to(wanted / scaled.time, shape).ravel()
-    flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
+    with np.errstate(all="ignore"):  # costates without measure are told by `reached`
+        flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
     miss, slopes = misses(scaled, flights)
     speed = scaled.length / scaled.time
     units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
@@ -144,18 +145,20 @@ def _directed(costates: Array) -> Array:
 def relative_attitude(flights: Flights) -> Array:
     """lambda0~ o lambda at the ends, (k, 4)."""
     inputs = [*flights.costates.T[3:], *flights.ends.T[7:11], flights.charts]
-    return np.stack(kernels.attitude(*inputs), axis=-1)
+    with np.errstate(all="ignore"):  # of those that could not be followed
+        return np.stack(kernels.attitude(*inputs), axis=-1)
 
 
 def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
     """(5) and (6) at the ends, (k, 6), and their derivatives in the costates at t0, (k, 6, 6)."""
     assert flights.slopes is not None
     count = len(flights.ends)
-    values = kernels.target(flights.ends[:, 3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
+    with np.errstate(all="ignore"):
+        values = kernels.target(flights.ends[:, 3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
     goal = np.delete(np.array([np.broadcast_to(value, count) for value in values]), 3, axis=0)
     inputs = np.vstack([flights.ends.T[SEEN], flights.costates.T[3:]])
     steps = inputs[:, None] + 1j * STEP * np.eye(10)[:, :, None]
-    with np.errstate(divide="ignore", invalid="ignore"):  # at a chart's singular direction
+    with np.errstate(all="ignore"):  # at a chart's singular direction
         missed = np.array(kernels.mismatch(*[*steps, flights.charts, *goal]))
     by_input = np.moveaxis(missed.imag / STEP, -1, 0)
     slopes = by_input[..., :7] @ flights.slopes[:, SEEN, :6]

@@ -21,8 +21,8 @@ from pontryagin.rendezvous.flight import Flight
 from pontryagin.rendezvous.homotopy import Family, Point, between, follow
 from pontryagin.rendezvous.printed import hamiltonian, printed_conditions, printed_jacobian, reduced
 from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.quadrature import energy
 from pontryagin.rendezvous.quaternions import conjugate, product
-from pontryagin.rendezvous.search import energy
 from pontryagin.rendezvous.solution import Extremal
 from pontryagin.rendezvous.turned import refined, towards_turned
 from pontryagin.validation import finite

@@ -1,7 +1,7 @@
 """The rendezvous as posed: the target's orbit, the craft's start, the functional, the bound. All checked."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +13,8 @@ from pontryagin.validation import finite, vectors
 
 Array = NDArray[np.float64]
 
-UNIT_WITHIN = 1e-9
-"""A quaternion this close to the unit length is normalised; one farther off is refused."""
+UNIT_WITHIN = 1e-6
+"""A quaternion this close to the unit length, as single precision is, is normalised; others are refused."""
 
 
 def number(name: str, value: ArrayLike, least: float | None = None, excluded: bool = False) -> float:
@@ -37,10 +37,18 @@ def unit_quaternion(name: str, value: ArrayLike) -> Array:
     length = float(np.linalg.norm(array))
     if abs(length - 1) > UNIT_WITHIN:
         raise ValueError(f"{name} must be a unit quaternion, got one of length {length:.12g}")
-    return array / length
+    unit = array / length
+    unit.flags.writeable = False
+    return unit
 
 
-@dataclass(frozen=True)
+def by_value(one: object) -> tuple:
+    """The fields of a dataclass, arrays as tuples: what two of them are compared by."""
+    values = (getattr(one, field.name) for field in fields(one))  # type: ignore[arg-type]
+    return tuple(tuple(x.tolist()) if isinstance(x, np.ndarray) else x for x in values)
+
+
+@dataclass(frozen=True, eq=False)
 class Orbit:
     """The target's Kepler ellipse, (5), and its place on it at the start, (4).
 
@@ -86,6 +94,12 @@ class Orbit:
         for name, value in checked.items():
             object.__setattr__(self, name, value)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Orbit) and by_value(self) == by_value(other)
+
+    def __hash__(self) -> int:
+        return hash(by_value(self))
+
     @classmethod
     def from_angles(
         cls,
@@ -125,7 +139,7 @@ class Orbit:
         return cls(parameter, eccentricity, quaternion, anomaly)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Chaser:
     """Where the craft is at t0 and how it moves, (4).
 
@@ -166,6 +180,12 @@ class Chaser:
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Chaser) and by_value(self) == by_value(other)
+
+    def __hash__(self) -> int:
+        return hash(by_value(self))
 
 
 @dataclass(frozen=True)
@@ -209,7 +229,7 @@ class Rendezvous:
         for name, kind in (("chaser", Chaser), ("target", Orbit)):
             if not isinstance(getattr(self, name), kind):
                 raise TypeError(f"{name} must be of type {kind.__name__}, got {getattr(self, name)!r}")
-        unbounded = isinstance(self.peak, float) and self.peak == math.inf
+        unbounded = isinstance(self.peak, float | np.floating) and self.peak == math.inf
         checked = {
             "time_weight": number("time_weight", self.time_weight, 0.0),
             "energy_weight": number("energy_weight", self.energy_weight, 0.0),
@@ -221,6 +241,7 @@ class Rendezvous:
         for name, value in checked.items():
             object.__setattr__(self, name, value)
         self._require_sense()
+        self._require_measure()
 
     def _require_sense(self) -> None:
         """Weights, bound and duration must belong together, and the craft must start on an ellipse."""
@@ -234,11 +255,27 @@ class Rendezvous:
                 f"got {self.duration:g}: every control would cost the same"
             )
         craft = self.chaser
-        energy = (craft.v1**2 + (craft.c / craft.r) ** 2) / 2 - self.gravity / craft.r
+        with np.errstate(over="ignore"):
+            energy = (np.square(craft.v1) + np.square(craft.c / craft.r)) / 2 - self.gravity / craft.r
         if energy >= 0:
             raise ValueError(
                 "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, "
                 f"got {energy:.6g}"
+            )
+
+    def _require_measure(self) -> None:
+        """What the numbers come to in units of the target's orbit must be numbers as well."""
+        try:
+            scaled = self.scaled
+            units = [scaled.time, scaled.acceleration, scaled.value, *scaled.start, scaled.duration or 1.0]
+            sound = all(0 < abs(x) < math.inf or x == self.chaser.v1 == 0 for x in units)
+        except (OverflowError, ZeroDivisionError):
+            sound = False
+        if not sound:
+            raise ValueError(
+                "parameter, gravity, the weights, the start and the duration must be of sizes that double "
+                f"precision holds in units of the target's orbit, got parameter {self.target.parameter:g}, "
+                f"gravity {self.gravity:g}, r {self.chaser.r:g}, v1 {self.chaser.v1:g}, c {self.chaser.c:g}"
             )
 
     @property

@@ -5,21 +5,19 @@ the target's pericentre turned through whole revolutions, the bound from where i
 p_max, and alpha1/alpha2 upwards until the thrust is saturated throughout.
 """
 
-import itertools
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.bound import bounded
-from pontryagin.rendezvous.flight import Flight
+from pontryagin.rendezvous.first import first
 from pontryagin.rendezvous.homotopy import Point, Root, between, follow, newton
-from pontryagin.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.quadrature import energy
+from pontryagin.rendezvous.searched import Search
 from pontryagin.rendezvous.shooting import Equations, Setting, equations
-from pontryagin.rendezvous.start import ballistic_lead, coasting_twist, cold_start
 
 Array = NDArray[np.float64]
 
@@ -37,28 +35,6 @@ END_SHARES = (2.5, 1.5, 0.7)
 
 From one of them alone the curve may turn back before the thrust is saturated, or lead to a slower extremal.
 """
-
-
-@dataclass
-class Search:
-    """What was looked at: filled in as the search goes on.
-
-    Attributes
-    ----------
-    durations : list of float
-        Of the first extremals, in the solver's unit.
-    revolutions : list of int
-        Of the extremals of the unbounded problem, more than the first one's.
-    ends : list of str
-        Where each walk through the revolutions ended, and why.
-    given_up : list of str
-        What was not reached or not followed on, and why.
-    """
-
-    durations: list[float] = field(default_factory=list)
-    revolutions: list[int] = field(default_factory=list)
-    ends: list[str] = field(default_factory=list)
-    given_up: list[str] = field(default_factory=list)
 
 
 def extremals(setting: Setting, log: Search) -> list[Root]:
@@ -125,85 +101,6 @@ def value(found: Found) -> float:
     """Its cost, alpha2 = 1."""
     flight = found.root.flight
     return found.ratio * flight.duration + energy(flight)
-
-
-def energy(flight: Flight) -> float:
-    """The integral of p^2, by Gauss's rule on panels of every arc."""
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    edges = [*(piece.begin for piece in flight.pieces), flight.duration]
-    total = 0.0
-    for a, b in itertools.pairwise(edges):
-        panels = np.linspace(a, b, 2 + int(2 * (b - a)))
-        half = np.diff(panels)[:, None] / 2
-        times = panels[:-1, None] + half * (1 + nodes)
-        squares = np.sum(flight.thrust(times.ravel()) ** 2, axis=1).reshape(times.shape)
-        total += float(np.sum(half * weights * squares))
-    return total
-
-
-# --- the unbounded problem -----------------------------------------------------------------------------
-
-
-def first_duration(scaled: Scaled, ratio: float) -> float:
-    """A duration in which thrust of about sqrt(alpha1/alpha2) changes one orbit into the other."""
-    radius, radial, areal = scaled.start
-    energy_gap = abs(
-        math.sqrt(max(2 / radius - radial**2 - (areal / radius) ** 2, 1e-3))
-        - math.sqrt(1 - scaled.eccentricity**2)
-    )
-    eccentricity = math.hypot(areal**2 / radius - 1, areal * radial)
-    tilt = 2 * math.asin(min(1.0, float(np.hypot(*scaled.orientation[1:3]))))
-    speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
-    return min(max(2.0, speed / math.sqrt(ratio)), 400.0)
-
-
-def first(setting: Setting, log: Search) -> Root:
-    """An extremal of the unbounded problem, of the fixed duration or of a free one."""
-    guess = setting.duration or first_duration(setting.scaled, setting.ratio)
-    for stretch in (1.0,) if setting.duration else (1.0, 1.5, 0.7, 2.5, 0.4):
-        duration = guess * stretch
-        log.durations.append(duration)
-        for extra in (0, 1, -1, 2, -2):
-            fixed = setting.but(duration=duration)
-            turns = _even_turns(setting.scaled, duration) + extra
-            try:
-                root = cold_start(fixed, turns)
-                return root if setting.duration else _free(setting, root)
-            except NotConverged as reason:
-                asked = duration * setting.scaled.time
-                log.given_up.append(f"start with the duration {asked:.3g}, {turns} turns: {reason}")
-    raise NotConverged("no first extremal was found", float("inf"))
-
-
-def _even_turns(scaled: Scaled, duration: float) -> int:
-    """Revolutions that let the craft turn halfway between what it and the target would turn coasting."""
-    wanted = ballistic_lead(scaled, duration) / 2
-    return round((wanted - coasting_twist(scaled, duration)) / TAU)
-
-
-def _free(setting: Setting, fixed: Root) -> Root:
-    """March the duration from a fixed-time extremal until the terminal law holds."""
-    last: Point | None = None
-    for point in marched(setting, fixed):
-        if last is not None and last.equations.residual[-1] * point.equations.residual[-1] <= 0:
-            share = last.equations.residual[-1] / (last.equations.residual[-1] - point.equations.residual[-1])
-            whole = [np.append(p.unknowns, math.exp(p.parameter)) for p in (last, point)]
-            return newton(setting, whole[0] + share * (whole[1] - whole[0]))
-        last = point
-    raise NotConverged("the terminal law was not met along the durations", float("inf"))
-
-
-def marched(setting: Setting, fixed: Root) -> Iterator[Point]:
-    """The family of fixed-time extremals over log t_k; the last residual of a point is the terminal law."""
-
-    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        duration = math.exp(parameter)
-        whole = equations(setting.but(rough=True), np.append(unknowns, duration))
-        return whole, whole.jacobian[:6, 6] * duration
-
-    start = math.log(fixed.flight.duration)
-    law = equations(setting, np.append(fixed.unknowns, fixed.flight.duration)).residual[-1]
-    yield from follow(family, fixed.unknowns, start, start + np.sign(law), rows=6)
 
 
 def _through_revolutions(setting: Setting, first: Root, log: Search) -> list[Found]:

@@ -10,11 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.errors import Infeasible
 from pontryagin.rendezvous.certify import RendezvousCertificate, certify
+from pontryagin.rendezvous.first import require_apart
 from pontryagin.rendezvous.flight import Flight, thrust
 from pontryagin.rendezvous.homotopy import Root, newton
 from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.quadrature import energy, turned
 from pontryagin.rendezvous.quaternions import product
-from pontryagin.rendezvous.search import Search, energy, extremals
+from pontryagin.rendezvous.search import extremals
+from pontryagin.rendezvous.searched import Search
 from pontryagin.rendezvous.shooting import Setting
 from pontryagin.validation import times
 
@@ -98,12 +101,7 @@ class Extremal:
     @cached_property
     def revolutions(self) -> float:
         """Angle that the craft turns about the centre, in revolutions."""
-        nodes, weights = np.polynomial.legendre.leggauss(12)
-        edges = np.linspace(0, self.flight.duration, 2 + int(2 * self.flight.duration))
-        half = np.diff(edges)[:, None] / 2
-        states = self.flight.sample((edges[:-1, None] + half * (1 + nodes)).ravel())
-        rates = (states[:, 2] / states[:, 0] ** 2).reshape(-1, 12)
-        return float(np.sum(half * weights * rates) / (2 * math.pi))
+        return turned(self.flight) / (2 * math.pi)
 
     @cached_property
     def certificate(self) -> RendezvousCertificate:
@@ -113,22 +111,23 @@ class Extremal:
     def _sampled(self, t: ArrayLike) -> Array:
         zero, end = np.array(0.0), np.array(self.duration)
         inside = times("t", t, zero, end) / self.problem.scaled.time
-        return self.flight.sample(np.clip(inside, 0.0, self.flight.duration))
+        rows = self.flight.sample(np.clip(inside, 0.0, self.flight.duration).ravel())
+        return rows.reshape(*inside.shape, -1)
 
     def state(self, t: ArrayLike) -> Array:
-        """r, v1, c, phi* and lambda (four) at the times t (k,), (k, 8)."""
+        """r, v1, c, phi* and lambda (four) at the times t (..., k), (..., k, 8)."""
         scaled, states = self.problem.scaled, self._sampled(t)
         speed = scaled.length / scaled.time
         attitude = product(self.problem.chaser.attitude, self.flight.attitude(states))
         units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
-        return np.hstack([states[:, :4] * units, attitude])
+        return np.concatenate([states[..., :4] * units, attitude], axis=-1)
 
     def costate(self, t: ArrayLike) -> Array:
-        """rho, s1, e, nu1, nu2, nu3 at the times t (k,), (k, 6)."""
-        return self._sampled(t)[:, 4:10] * self.problem.scaled.costate_units
+        """rho, s1, e, nu1, nu2, nu3 at the times t (..., k), (..., k, 6)."""
+        return self._sampled(t)[..., 4:10] * self.problem.scaled.costate_units
 
     def control(self, t: ArrayLike) -> Array:
-        """p_eta at the times t (k,), (k, 3)."""
+        """p_eta at the times t (..., k), (..., k, 3)."""
         return thrust(self._sampled(t), self.flight.peak, self.flight.bang) * self.problem.scaled.acceleration
 
 
@@ -159,6 +158,8 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     ------
     TypeError
         If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
+    ValueError
+        If the duration is free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
         bound: no extremal was reached, and on a family followed the costates grew beyond measure.
@@ -185,6 +186,8 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
             "fix the duration, or give time_weight a positive value"
         )
     scaled = problem.scaled
+    if problem.free:
+        require_apart(scaled)
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
     if start is not None:
         require_extremal("start", start)

@@ -18,6 +18,7 @@ PROOF = (
     "maximality",
     "agreement",
     "cartesian",
+    "cost",
     "residual",
     "condition",
 )

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pontryagin.plotting import styled, subplots
 from pontryagin.rendezvous.figures.labels import CRAFT, INK, OTHER
 from pontryagin.rendezvous.homotopy import follow
-from pontryagin.rendezvous.search import energy
+from pontryagin.rendezvous.quadrature import energy
 from pontryagin.rendezvous.shooting import Equations, Setting, equations
 from pontryagin.rendezvous.solution import Extremal
 
