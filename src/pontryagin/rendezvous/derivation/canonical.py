@@ -18,7 +18,7 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.rendezvous.derivation import inertial, model, principle
+from pontryagin.rendezvous.derivation import forms, inertial, model, principle
 from pontryagin.rendezvous.derivation.inertial import force, position, position_costate, velocity
 from pontryagin.rendezvous.derivation.model import attitude, c, r, thrust, v1
 
@@ -66,9 +66,8 @@ def _moving(rates: sp.Matrix) -> sp.Matrix:
     return sp.Matrix([*rates[:3], *rates[4:]])
 
 
-def _along(expressions: sp.Matrix, point: Point) -> sp.Matrix:
-    """d/dt of functions of x as x moves by (2) and (3)."""
-    rates = _moving(principle.state_rates()).subs(point)
+def _along(expressions: sp.Matrix, point: Point, rates: sp.Matrix) -> sp.Matrix:
+    """d/dt of functions of x."""
     moved = {x: point[x] + step * rate for x, rate in zip(MOVING, rates, strict=True)}
     return expressions.subs(moved, simultaneous=True).diff(step).subs(step, 0)
 
@@ -77,7 +76,8 @@ def state_gap(point: Point) -> sp.Matrix:
     """X' by (2) and (3), less dH/dpsi, (6,)."""
     energy = hamiltonian(place_and_velocity().subs(point))
     newton = sp.Matrix([energy.diff(x) for x in PSI])
-    return (_along(place_and_velocity(), point) - newton).applyfunc(sp.expand)
+    rates = _moving(principle.state_rates()).subs(point)
+    return (_along(place_and_velocity(), point, rates) - newton).applyfunc(sp.expand)
 
 
 def costate_gap(point: Point) -> sp.Matrix:
@@ -86,11 +86,28 @@ def costate_gap(point: Point) -> sp.Matrix:
     near = [hamiltonian(place + step * sp.eye(6)[:, k]) for k in range(6)]
     falling = -sp.Matrix(near).diff(step).subs(step, 0)
     carried = place_and_velocity().jacobian(MOVING).subs(point).T * falling
-    whole = _along(costates(), point) + carried - in_psi(_moving(principle.costate_rates()), point)
-    return whole.applyfunc(sp.expand)
+    swept = _along(costates(), point, _moving(principle.state_rates()).subs(point))
+    return (swept + carried - in_psi(_moving(principle.costate_rates()), point)).applyfunc(sp.expand)
 
 
 def hamiltonian_gap(point: Point) -> sp.Expr:
     """H in 16 dimensions less H in R and V: what phi* adds, Phi* phi*'."""
     whole = in_psi(sp.Matrix([principle.hamiltonian()]), point)[0]
     return sp.expand(whole - hamiltonian(place_and_velocity().subs(point)))
+
+
+def optimal_gap(mode: principle.Mode, point: Point, psi: Point) -> sp.Matrix:
+    """Rates of X and of (dX/dx)' psi by `forms.full`, less those by `inertial.cartesian`, (13,).
+
+    Each with its own optimal thrust; |psi_V| is rational.
+    """
+    sixteen, twelve = forms.full(mode), inertial.cartesian(mode)
+    rates = in_psi(sp.Matrix(sixteen.rates), point).subs(psi)
+    names = dict(zip((*position, *velocity), place_and_velocity().subs(point), strict=True)) | psi
+    newton = sp.Matrix(twelve.rates).subs(names)
+    moving = _moving(rates[:8, :])
+    carried = place_and_velocity().jacobian(MOVING).subs(point).T * newton[6:, :]
+    swept = _along(costates().subs(psi), point, moving)
+    states = _along(place_and_velocity(), point, moving) - newton[:6, :]
+    whole = sp.Matrix([*states, *(swept + carried - _moving(rates[8:, :]))])
+    return whole.applyfunc(sp.expand)
