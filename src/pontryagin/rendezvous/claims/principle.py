@@ -51,7 +51,9 @@ def costates():
             "(dX/dx)'ψ moves by −dH/dx as ψ moves by −dH/dX, at any thrust in η",
             vanishes(canonical.costate_gap(PLACE)),
         )
-        by_thrust = variation.gradient_by_thrust().dot([variation.FAMILY[x].diff(variation.s) for x in thrust])
+        by_thrust = variation.gradient_by_thrust().dot(
+            [variation.FAMILY[x].diff(variation.s) for x in thrust]
+        )
         yield (
             "with these and ψ0 = −1 for g, dJ is (ψ, dx) at the end and −∫(dH/dp, dp)dt: ψ0 is constant",
             vanishes(variation.rest_of_the_variation() + by_thrust),
