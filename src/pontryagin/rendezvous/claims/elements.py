@@ -67,8 +67,8 @@ def target():
     "abstract: elements",
     "quaternion or vector elements of the orbit are used",
     verdict="holds",
-    remark="(1) is in the quaternion ones, A and B. The vector ones are not on the page; the classical, R × V "
-    "and Laplace's vector, are quadratic in A and B.",
+    remark="(1) is in the quaternion ones, A and B. The vector ones are not on the page; the classical, R × "
+    "V and Laplace's vector, are quadratic in A and B.",
 )
 def elements():
     def argument() -> Steps:

@@ -178,7 +178,10 @@ def six_unknowns():
         yield "and none of the ten variables", anomaly_constant not in reduction.REDUCED
         member = meetings.INCLINED[0]
         other = meetings.left_in_16(member, meetings.outcome(member).anomaly_constant + 1)
-        yield f"a meeting, the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}", abs(other - 1) < 1e-9
+        yield (
+            f"a meeting, the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}",
+            abs(other - 1) < 1e-9,
+        )
         found = meetings.singular_values(meetings.INCLINED[0], repaired=False)
         yield "eight conditions, eight unknowns: ρ, s1, e, ν, t_k, C_φ", len(found) == 8
         yield (
