@@ -38,8 +38,8 @@ A, B, Q          A, B, Q                    Sapunkov's elements; Q = A^2 + B^2, 
 u, w             u, w                       place R = u~ i1 u, and du/dphi
 phi, t           phi, t                     half the eccentric anomaly, up to a constant; time
 p, epsilon       thrust, -                  acceleration by thrust, in inertial axes; its unit, 1 here
-q, P(u)          -                          q = P(u) p = -i1 u p; lifted_force and lifting in the derivation
-F1               -                          u^2 q + (w, q) w, what drives A and B
+q, P(u)          lifted_force, lifting      q = P(u) p = -i1 u p; in the derivation
+F1               driving                    u^2 q + (w, q) w; in the derivation driving is Q F1
 -                a, b                       costates of A and B
 -                switching                  n in inertial axes, of the solutions in the elements
 """
