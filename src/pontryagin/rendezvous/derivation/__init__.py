@@ -3,7 +3,8 @@
 One module per step of the argument: `model` has the equations of motion from Newton's law, `principle` the
 maximum principle in 16 dimensions, `reduction` the ten equations, `transversality` the moving end. `repair`
 finds what the reduction loses and restores it, `terminal` turns the conditions at the end into a law for
-the thrust there, `variation` finds the conditions and the slope of the cost by the first variation. `forms`
+the thrust there, `variation` finds those conditions and the slope of the cost by the first variation. `forms`
 hands the equations to the solvers; `primer`, `inertial` and `canonical` prove them anew from Cartesian
-coordinates. `symbols` prints the target's with their star. `sapunkov` leads from the Kustaanheimo-Stiefel regularisation to Sapunkov's elements.
+coordinates. `symbols` prints the target's with their star. `sapunkov` leads from the Kustaanheimo-Stiefel
+regularisation to Sapunkov's elements.
 """
