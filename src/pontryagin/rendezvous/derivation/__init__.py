@@ -5,6 +5,6 @@ maximum principle in 16 dimensions, `reduction` the ten equations, `transversali
 finds what the reduction loses and restores it, `terminal` turns the conditions at the end into a law for
 the thrust there, `variation` finds those conditions and the slope of the cost by the first variation. `forms`
 hands the equations to the solvers; `primer`, `inertial` and `canonical` prove them anew from Cartesian
-coordinates. `symbols` prints the target's with their star. `sapunkov` leads from the Kustaanheimo-Stiefel
+coordinates. `symbols` prints some as the paper does. `sapunkov` leads from the Kustaanheimo-Stiefel
 regularisation to Sapunkov's elements.
 """

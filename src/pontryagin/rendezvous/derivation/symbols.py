@@ -1,6 +1,6 @@
-"""Symbols with a star: plain names in programs, the paper's in print.
+"""Symbols with plain names in programs and the paper's in print: with a star, or Greek.
 
-The name is what generated source and functions call the argument; a formula shows the star.
+The name is what generated source and functions call the argument; a formula shows `TEX`.
 """
 
 import sympy as sp
@@ -12,11 +12,12 @@ TEX = {
     "phi": r"\varphi^*",
     "Phi": r"\Phi^*",
     "C_phi": r"C_\varphi",
+    "|nu|": r"|\nu|",
 }
 
 
 class Symbol(sp.Symbol):
-    """A symbol of the target; SymPy sorts by the class's name, and so keeps the order of plain ones.
+    """A symbol that prints as `TEX` has it; SymPy sorts by the class's name, and so keeps the order of plain ones.
 
     Examples
     --------
