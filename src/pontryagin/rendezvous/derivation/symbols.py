@@ -17,7 +17,9 @@ TEX = {
 
 
 class Symbol(sp.Symbol):
-    """A symbol that prints as `TEX` has it; SymPy sorts by the class's name, and so keeps the order of plain ones.
+    """A symbol that prints as `TEX` has it.
+
+    SymPy sorts by the name of the class: by this one it sorts as among plain symbols.
 
     Examples
     --------
