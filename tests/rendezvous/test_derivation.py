@@ -12,6 +12,7 @@ from scipy.optimize import root
 from pontryagin import compile as compiler
 from pontryagin.flow import flow
 from pontryagin.rendezvous.derivation import (
+    canonical,
     forms,
     model,
     primer,
@@ -21,6 +22,7 @@ from pontryagin.rendezvous.derivation import (
     repair,
     terminal,
     transversality,
+    variation,
 )
 
 TARGET = [1.0, 1.5, 0.1, np.sqrt(1.5)]
@@ -232,7 +234,7 @@ def test_the_primer_vector_by_symbols():
 
 def test_across_the_primer_vector_the_two_problems_differ():
     n = principle.switching()
-    rate = n.jacobian(list(reduction.REDUCED)) * reduction.rates() + model.motion()[1].cross(n)
+    rate = primer.rate_at_any_thrust(n)
     r, c = model.r, model.c
     torque = n.cross(model.thrust)
     extra = (rate - primer.carried()).applyfunc(sp.simplify)
@@ -245,6 +247,51 @@ def test_the_law_at_the_end_by_symbols():
     assert terminal.end_thrust() == sp.sqrt(principle.time_weight) / sp.sqrt(principle.energy_weight)
     scale = principle.time_weight + principle.energy_weight * principle.peak**2
     assert sp.expand(terminal.scale_of_saturated() - scale) == 0
+
+
+@pytest.mark.parametrize("mode", principle.MODES)
+def test_the_slope_of_the_cost_is_the_law_at_the_end(mode):
+    assert sp.expand(terminal.cost_slope(mode) + terminal.law_in_lengths(mode)) == 0
+    assert variation.energy_rate(mode) == 0
+
+
+def test_the_first_variation_leaves_the_ends_and_the_thrust():
+    pushed = [variation.FAMILY[p].diff(variation.s) for p in model.thrust]
+    rest = variation.rest_of_the_variation() + variation.gradient_by_thrust().dot(pushed)
+    assert sp.expand(rest) == 0
+    end = variation.of_a_meeting()
+    assert sp.expand(end.coeff(variation.delay) + principle.in_nu(principle.hamiltonian())) == 0
+
+
+@given(*[st.fractions(1, 2, max_denominator=9)] * 3)
+@settings(max_examples=3, deadline=None)
+def test_the_costates_carried_over_obey_the_16_equations(r, v1, c):
+    numbers = [sp.Rational(x.numerator, x.denominator) for x in (r, v1, c)]
+    lengths = dict(zip((model.r, model.v1, model.c), numbers, strict=True))
+    point = lengths | dict(zip(model.attitude, (sp.Rational(k, 7) for k in (2, -3, 6, 0)), strict=True))
+    assert canonical.state_gap(point).is_zero_matrix
+    assert canonical.costate_gap(point).is_zero_matrix
+
+
+def test_the_axes_of_place_and_velocity_are_eta():
+    point = dict(zip(model.attitude, (sp.Rational(k, 5) for k in (1, 2, 2, 4)), strict=True))
+    axes = canonical.axes(canonical.place_and_velocity().subs(point)).applyfunc(sp.simplify)
+    eta = [quaternion.rotated(axis, model.attitude).subs(point) for axis in (model.EX, model.EY, model.EZ)]
+    assert axes == sp.Matrix.hstack(*eta)
+
+
+def test_the_best_thrust_is_one_of_three_and_the_largest_gain():
+    p, length = principle.thrust_magnitude, principle.switching_length
+    assert principle.along_switching() == length * p - principle.energy_weight * p**2
+    top = length / (2 * principle.energy_weight)
+    assert principle.best_magnitudes() == (top, principle.peak, principle.peak)
+
+
+def test_the_symbols_of_the_target_print_with_their_star():
+    assert sp.latex(model.anomaly_rate()) == (
+        r"\frac{c^* \left(e^* \cos{\left(\varphi^* \right)} + 1\right)^{2}}{\left(p^*\right)^{2}}"
+    )
+    assert str(model.parameter) == "p_star"
 
 
 def test_saturated_rates_are_of_degree_zero_and_one_in_the_costates():

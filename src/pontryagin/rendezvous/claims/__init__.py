@@ -7,8 +7,16 @@ in words, `spirals` the slow transfers that leave the problem of least energy wi
 
 from itertools import chain
 
-from pontryagin.rendezvous.claims import boundary, elements, functional, principle, reduction, statement
+from pontryagin.rendezvous.claims import (
+    boundary,
+    conclusion,
+    elements,
+    functional,
+    principle,
+    reduction,
+    statement,
+)
 
-IN_ORDER = (statement, functional, principle, reduction, boundary, elements)
+IN_ORDER = (statement, functional, principle, reduction, boundary, conclusion, elements)
 
 ENTRIES = tuple(chain.from_iterable(part.claim for part in IN_ORDER))

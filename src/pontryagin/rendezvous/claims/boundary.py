@@ -1,20 +1,18 @@
-"""Section 2, the conditions at the end: (15) to (17), and the conclusion."""
+"""Section 2, the conditions at the end: (15) to (17)."""
 
 import sympy as sp
 
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Refutation, Steps, vanishes
+from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
-from pontryagin.rendezvous.claims import meetings
-from pontryagin.rendezvous.claims.statement import at_unit_norm, growth
+from pontryagin.rendezvous.claims.statement import growth
 from pontryagin.rendezvous.derivation import (
-    forms,
     model,
     primer,
     principle,
     reduction,
-    repair,
     terminal,
     transversality,
+    variation,
 )
 from pontryagin.rendezvous.derivation.model import (
     anomaly,
@@ -29,7 +27,7 @@ from pontryagin.rendezvous.derivation.model import (
     v1,
 )
 from pontryagin.rendezvous.derivation.principle import energy_weight, nu, rho, s1, time_weight
-from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, turn, vect
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, turn
 from pontryagin.rendezvous.derivation.reduction import anomaly_constant
 
 claim = Page("Pimkina & Chelnokov")
@@ -44,8 +42,10 @@ tilde = conjugate(attitude)
     "(15)",
     "what is equal at t_k and t0: λ~∘ν∘λ~",
     verdict="misprint",
-    remark="Printed, or so the scan shows: a tilde over all four λ. Right: λ∘ν∘λ~, the integral ν*. At t_k, "
-    "λ*(t_k) has to stand for λ(t_k), or it says nothing of the meeting.",
+    remark="Printed, or so the scan shows: a tilde over all four λ. Right: λ∘ν∘λ~, the integral ν*, as "
+    "ν* = μ∘λ~ before (11) gives it. The scan is read by machine: bar and tilde stand right in all other "
+    "products, but here, twice, a bar taken for a tilde cannot be excluded. At t_k, λ*(t_k) has to stand for "
+    "λ(t_k), or it says nothing of the meeting.",
 )
 def equal_at_both_ends():
     key = r"\bar\nu^*"
@@ -106,6 +106,12 @@ def moving_end():
         cartesian = primer.transversality_condition() * growth**2
         at_end = transversality.condition().subs(transversality.end_values())
         yield "Cartesian coordinates give the same", vanishes(sp.simplify(cartesian - at_end))
+        factor = variation.of_a_meeting().coeff(variation.anomaly_shift)
+        in_constant = factor.subs(principle.anomaly_costate, reduction.anomaly_costate_of())
+        yield (
+            "and so does the first variation: it is the factor of dφ*_k in dJ, times (1 + e* cos φ*)²",
+            vanishes(sp.simplify(in_constant * growth**2 - transversality.condition())),
+        )
 
     return Proof(
         argument,
@@ -120,9 +126,10 @@ def constant_of_integration():
     def argument() -> Steps:
         found = reduction.anomaly_integral()
         yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
+        pair = reduction.anomaly_costate_of() * model.anomaly_rate()
         yield (
-            "with Φ* it is the same unknown",
-            vanishes(reduction.anomaly_costate_of() * growth**2 - anomaly_constant),
+            "Φ*φ*' is c*C_φ/p*², the last term of (17)",
+            vanishes(pair - areal * anomaly_constant / parameter**2),
         )
 
     return Proof(argument, display=r"C_\varphi = \Phi^*(1 + e^*\cos\varphi^*)^2")
@@ -142,20 +149,19 @@ def hamiltonian():
     )
 
     def argument() -> Steps:
-        yield (
-            "H does not hold t: it is constant",
-            vanishes(principle.in_nu(reduction.along(principle.hamiltonian()))),
+        modes: tuple[tuple[principle.Mode, str], ...] = (
+            ("unsaturated", "within the bound"),
+            ("saturated", "on it"),
+            ("time-optimal", "with α2 = 0"),
         )
+        for mode, name in modes:
+            rate = variation.energy_rate(mode)
+            yield f"with the optimal thrust {name} put in, dH/dt = 0 along (11) to (14)", vanishes(rate)
         yield (
             "Cartesian coordinates give the same H",
             vanishes(sp.simplify(primer.hamiltonian() - reduction.hamiltonian())),
         )
-        slope = terminal.cost_slope("unsaturated")
-        length = terminal.switching_length
-        yield (
-            "H = 0 is dJ/dt_k = α1 − α2p² = 0 with p = |n|/(2α2) at the end",
-            vanishes(slope - (time_weight - energy_weight * (length / (2 * energy_weight)) ** 2)),
-        )
+        yield from variation_at_a_free_time()
 
     return Proof(
         argument,
@@ -166,93 +172,35 @@ def hamiltonian():
     )
 
 
-@claim(
-    "conclusion: reduced",
-    "the boundary value problem of 16 equations is reduced to one of ten",
-    verdict="false",
-    remark="(15) compares two vectors of equal length: rank 2, where (6) has rank 3. The turn about ν* is "
-    "lost, in one plane the whole place on the orbit. Families of false meetings satisfy (5), (15), (16) and "
-    "(17) to rounding; one that is 20° ahead even costs less than the true one. Repair: an eleventh "
-    "equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
-)
-def reduced_problem():
-    def counterexample() -> Steps:
-        yield from rank_of_15()
-        for members in (meetings.COPLANAR, meetings.INCLINED):
-            yield from meetings.true_meeting(members)
-            yield from meetings.false_meetings(members)
-        true, cheap = (meetings.outcome(member).cost for member in meetings.COPLANAR[:2])
-        yield (
-            f"the false meeting 20° ahead has J = {cheap:.4f}, the true one {true:.4f}",
-            cheap < 0.75 * true,
-        )
-        yield from repaired()
-
-    return Refutation(counterexample)
-
-
-def rank_of_15() -> Steps:
-    """(6) sees three turns, (15) two."""
-    yield "by small turns of λ, (6) has rank 3", repair.change_of_mismatch().rank() == 3
-    seen = repair.change_of_invariant()
-    yield "(15) has rank 2", seen.rank() == 2 and sp.expand(seen.det()) == 0
-    (blind,) = seen.nullspace()
-    yield "it does not see turns about ν", vanishes(blind.cross(nu))
-    angle, axis = sp.Symbol("delta", real=True), sp.Matrix([0, 0, 1])
-    turned = product(turn(axis, angle), attitude)
-    aligned = product(tilde, pure(axis), attitude)
-    kept = vect(product(turned, aligned, conjugate(turned))) - axis
-    yield (
-        "nor large ones: λ turned about ν* by any δ leaves ν* = i3 as it is",
-        all(vanishes(sp.simplify(at_unit_norm(part))) for part in kept),
+def variation_at_a_free_time() -> Steps:
+    """Why H = 0 where t_k is free: what dJ has at the end, and under the integral."""
+    gradient, moved = variation.gradient_by_thrust(), [variation.FAMILY[p].diff(variation.s) for p in thrust]
+    rest = variation.rest_of_the_variation() + gradient.dot(moved)
+    yield "dJ is (ψ, dx_k) − H dt_k and −∫(dH/dp, dp)dt", vanishes(rest)
+    slope = principle.switching() - 2 * energy_weight * thrust
+    within, on = (
+        slope.subs(dict(zip(thrust, best, strict=True))).applyfunc(sp.simplify)
+        for best in (principle.optimal_thrust("unsaturated"), principle.optimal_thrust("saturated"))
     )
-
-
-def repaired() -> Steps:
-    """chi, the eleventh variable, and what the conditions become."""
-    charts: tuple[tuple[repair.Chart, str], ...] = ((1, "ν3 = −|ν|"), (-1, "ν3 = |ν|"))
-    for chart, name in charts:
-        whole = repair.turning(chart)
-        yield f"λ = S∘(turn by χ)∘T~ solves (3), regular off {name}", vanishes(sp.Matrix(whole[:3]))
-        expected = c / r**2 + chart * r * p3 / c * nu1 / (repair.length + chart * nu3)
-        yield (
-            f"with χ' = c/r² ± (r p3/c)ν1/(|ν| ± ν3), ± = {chart:+d}",
-            vanishes(repair.chi_rate(chart) - expected),
-        )
-    at_end = terminal.law().subs(transversality.end_values())
+    yield "within the bound dH/dp = 0", vanishes(within)
+    yield "on it dH/dp lies along p, and dp across it", vanishes(on.cross(principle.switching()))
+    end, later = variation.of_a_meeting(), variation.delay
     yield (
-        "(16) and (17) with (5) come to (n, p) = α1 + α2p²",
-        vanishes(sp.simplify(terminal.hamiltonian_at_a_meeting() - at_end)),
+        "at a meeting the factor of dt_k is −H",
+        vanishes(end.coeff(later) + principle.in_nu(principle.hamiltonian())),
     )
-    found = meetings.singular_values(meetings.INCLINED[0], repaired=True)
-    yield f"(5), (6) and that law have rank 7: least singular value {found[-1]:.4f}", found[-1] > 1e-3
-
-
-@claim(
-    "conclusion: simpler",
-    "the right-hand sides have become simpler",
-    verdict="holds",
-    remark="With the eleventh equation too.",
-)
-def simpler():
-    def argument() -> Steps:
-        for mode in ("unsaturated", "saturated"):
-            systems = (forms.full(mode), forms.repaired(mode), forms.reduced(mode))
-            sixteen, eleven, ten = (sum(sp.count_ops(rate) for rate in form.rates) for form in systems)
-            yield (
-                f"{mode}: {sixteen} operations in 16 equations, {eleven} in 11, {ten} in 10",
-                (ten < eleven < sixteen / 2),
-            )
-            shared = [sum(sp.count_ops(part) for part in evaluated(form)) for form in systems]
-            yield (
-                f"what occurs twice counted once: {shared[0]}, {shared[1]}, {shared[2]}",
-                shared[2] < shared[1] < shared[0],
-            )
-
-    return Proof(argument)
-
-
-def evaluated(form: forms.Form) -> list[sp.Expr]:
-    """What is evaluated when subexpressions that occur twice are evaluated once."""
-    parts, rest = sp.cse(form.rates)
-    return [part for _, part in parts] + list(rest)
+    arriving = end.subs(variation.anomaly_shift, model.anomaly_rate() * later)
+    yield (
+        "φ*_k arrives with t_k, dφ*_k = φ*' dt_k: Φ* drops out of dJ, and C_φ may be taken from (16)",
+        not sp.expand(arriving).has(principle.anomaly_costate),
+    )
+    yield (
+        "then dJ = −H dt_k, which a free t_k makes 0",
+        vanishes(sp.simplify(variation.cost_slope() + terminal.hamiltonian_at_a_meeting())),
+    )
+    in_thrust = {terminal.switching_length: 2 * energy_weight * terminal.thrust_magnitude}
+    rest = time_weight - energy_weight * terminal.thrust_magnitude**2
+    yield (
+        "within the bound dJ*/dt_k is α1 − α2p²",
+        vanishes(terminal.cost_slope("unsaturated").subs(in_thrust) - rest),
+    )

@@ -5,6 +5,7 @@ import sympy as sp
 from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
 from pontryagin.rendezvous.derivation import sapunkov
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product, vect
 from pontryagin.rendezvous.derivation.sapunkov import A, B, Q, epsilon, force, half_anomaly, u, velocity, w
 
 claim = Page("Sapunkov")
@@ -28,7 +29,7 @@ def in_elements(expression: sp.Expr) -> sp.Expr:
     "abstract: results",
     "results of calculations for the optimal rendezvous in space",
     verdict="not checked",
-    remark="The text at hand ends after (1); it holds no results to compare the project's with.",
+    remark="The text at hand ends after (1); it contains no results to compare the project's with.",
 )
 def results():
     return None
@@ -58,6 +59,37 @@ def target():
         kepler = half ** sp.Rational(3, 2) * (1 - share * sp.cos(anomaly))
         yield "with Kepler's equation for the time", vanishes(sp.simplify(sp.expand_trig(time - kepler)))
         yield "A² + B² = 2a", vanishes(sp.simplify((A.dot(A) + B.dot(B)).subs(at)) - 2 * half)
+
+    return Proof(argument)
+
+
+@claim(
+    "abstract: elements",
+    "quaternion or vector elements of the orbit are used",
+    verdict="holds",
+    remark="(1) is in the quaternion ones, A and B. The vector ones are not on the page; the classical, R × "
+    "V and Laplace's vector, are quadratic in A and B.",
+)
+def elements():
+    def argument() -> Steps:
+        still = [rates.subs(FREE) for rates in sapunkov.element_rates()]
+        yield "A and B are elements: constant without thrust", all(part.is_zero_matrix for part in still)
+        swing = sapunkov.slowness() * sapunkov.spinor_rate()
+        size = {Q: -1 / sapunkov.energy()}
+        moment = sapunkov.place().cross(velocity)
+        pair = -2 * vect(product(conjugate(u), swing)) / sapunkov.slowness()
+        yield "R × V = −√(2/Q) vect(ũ∘w)", vanishes((moment - pair).applyfunc(sp.expand))
+        laplace = velocity.cross(moment) - sapunkov.place() / square
+        both = -(sapunkov.place() + sapunkov.place(swing)) / Q
+        rest = (laplace - both.subs(size)).applyfunc(sp.simplify)
+        yield "V × (R × V) − R/r = −(ũ∘i1∘u + w̃∘i1∘w)/Q", vanishes(rest)
+        pairs = (
+            (vect(product(conjugate(u), w)), vect(product(conjugate(A), B))),
+            (sapunkov.place(u) + sapunkov.place(w), sapunkov.place(A) + sapunkov.place(B)),
+        )
+        for name, (moving, constant) in zip(("first", "second"), pairs, strict=True):
+            rest = (in_elements(moving) - constant).applyfunc(lambda part: sp.simplify(sp.expand(part)))
+            yield f"the {name} is the same in A and B, at any φ", vanishes(rest)
 
     return Proof(argument)
 

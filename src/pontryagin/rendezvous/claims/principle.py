@@ -4,9 +4,20 @@ import sympy as sp
 
 from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
-from pontryagin.rendezvous.derivation import forms, primer, principle, reduction, transversality
+from pontryagin.rendezvous.derivation import (
+    canonical,
+    forms,
+    model,
+    primer,
+    principle,
+    reduction,
+    transversality,
+    variation,
+)
 from pontryagin.rendezvous.derivation.model import attitude, c, r, thrust
 from pontryagin.rendezvous.derivation.principle import energy_weight, mu, nu, peak, rho, s1, time_weight
+from pontryagin.rendezvous.derivation.principle import switching_length as length
+from pontryagin.rendezvous.derivation.principle import thrust_magnitude as p
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product
 
 claim = Page("Pimkina & Chelnokov")
@@ -14,24 +25,38 @@ claim = Page("Pimkina & Chelnokov")
 e = principle.e
 nu1 = nu[0]
 magnitude = sp.Symbol("p^0", nonnegative=True)
-length = sp.Symbol("|n|", nonnegative=True)
 multiplier = sp.Symbol("kappa", positive=True)
+
+PLACE = {
+    r: sp.Rational(11, 10),
+    model.v1: sp.Rational(2, 7),
+    c: sp.Rational(6, 5),
+    **dict(zip(attitude, (sp.Rational(k, 5) for k in (1, 2, 2, 4)), strict=True)),
+}
+"""A state without symmetries, |lambda| = 1."""
+PRIMER = dict(zip(canonical.PSI, (sp.Rational(k, 6) for k in (2, -1, 3, 2, 3, 6)), strict=True))
+"""psi_R and psi_V there, with |psi_V| = 7/6."""
 
 
 @claim("section 2: costates", "μ, ρ, s1, e, Φ*, ψ0 belong to λ, r, v1, c, φ*, g", verdict="holds")
 def costates():
     def argument() -> Steps:
-        whole = principle.hamiltonian()
-        pairs = zip(principle.COSTATE, principle.state_rates(), strict=True)
+        left = canonical.hamiltonian_gap(PLACE) - principle.anomaly_costate * model.anomaly_rate()
         yield (
-            "the factor of each in H is the rate of its partner",
-            all(vanishes(whole.diff(costate) - rate) for costate, rate in pairs),
+            "with (ρ, s1, e, μ) = (dX/dx)'ψ, ψ the costate of X = (R, V), H is that of R and V, and Φ*φ*'",
+            vanishes(left),
         )
-        running = sp.Symbol("g", real=True)
-        yield "H does not hold g: ψ0 is constant, and taken as −1", not whole.has(running)
+        yield "X' by (2) and (3) is dH/dψ, at any thrust in η", vanishes(canonical.state_gap(PLACE))
         yield (
-            "the factor of −1 is g' = α1 + α2p²",
-            vanishes(whole.subs(dict.fromkeys(principle.COSTATE, 0)) + principle.running_cost()),
+            "(dX/dx)'ψ moves by −dH/dx as ψ moves by −dH/dX, at any thrust in η",
+            vanishes(canonical.costate_gap(PLACE)),
+        )
+        by_thrust = variation.gradient_by_thrust().dot(
+            [variation.FAMILY[x].diff(variation.s) for x in thrust]
+        )
+        yield (
+            "with these and ψ0 = −1 for g, dJ is (ψ, dx) at the end and −∫(dH/dp, dp)dt: ψ0 is constant",
+            vanishes(variation.rest_of_the_variation() + by_thrust),
         )
 
     return Proof(argument, display=r"\dot g = \alpha_1 + \alpha_2 p^2,\quad g(t_0) = 0")
@@ -84,27 +109,26 @@ def switching_vector():
 @claim("(10)", "the size of the thrust for α2 > 0: |n|/(2α2), at most p_max", verdict="holds")
 def thrust_size():
     keys = (r"p^0", r"p^0_{\max}")
-    p = sp.Symbol("p", nonnegative=True)
-    share = -energy_weight * p**2 + length * p
 
     def derived():
-        n = {s1: length, e: 0, nu1: 0}
-        inside = principle.stationary_magnitude().subs(n)
-        saturated = principle.optimal_thrust("saturated").subs(n)
-        return dict(zip(keys, (sp.simplify(inside), sp.simplify(principle.size(saturated))), strict=True))
+        return dict(zip(keys, principle.best_magnitudes()[:2], strict=True))
 
     def argument() -> Steps:
+        gain, excess = principle.along_switching(), sp.Symbol("k", positive=True)
         yield (
-            "in p, H is −α2p² + |n|p and what has no p: strictly concave",
-            vanishes(share.diff(p, 2) + 2 * energy_weight),
+            "p n/|n| put into H: −α2p² + |n|p and what has no p",
+            vanishes(gain - (length * p - energy_weight * p**2)),
         )
-        top = length / (2 * energy_weight)
-        yield "largest at |n|/(2α2)", vanishes(share.diff(p).subs(p, top))
-        below = peak + sp.Symbol("k", positive=True)
-        slope = share.diff(p).subs({length: 2 * energy_weight * below, p: peak})
+        within, beyond, _ = principle.best_magnitudes()
+        lost = gain.subs(p, within) - gain
         yield (
-            "and still rising at p_max where |n| > 2α2 p_max",
-            vanishes(slope - 2 * energy_weight * (below - peak)),
+            "any p loses α2(p − |n|/(2α2))² against |n|/(2α2)",
+            vanishes(lost - energy_weight * (p - length / (2 * energy_weight)) ** 2),
+        )
+        lost = (gain.subs(p, beyond) - gain).subs(length, 2 * energy_weight * peak + excess)
+        yield (
+            "where |n| = 2α2 p_max + k, any p ≤ p_max loses (p_max − p)(k + α2(p_max − p)) against p_max",
+            vanishes(lost - (peak - p) * (excess + energy_weight * (peak - p))),
         )
 
     return Proof(
@@ -123,15 +147,24 @@ def thrust_size():
 )
 def no_singular_arcs():
     def argument() -> Steps:
-        p = sp.Symbol("p", nonnegative=True)
-        yield "H rises with p at the rate |n|, so p = p_max where n ≠ 0", (length * p).diff(p) == length
+        gain = principle.along_switching().subs(energy_weight, 0)
+        yield "H rises with p at the rate |n|", vanishes(gain.diff(p) - length)
+        yield "so p = p_max where n ≠ 0", principle.best_magnitudes()[2] == peak
         n, carried = principle.switching(), primer.carried()
         second = primer.second_rate() - primer.gravity_gradient() * n
         yield "n'' = G n in inertial axes, linear in n", vanishes(second.applyfunc(sp.simplify))
+        across = primer.rate_at_any_thrust(n) - carried
+        torque = sp.Matrix([0, 0, r * n.cross(thrust)[0] / c])
+        yield (
+            "at any thrust n' has r(n × p)₁/c more along η3: nothing where n = 0, as on a singular arc",
+            vanishes((across - torque).applyfunc(sp.simplify)),
+        )
         unknowns = [rho, s1, e, *nu]
         (only,) = sp.linsolve([*n, *carried], unknowns)
         yield "n = n' = 0 at an instant makes ρ, s1, e, ν all 0", all(value == 0 for value in only)
         nothing = dict.fromkeys(unknowns, 0)
+        still = [rate.subs(nothing) for rate in reduction.rates()[4:, :]]
+        yield "and at any thrust they stay 0 up to t_k", all(rate == 0 for rate in still)
         constant = transversality.anomaly_constant_at_the_end().subs(nothing)
         yield "then (16) gives C_φ = 0", constant == 0
         nothing |= {reduction.anomaly_constant: constant, energy_weight: 0}
@@ -163,8 +196,10 @@ def sixteen():
         form = forms.full("unsaturated")
         yield "eight for r, v1, c, φ*, λ and eight for their costates", len(form.rates) == 16
         outside = set().union(*(rate.free_symbols for rate in form.rates)) - set(form.states)
-        yield "with the optimal thrust they hold nothing else that changes", outside <= set(form.parameters)
-        flow = [principle.hamiltonian().diff(x) for x in principle.COSTATE]
-        yield "they are Hamilton's equations of H", vanishes(sp.Matrix(flow) - principle.state_rates())
+        yield "with the optimal thrust nothing else in them changes", outside <= set(form.parameters)
+        modes: tuple[tuple[principle.Mode, str], ...] = (("unsaturated", "within"), ("saturated", "on"))
+        for mode, name in modes:
+            gap = canonical.optimal_gap(mode, PLACE, PRIMER)
+            yield f"{name} the bound they are the canonical equations in R and V, ψ_V along p", vanishes(gap)
 
     return Proof(argument)

@@ -6,7 +6,7 @@ from pontryagin.evidence import Equality, Proof, Refutation, Steps, vanishes
 from pontryagin.ledger import Page
 from pontryagin.rendezvous.claims import meetings
 from pontryagin.rendezvous.claims.statement import at_unit_norm
-from pontryagin.rendezvous.derivation import principle, reduction, transversality
+from pontryagin.rendezvous.derivation import principle, reduction, terminal, transversality, variation
 from pontryagin.rendezvous.derivation.model import anomaly, attitude, c, gravity, r, thrust, v1
 from pontryagin.rendezvous.derivation.principle import mu, nu, nu0, rho, s1
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product
@@ -53,8 +53,8 @@ def nu_from_the_invariant():
     "section 2: integrals",
     "the boundary value problem has first integrals, which are taken into account",
     verdict="holds",
-    remark="ν* (four), |λ|, C_φ and H. ν0 is one of the four in disguise, and a pure gauge: no thrust holds "
-    "it. |ν| stays constant in (14) and is not used: the ten equations are one more than needed.",
+    remark="ν* (four), |λ|, C_φ and H. ν0 is one of the four in disguise, and a pure gauge: no thrust "
+    "contains it. |ν| stays constant in (14) and is not used: the ten equations are one more than needed.",
 )
 def integrals():
     def argument() -> Steps:
@@ -65,12 +65,10 @@ def integrals():
         without = {
             principle.in_nu(part).has(nu0) for part in (principle.hamiltonian(), *principle.switching())
         }
-        yield "and neither H nor n holds it", without == {False}
+        yield "and neither H nor n contains it", without == {False}
         yield "ν1² + ν2² + ν3² is constant", constant(square)
-        yield (
-            "H is constant where the thrust is stationary or constant in η",
-            vanishes(principle.in_nu(reduction.along(principle.hamiltonian()))),
-        )
+        for mode in principle.MODES:
+            yield f"H is constant, the {mode} thrust put in", vanishes(variation.energy_rate(mode))
 
     return Proof(argument)
 
@@ -81,7 +79,7 @@ def six():
         whole = [*principle.STATE, *principle.COSTATE]
         yield "16 − 4 (λ) − 4 (μ) − 1 (Φ*) + 3 (ν) = 10", len(whole) - 6 == len(reduction.REDUCED)
         outside = set().union(*(rate.free_symbols for rate in reduction.rates())) - set(reduction.REDUCED)
-        yield "the ten rates hold no λ, μ, Φ*", outside.isdisjoint(whole)
+        yield "the ten rates contain no λ, μ, Φ*", outside.isdisjoint(whole)
         yield "and p1, p2, p3 as they are: any control", set(thrust) < outside
         yield "ν0 drops out too: its rate is 0", reduction.gauge_rate() == 0
 
@@ -131,9 +129,9 @@ def order_ten():
         closed = [rate.subs(n) for rate in reduction.rates()]
         outside = set().union(*(rate.free_symbols for rate in closed)) - set(reduction.REDUCED)
         yield "with the optimal thrust they are closed", outside.isdisjoint((*attitude, *mu, *thrust, nu0))
-        yield "φ*' holds φ* alone", set(reduction.REDUCED) & rates(anomaly)[0].free_symbols == {anomaly}
+        yield "φ*' contains φ* alone", set(reduction.REDUCED) & rates(anomaly)[0].free_symbols == {anomaly}
         yield (
-            "and no other rate holds φ*",
+            "and no other rate contains φ*",
             not any(
                 rate.has(anomaly) for x, rate in zip(reduction.REDUCED, closed, strict=True) if x != anomaly
             ),
@@ -145,25 +143,26 @@ def order_ten():
 @claim(
     "after (14): eleven",
     "ten arbitrary constants appear, and t_k is the eleventh unknown",
-    verdict="false",
-    remark="C_φ is a twelfth: it stands in (16) and (17), and no variable of (11) to (14) gives it. The law "
-    "(n, p) = α1 + α2p² at t_k takes the place of both and needs none.",
+    verdict="holds",
+    remark="Of (11) to (14) and φ*'. A twelfth, C_φ, comes with (16); what follows does not count it. The "
+    "law (n, p) = α1 + α2p² at t_k takes the place of (16) and (17) and does without.",
 )
 def eleven_unknowns():
-    def counterexample() -> Steps:
-        yield "(16) holds C_φ with the factor 1", transversality.condition().diff(anomaly_constant) == 1
-        yield "which is none of the ten variables", anomaly_constant not in reduction.REDUCED
-        member = meetings.INCLINED[0]
-        found = meetings.outcome(member)
+    def argument() -> Steps:
+        closed = reduction.rates().subs(dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True)))
+        changing = {*principle.STATE, *principle.COSTATE, *nu, anomaly_constant}
+        inside = closed.free_symbols & changing
+        yield "ten rates of ten variables, in nothing else that changes", inside <= set(reduction.REDUCED)
+        start = dict.fromkeys(reduction.REDUCED, sp.Rational(1, 2))
+        smooth = closed.jacobian(reduction.REDUCED).subs(start)
         yield (
-            f"a meeting, C_φ = {found.anomaly_constant:.9f}: all conditions leave "
-            f"{found.printed_conditions:.1e}",
-            found.printed_conditions < meetings.ROUNDING,
+            "their derivatives are finite where n ≠ 0: one motion for each ten values at t0",
+            not smooth.has(sp.zoo, sp.nan, sp.oo),
         )
-        other = meetings.left_in_16(member, found.anomaly_constant + 1)
-        yield f"the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}", abs(other - 1) < 1e-9
+        law = terminal.hamiltonian_at_a_meeting()
+        yield "(16) put into (17) leaves no C_φ", not law.has(anomaly_constant)
 
-    return Refutation(counterexample)
+    return Proof(argument)
 
 
 @claim(
@@ -175,6 +174,14 @@ def eleven_unknowns():
 )
 def six_unknowns():
     def counterexample() -> Steps:
+        yield "C_φ is in (16), with the factor 1", transversality.condition().diff(anomaly_constant) == 1
+        yield "and none of the ten variables", anomaly_constant not in reduction.REDUCED
+        member = meetings.INCLINED[0]
+        other = meetings.left_in_16(member, meetings.outcome(member).anomaly_constant + 1)
+        yield (
+            f"a meeting, the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}",
+            abs(other - 1) < 1e-9,
+        )
         found = meetings.singular_values(meetings.INCLINED[0], repaired=False)
         yield "eight conditions, eight unknowns: ρ, s1, e, ν, t_k, C_φ", len(found) == 8
         yield (

@@ -8,9 +8,10 @@ The durations at which the target is there form a sequence without end.
 import math
 from functools import cache
 
-import mpmath
 import sympy as sp
+from scipy.integrate import quad
 
+from pontryagin import compile as compiler
 from pontryagin.rendezvous.derivation import model
 from pontryagin.rendezvous.derivation.model import c, gravity, r, thrust
 
@@ -48,7 +49,8 @@ def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
 
 def mean(expression: sp.Expr) -> float:
     """Integral over 0 <= s <= 1."""
-    return float(mpmath.quad(sp.lambdify(share, expression, "mpmath"), [0, 1]))
+    value = compiler.function("value", [share], {"value": expression})
+    return float(quad(lambda at: float(value(at)[0]), 0, 1, epsabs=0, epsrel=1e-13)[0])
 
 
 @cache

@@ -23,7 +23,7 @@ from pontryagin.rendezvous.derivation.model import (
     thrust,
     v1,
 )
-from pontryagin.rendezvous.derivation.quaternion import conjugate, product, rotated, vect
+from pontryagin.rendezvous.derivation.quaternion import conjugate, product, rotated
 
 claim = Page("Pimkina & Chelnokov")
 
@@ -64,19 +64,20 @@ def lower_dimension():
 @claim("(1)", "the thrust is bounded: 0 ≤ p ≤ p_max", verdict="holds")
 def bound():
     def argument() -> Steps:
-        saturated = principle.optimal_thrust("saturated")
-        yield "saturated, |p| = p_max", vanishes(saturated.dot(saturated) - principle.peak**2)
-        free = principle.optimal_thrust("unsaturated")
-        stationary = principle.stationary_magnitude()
-        yield "unsaturated, |p| = |n|/(2α2)", vanishes(free.dot(free) - stationary**2)
-        switch = {
-            principle.s1: 2 * principle.energy_weight * principle.peak,
-            principle.e: 0,
-            principle.nu[0]: 0,
-        }
+        excess = sp.Symbol("k", positive=True)
+        reached = {principle.switching_length: 2 * principle.energy_weight * principle.peak + excess}
+        within, beyond, _ = principle.best_magnitudes()
+        free = within.subs(reached) - principle.peak
         yield (
-            "which has risen to p_max at |n| = 2α2 p_max, where (10) changes",
-            vanishes(sp.simplify(stationary.subs(switch)) - principle.peak),
+            "where |n| = 2α2 p_max + k, H is largest at p_max + k/(2α2): the bound is felt",
+            vanishes(free - excess / (2 * principle.energy_weight)),
+        )
+        yield "among 0 ≤ p ≤ p_max it is then largest at p_max", beyond == principle.peak
+        saturated = principle.optimal_thrust("saturated")
+        yield "and the thrust of (8) has that size", vanishes(saturated.dot(saturated) - principle.peak**2)
+        yield (
+            "both cases of (10) meet at |n| = 2α2 p_max",
+            vanishes((within - beyond).subs(reached).subs(excess, 0)),
         )
 
     return Proof(argument, display=r"0 \le p \le p_{\max} < \infty,\quad p = |\bar p|")
@@ -265,13 +266,14 @@ def moving_end():
         yield "its tangent is nowhere 0: φ* changes at the rate 1", tangent[3] == 1
         carried = transversality.tangent()[4:, :].subs(dict(zip(lam, model.target_attitude(), strict=True)))
         yield "λ* changes by λ*∘i3/2", vanishes((tangent[4:, :] - carried).applyfunc(sp.expand))
-        yield (
-            "and vect of λ~∘λ* vanishes on it",
-            vanishes(
-                vect(product(conjugate(model.target_attitude()), model.target_attitude())).applyfunc(
-                    sp.expand
-                )
-            ),
-        )
+        eight = (r, v1, c, anomaly, *lam)
+        whole = sp.Matrix([*model.boundary(), *model.attitude_mismatch(), lam.dot(lam)]).jacobian(eight)
+        on_it = dict(zip((r, v1, c, *lam), (*curve[:3], *curve[4:]), strict=True))
+        left = (whole.subs(on_it) * tangent).applyfunc(sp.simplify)
+        half = sp.Rational(1, 2)
+        unit = dict.fromkeys(orientation, half)
+        yield "(5), (6) and |λ|² do not change along it", all(vanishes(part.subs(unit)) for part in left)
+        place = {anomaly: sp.pi / 2, parameter: 2, areal: 3, eccentricity: half} | unit
+        yield "and do in every other direction: rank 7 of 8", whole.subs(on_it).subs(place).rank() == 7
 
     return Proof(argument)

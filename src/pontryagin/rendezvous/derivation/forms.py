@@ -4,7 +4,7 @@ Four forms of one problem:
 
 full            16  r, v1, c, phi*, lambda, rho, s1, e, Phi*, mu
 with_attitude   14  r, v1, c, phi*, rho, s1, e, nu, lambda: regular everywhere, also where nu = 0
-repaired        11  r, v1, c, phi*, rho, s1, e, nu, chi: the smallest that knows the attitude
+repaired        11  r, v1, c, phi*, rho, s1, e, nu, chi: knows the attitude; |nu|, H: constant, unused
 reduced         10  r, v1, c, phi*, rho, s1, e, nu: the paper's (11) to (14)
 """
 

@@ -17,15 +17,16 @@ from functools import cache
 import sympy as sp
 
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, rotated, turn, vect
+from pontryagin.rendezvous.derivation.symbols import Symbol
 
 r, c, gravity = sp.symbols("r c fM", positive=True)
 v1 = sp.Symbol("v1", real=True)
 attitude = sp.Matrix(sp.symbols("lambda0:4", real=True))
 thrust = sp.Matrix(sp.symbols("p1:4", real=True))
 
-anomaly = sp.Symbol("phi", real=True)
-parameter, areal = sp.symbols("p_star c_star", positive=True)
-eccentricity = sp.Symbol("e_star", nonnegative=True)
+anomaly = Symbol("phi", real=True)
+parameter, areal = Symbol("p_star", positive=True), Symbol("c_star", positive=True)
+eccentricity = Symbol("e_star", nonnegative=True)
 orientation = sp.Matrix(sp.symbols("Lambda0:4", real=True))
 
 EX, EY, EZ = (sp.Matrix([int(k == j) for k in range(3)]) for j in range(3))

@@ -30,11 +30,15 @@ def thrust_along_primer() -> dict[sp.Symbol, sp.Expr]:
     return dict(zip(model.thrust, size * principle.switching(), strict=True))
 
 
-def inertial_rate(vector: sp.Matrix) -> sp.Matrix:
-    """d/dt of a vector given in eta, seen in inertial axes, with the thrust along n."""
+def rate_at_any_thrust(vector: sp.Matrix) -> sp.Matrix:
+    """d/dt of a vector given in eta, seen in inertial axes."""
     change = vector.jacobian(list(reduction.REDUCED)) * reduction.rates()
-    whole = change + model.motion()[1].cross(vector)
-    return whole.subs(thrust_along_primer()).applyfunc(sp.expand)
+    return change + model.motion()[1].cross(vector)
+
+
+def inertial_rate(vector: sp.Matrix) -> sp.Matrix:
+    """The same with the thrust along n."""
+    return rate_at_any_thrust(vector).subs(thrust_along_primer()).applyfunc(sp.expand)
 
 
 @cache

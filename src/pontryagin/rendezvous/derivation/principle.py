@@ -9,6 +9,8 @@ Phi*             anomaly_costate                costate of phi*
 mu               mu                             costate of lambda, a quaternion
 nu               nu0, nu                        lambda~ o mu; its vector part nu1, nu2, nu3
 n_eta            switching                      what multiplies p_eta in H
+p, |n|           thrust_magnitude,              lengths of the thrust and of n
+                 switching_length
 psi0             -1                             costate of the running value g of the functional
 
 H is maximised: H = -(alpha1 + alpha2 p^2) + (costates, rates).
@@ -22,15 +24,18 @@ import sympy as sp
 from pontryagin.rendezvous.derivation import model
 from pontryagin.rendezvous.derivation.model import anomaly, attitude, c, r, thrust, v1
 from pontryagin.rendezvous.derivation.quaternion import product
+from pontryagin.rendezvous.derivation.symbols import Symbol
 
 Mode = Literal["unsaturated", "saturated", "time-optimal"]
 MODES: tuple[Mode, ...] = get_args(Mode)
 
 time_weight, energy_weight = sp.symbols("alpha1 alpha2", nonnegative=True)
 peak = sp.Symbol("p_max", positive=True)
-rho, s1, e, anomaly_costate, nu0 = sp.symbols("rho s1 e Phi nu0", real=True)
+rho, s1, e, nu0 = sp.symbols("rho s1 e nu0", real=True)
+anomaly_costate = Symbol("Phi", real=True)
 mu = sp.Matrix(sp.symbols("mu0:4", real=True))
 nu = sp.Matrix(sp.symbols("nu1:4", real=True))
+thrust_magnitude, switching_length = sp.symbols("p |n|", nonnegative=True)
 
 STATE = (r, v1, c, anomaly, *attitude)
 COSTATE = (rho, s1, e, anomaly_costate, *mu)
@@ -79,12 +84,60 @@ def size(vector: sp.Matrix) -> sp.Expr:
     return sp.sqrt(vector.dot(vector))
 
 
+def by_powers_of_thrust(expression: sp.Expr) -> sp.Expr:
+    """A polynomial in p1, p2, p3, each coefficient simplified."""
+    terms = sp.Poly(expression, *thrust).as_dict()
+    powers = {key: sp.prod(p**k for p, k in zip(thrust, key, strict=True)) for key in terms}
+    return sp.Add(*(sp.simplify(value) * powers[key] for key, value in terms.items()))
+
+
+def in_switching_length(expression: sp.Expr, n: sp.Matrix) -> sp.Expr:
+    """An expression in |n| alone: s1 gives way to it, so that any other trace of n would stay in sight."""
+    rest = n.dot(n) - s1**2
+    return sp.expand(sp.simplify(expression.subs(s1, sp.sqrt(switching_length**2 - rest))))
+
+
 @cache
+def along_switching() -> sp.Expr:
+    """What H gains by the thrust p n/|n| over none, in the lengths p and |n|."""
+    n, whole = switching(), in_nu(hamiltonian())
+    pushed = whole.subs(dict(zip(thrust, thrust_magnitude / size(n) * n, strict=True)))
+    return in_switching_length(sp.expand(pushed - whole.subs(dict.fromkeys(thrust, 0))), n)
+
+
+@cache
+def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """The p in 0 <= p <= p_max at which `along_switching` is largest.
+
+    For alpha2 > 0 where |n| <= 2 alpha2 p_max and where |n| > 2 alpha2 p_max, both cases of (10); for
+    alpha2 = 0. The candidates are the ends, and the place where the slope vanishes if it lies between them.
+    """
+    gain, excess, weight = along_switching(), sp.Symbol("k", positive=True), sp.Symbol("w", positive=True)
+    (top,) = sp.solve(gain.diff(thrust_magnitude), thrust_magnitude)
+    (reached,) = sp.solve(top - peak, switching_length)
+    return (
+        _largest(gain, (0, top, peak), {peak: top + excess}, weight),
+        _largest(gain, (0, peak), {switching_length: reached + excess}, weight),
+        _largest(gain.subs(energy_weight, 0), (0, peak), {switching_length: excess}, weight),
+    )
+
+
+def _largest(gain: sp.Expr, candidates: tuple, case: dict[sp.Symbol, sp.Expr], weight: sp.Symbol) -> sp.Expr:
+    """The candidate that is as good as any other in the case, alpha2 > 0 being the weight."""
+
+    def lead(one: sp.Expr, other: sp.Expr) -> sp.Expr:
+        difference = gain.subs(thrust_magnitude, one) - gain.subs(thrust_magnitude, other)
+        return sp.factor(sp.expand(difference.subs(case).subs(energy_weight, weight)))
+
+    (best,) = (
+        one for one in candidates if all(lead(one, x).is_nonnegative for x in candidates if x is not one)
+    )
+    return best
+
+
 def stationary_magnitude() -> sp.Expr:
-    """The p at which -alpha2 p^2 + |n| p is largest among all p >= 0, for alpha2 > 0: first case of (10)."""
-    p, length = sp.symbols("p n", nonnegative=True)
-    (best,) = sp.solve((-energy_weight * p**2 + length * p).diff(p), p)
-    return best.subs(length, size(switching()))
+    """First case of (10), |n| written out."""
+    return best_magnitudes()[0].subs(switching_length, size(switching()))
 
 
 def optimal_thrust(mode: Mode) -> sp.Matrix:
@@ -96,4 +149,4 @@ def optimal_thrust(mode: Mode) -> sp.Matrix:
     n = switching()
     if mode == "unsaturated":
         return (stationary_magnitude() / size(n) * n).applyfunc(sp.simplify)
-    return peak / size(n) * n
+    return best_magnitudes()[1] / size(n) * n

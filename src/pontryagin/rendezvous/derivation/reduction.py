@@ -15,8 +15,9 @@ from pontryagin.rendezvous.derivation import principle
 from pontryagin.rendezvous.derivation.model import anomaly, attitude, c, eccentricity, r, v1
 from pontryagin.rendezvous.derivation.principle import anomaly_costate, e, mu, nu, rho, s1
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product
+from pontryagin.rendezvous.derivation.symbols import Symbol
 
-anomaly_constant = sp.Symbol("C_phi", real=True)
+anomaly_constant = Symbol("C_phi", real=True)
 
 REDUCED = (r, v1, c, anomaly, rho, s1, e, *nu)
 """The ten variables of (11) to (14) and phi*."""

@@ -25,11 +25,12 @@ from pontryagin.rendezvous.derivation import model, principle, reduction
 from pontryagin.rendezvous.derivation.model import EZ, attitude
 from pontryagin.rendezvous.derivation.principle import nu
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, turn, vect
+from pontryagin.rendezvous.derivation.symbols import Symbol
 
 Chart = Literal[1, -1]
 
 chi = sp.Symbol("chi", real=True)
-length = sp.Symbol("|nu|", positive=True)
+length = Symbol("|nu|", positive=True)
 small_turn = sp.Matrix(sp.symbols("theta1:4", real=True))
 
 

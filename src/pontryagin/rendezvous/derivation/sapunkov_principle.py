@@ -124,7 +124,7 @@ def relation_gradient(first: sp.Matrix = u, second: sp.Matrix = w) -> sp.Matrix:
 
 
 def switching() -> sp.Matrix:
-    """n: K over t' is (n, p) and what does not hold p."""
+    """n: K over t' is (n, p) and what does not contain p."""
     return sp.Matrix([power().diff(p) for p in force]) / sapunkov.time_rate()
 
 

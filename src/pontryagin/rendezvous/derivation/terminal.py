@@ -12,12 +12,16 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.rendezvous.derivation import model, principle, reduction, transversality
+from pontryagin.rendezvous.derivation import model, principle, reduction, transversality, variation
 from pontryagin.rendezvous.derivation.model import thrust
-from pontryagin.rendezvous.derivation.principle import Mode, energy_weight, peak, time_weight
-
-thrust_magnitude = sp.Symbol("p", nonnegative=True)
-switching_length = sp.Symbol("|n|", nonnegative=True)
+from pontryagin.rendezvous.derivation.principle import (
+    Mode,
+    energy_weight,
+    peak,
+    switching_length,
+    thrust_magnitude,
+    time_weight,
+)
 
 
 @cache
@@ -26,9 +30,7 @@ def hamiltonian_at_a_meeting() -> sp.Expr:
     constant = {reduction.anomaly_constant: transversality.anomaly_constant_at_the_end()}
     ends = transversality.end_values()
     whole = reduction.hamiltonian().subs(constant).subs(ends).subs(model.gravity, model.GAUSS)
-    terms = sp.Poly(whole, *thrust).as_dict()
-    powers = {key: sp.prod(p**k for p, k in zip(thrust, key, strict=True)) for key in terms}
-    return sp.Add(*(sp.simplify(value) * powers[key] for key, value in terms.items()))
+    return principle.by_powers_of_thrust(whole)
 
 
 def switching_at_a_meeting() -> sp.Matrix:
@@ -67,12 +69,18 @@ def end_thrust() -> sp.Expr:
     return solved[0].subs({positive: time_weight, weight: energy_weight})
 
 
+@cache
 def cost_slope(mode: Mode) -> sp.Expr:
-    """dJ*/dt_k of the extremals of fixed duration, with a free anomaly at the end: -H, in |n| at the end.
+    """dJ*/dt_k of the extremals of fixed duration, with a free anomaly at the end, in |n| at the end.
 
-    Unsaturated it is alpha1 - alpha2 p(t_k)^2, zero exactly where the terminal law holds.
+    By the first variation; unsaturated it is alpha1 - alpha2 p(t_k)^2, zero exactly where the law holds.
     """
-    return -law_in_lengths(mode)
+    ends = transversality.end_values()
+    put_in = dict(zip(thrust, principle.optimal_thrust(mode).subs(ends), strict=True))
+    whole = variation.cost_slope().subs(put_in)
+    if mode == "time-optimal":
+        whole = whole.subs(energy_weight, 0)
+    return principle.in_switching_length(whole, switching_at_a_meeting())
 
 
 def scale_of_saturated() -> sp.Expr:
