@@ -200,21 +200,21 @@ def leap() -> Rendezvous:
 
 def _fuel_coplanar() -> FuelCase:
     problem = replace(leap(), target=_orbit(1.5, 0.1, 0, 0.6), duration=6.0)
-    return FuelCase("fuel", "coplanar circle to ellipse, least fuel in fixed time", problem, 6.0, 0.7)
+    return FuelCase("fuel", "coplanar, fixed time", problem, 6.0, 0.7)
 
 
 def _fuel_free() -> FuelCase:
     problem = replace(_fuel_coplanar().problem, time_weight=0.01, duration=None)
-    return FuelCase("fuel-free", "the same in free time, α1 = 0.01", problem, 6.0, 0.7)
+    return FuelCase("fuel-free", "coplanar, free time, $\\alpha_1 = 0.01$", problem, 6.0, 0.7)
 
 
 def _fuel_inclined() -> FuelCase:
-    return FuelCase("fuel-inclined", "inclined by 20°, least fuel in fixed time", leap(), 12.0, 1.2, more=-1)
+    return FuelCase("fuel-inclined", "inclined by 20°, fixed time", leap(), 12.0, 1.2, more=-1)
 
 
 def _fuel_ellipses() -> FuelCase:
     problem = replace(_ellipses().problem, duration=9.0, time_weight=0, energy_weight=1, peak=0.15)
-    return FuelCase("fuel-ellipses", "ellipse to ellipse, least fuel in fixed time", problem, 9.0, 0.9)
+    return FuelCase("fuel-ellipses", "ellipse to ellipse, fixed time", problem, 9.0, 0.9)
 
 
 FUEL_MAKERS: tuple[Callable[[], FuelCase], ...] = (_fuel_coplanar, _fuel_free, _fuel_inclined, _fuel_ellipses)

@@ -139,9 +139,14 @@ def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure
     return figure
 
 
+def in_elements(name: str) -> ElementsExtremal:
+    """A case of the report in the elements: the extremal that `solve` found."""
+    return _started(name)[0]
+
+
 @functools.cache
-def in_elements(name: str) -> tuple[ElementsExtremal, str]:
-    """A case of the report in the elements, the extremal that `solve` found, and what it was started from.
+def _started(name: str) -> tuple[ElementsExtremal, str]:
+    """That extremal, and what it was started from.
 
     "cold" where the elements come to it by themselves. Otherwise its costates are carried over, and what a
     cold start comes to is told: another extremal or none.
@@ -165,7 +170,7 @@ def fuel_solved(name: str) -> ElementsExtremal:
 
 def agreement() -> dict[str, list[Any]]:
     """All cases of the report in the axes eta and in the elements: costs, durations, controls, residuals."""
-    pairs = [(name, solved(name), *in_elements(name)) for name in cases()]
+    pairs = [(name, solved(name), *_started(name)) for name in cases()]
     return {
         "case": [name for name, *_ in pairs],
         "start": [start for *_, start in pairs],
@@ -191,8 +196,7 @@ def fuel() -> dict[str, list[Any]]:
     known = fuel_cases()
     found = [fuel_solved(name) for name in known]
     return {
-        "case": list(known),
-        "": [one.title for one in known.values()],
+        "case": [one.title for one in known.values()],
         "$J_2$": [f"{one.cost:.9f}" for one in found],
         "$t_k$": [f"{one.duration:.6f}" for one in found],
         "burns": [one.modes.count("saturated") for one in found],
@@ -204,10 +208,11 @@ def fuel() -> dict[str, list[Any]]:
 
 def fuel_judge() -> dict[str, list[Any]]:
     """The cases of least fuel beside their direct costs at two meshes, as `tables.judge` has the others."""
-    found = {name: fuel_solved(name).cost for name in fuel_cases()}
+    known = fuel_cases()
+    found = {name: fuel_solved(name).cost for name in known}
     kept = {name: one for name, one in verdicts().items() if name in found}
     columns: dict[str, list[Any]] = {
-        "case": list(found),
+        "case": [one.title for one in known.values()],
         "$J_2$": [f"{cost:.9g}" for cost in found.values()],
     }
     for j, mesh in enumerate(MESHES):
