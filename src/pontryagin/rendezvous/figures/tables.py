@@ -115,7 +115,7 @@ def small_weights() -> Columns:
     """The case `mixed` at falling weights of time."""
     kept = small_weight.rows()
     return {
-        "$\\alpha_1$": [f"{one.time_weight:.0e}" for one in kept],
+        "$\\alpha_1$": [f"$10^{{{np.log10(one.time_weight):.0f}}}$" for one in kept],
         "$t_k$": [f"{one.duration:.6f}" for one in kept],
         "$J$": [f"{one.cost:.8g}" for one in kept],
         "revolutions": [f"{one.revolutions:.3f}" for one in kept],
