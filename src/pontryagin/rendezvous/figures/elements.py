@@ -149,16 +149,16 @@ def _started(name: str) -> tuple[ElementsExtremal, str]:
     """That extremal, and what it was started from.
 
     "cold" where the elements come to it by themselves. Otherwise its costates are carried over, and what a
-    cold start comes to is told: another extremal or none.
+    cold start comes to is told: the cost of another extremal, or none.
     """
     other = solved(name)
     try:
         cold = solve_in_elements(other.problem)
     except NotConverged:
-        return solve_in_elements(other.problem, start=other), "carried over (cold: none)"
+        return solve_in_elements(other.problem, start=other), "carried (cold: none)"
     if math.isclose(cold.cost, other.cost, rel_tol=1e-6):
         return cold, "cold"
-    return solve_in_elements(other.problem, start=other), f"carried over (cold: $J$ = {cold.cost:.4g})"
+    return solve_in_elements(other.problem, start=other), f"carried (cold: {cold.cost:.4g})"
 
 
 @functools.cache

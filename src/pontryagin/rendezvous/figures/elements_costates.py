@@ -46,6 +46,6 @@ def drift(solution: ElementsExtremal, states: Array, phi: Array) -> Array:
     """H = -L + (n, p) + kappa/t' less its value at the end, over the largest running cost."""
     thrust = solution.flight.thrust(states, phi)
     spent = running_cost(solution.flight, thrust)
-    phase = np.asarray(kernels.element_phase(*states[:, :16].T, phi))
+    phase = np.asarray(kernels.element_phase(*[*states[:, :16].T, phi]))
     energy = np.sum(switching(states, phi) * thrust, axis=1) - spent + phase
     return (energy - energy[-1]) / spent.max()
