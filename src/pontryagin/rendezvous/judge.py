@@ -94,7 +94,7 @@ def judged(case: Case) -> Verdict:
 
 
 def verdicts() -> dict[str, Verdict]:
-    """What ``judge.csv`` holds, by the names of the cases.
+    """What ``judge.csv`` contains, by the names of the cases.
 
     Examples
     --------

@@ -61,7 +61,7 @@ def row(best: Extremal) -> Row:
 
 
 def rows() -> list[Row]:
-    """What ``small_weight.csv`` holds, alpha1 falling.
+    """What ``small_weight.csv`` contains, alpha1 falling.
 
     Examples
     --------
