@@ -1,5 +1,6 @@
 """What the figures and tables show is what the solutions are: lines are read back and checked."""
 
+import csv
 import functools
 import math
 
@@ -7,10 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from pontryagin.files import figures_folder
 from pontryagin.plotting import svg_of
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, figures
-from pontryagin.rendezvous.cases import DAY, case
-from pontryagin.rendezvous.figures import labels, paths, tables
+from pontryagin.rendezvous.cases import DAY, case, cases
+from pontryagin.rendezvous.elements_arcs import TIME
+from pontryagin.rendezvous.figures import elements, elements_costates, labels, paths, tables
 from pontryagin.rendezvous.figures.revolutions import branch
 from pontryagin.rendezvous.figures.series import drift
 from pontryagin.rendezvous.meetings import false_family
@@ -115,6 +118,30 @@ class TestFalse:
             assert np.linalg.norm(gap[1] - gap[0]) == pytest.approx(member.distance, abs=1e-9)
         assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
 
+    @pytest.mark.parametrize(("name", "angle"), [("ellipse-mixed", -0.5), ("mixed", -0.35)])
+    def test_the_craft_ends_on_the_orbit_as_turned_and_not_on_the_target_s(self, name, angle):
+        (ax,) = figures.false_meetings(false_family(solved(name), [angle])).axes
+        lines = {line.get_label(): line for line in ax.lines}
+        places = {
+            label: np.transpose(line.get_data_3d() if name == "mixed" else line.get_data())
+            for label, line in lines.items()
+        }
+        end = places["craft at $t_k$"]
+        turned, orbit = (
+            np.linalg.norm(places[label] - end, axis=1).min()
+            for label in ("that orbit as turned", "orbit of the target")
+        )
+        assert turned < 0.03 < 0.05 < orbit
+        assert np.linalg.norm(end - places["target at $t_k$"]) > 0.2
+
+    def test_the_axis_of_the_turn_is_named(self):
+        plane = figures.missed(self.family()).axes[2]
+        assert plane.get_xlabel() == r"turn of $\lambda(t_k)$ about the normal of the plane [°]"
+        space_ = figures.missed(false_family(solved("mixed"), [-0.1, 0.0, 0.1])).axes[2]
+        assert space_.get_xlabel() == r"turn of $\lambda(t_k)$ about $\nu^*$ [°]"
+        costs = space_.lines[0].get_ydata()
+        assert costs[0] < costs[1] < costs[2]
+
     def test_dots_stand_where_the_meeting_is_true(self):
         axes = figures.missed(self.family()).axes
         assert axes[1].lines[1].get_xdata() == [0.0]
@@ -150,6 +177,15 @@ class TestRevolutions:
         dots = [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
         assert_allclose(dots, [[one.duration, one.cost] for one in [best, *best.others]])
 
+    def test_the_true_meeting_a_turn_later_is_among_the_extremals(self):
+        """What the curve of false meetings comes to at 360° is an extremal that the search has found too."""
+        with (figures_folder() / "42-rendezvous-false-meetings" / "family.csv").open() as file:
+            (row,) = (row for row in csv.DictReader(file) if row["turned by [°]"] == "360")
+        best = solved("ellipse-mixed")
+        found = [(one.duration, one.cost) for one in [best, *best.others]]
+        wanted = (float(row["$t_k$"]), float(row["$J$"]))
+        assert min(np.abs(np.subtract(one, wanted)).max() for one in found) < 2e-6
+
     def test_a_bound_is_refused(self):
         with pytest.raises(ValueError, match=r"must be of a problem without a bound, got a peak of 0\.08"):
             branch(space(), 1, (5.0, 15.0), 1.0)
@@ -170,8 +206,41 @@ def test_the_tables_hold_what_was_solved():
     assert largest.max() < 1e-10
     judged = tables.judge(found)
     assert judged["direct/J − 1, 40"][1].endswith("(another)")
-    assert tables.others(found)["case"].count("ellipse-mixed") == 4
+    several = {name: 1 + len(best.others) for name, best in found.items() if best.others}
+    assert {name: tables.others(found)["case"].count(name) for name in several} == several
+    assert rows["others"] == [len(best.others) for best in found.values()]
     assert len(tables.titles()["case"]) == 15
+
+
+class TestElements:
+    def test_a_case_that_is_met_from_a_cold_start_is_told_from_one_that_is_carried_over(self):
+        assert elements._started("circle-energy")[1] == "cold"
+        assert elements._started("ellipse-mixed")[1] == "carried (cold: 0.0393)"
+        for name in ("circle-energy", "ellipse-mixed"):
+            assert elements.in_elements(name).cost == pytest.approx(solved(name).cost, rel=1e-10)
+
+    def test_all_cases_are_in_the_table_and_agree(self):
+        with (figures_folder() / "43-rendezvous-elements" / "agreement.csv").open() as file:
+            rows = list(csv.DictReader(file))
+        assert [row["case"] for row in rows] == list(cases())
+        columns = ("difference of $J$", "of $t_k$", "of $|p(0)|$", "residual")
+        assert max(float(row[name]) for row in rows for name in columns) < 1e-9
+        assert {row["start"].split()[0] for row in rows} == {"cold", "carried"}
+
+    def test_h_does_not_drift_and_the_costates_are_those_of_the_flight(self):
+        solution = elements.in_elements("ellipse-mixed")
+        figure = elements_costates.costates_along(solution)
+        first, second, last = figure.axes
+        assert np.abs(last.lines[0].get_ydata()).max() < 1e14 * 1e-12
+        for k, line in enumerate([*first.lines, *second.lines]):
+            assert line.get_ydata()[[0, -1]] == pytest.approx(
+                [solution.flight.pieces[0].whole[8 + k], solution.flight.end[8 + k]], abs=1e-11
+            )
+        phi = np.linspace(0, solution.flight.phi, 11)
+        states = solution.flight.sample(phi)
+        assert states[-1, TIME] == pytest.approx(solution.flight.duration)
+        wrong = states * np.where(np.arange(states.shape[1]) == 8, 1 + 1e-6, 1.0)
+        assert np.abs(elements_costates.drift(solution, wrong, phi)).max() > 1e-9
 
 
 def test_a_figure_is_the_same_every_time():

@@ -5,14 +5,18 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from pontryagin import NotConverged
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous
+from pontryagin.rendezvous.cartesian import fly_cartesian, target_by_kepler
 from pontryagin.rendezvous.claims import meetings as ledger
 from pontryagin.rendezvous.homotopy import newton
 from pontryagin.rendezvous.meetings import false_curve, false_family
+from pontryagin.rendezvous.misled import false_meeting
 from pontryagin.rendezvous.printed import printed_conditions, printed_jacobian, reduced
 from pontryagin.rendezvous.shooting import Setting, equations
+from pontryagin.rendezvous.turned import towards_turned
 
 DEGREES = (0, 20)
 TURNS = {0: (-2 * math.pi, -1.5, -0.4, 0.0, 0.7, 2.0), 20: (-0.6, -0.2, 0.0, 0.3)}
@@ -37,6 +41,12 @@ def family(degrees: int):
     return false_family(true_meeting(degrees), TURNS[degrees])
 
 
+def axis_of(nu: np.ndarray, problem: Rendezvous) -> np.ndarray:
+    """What angles are about: nu*, in the plane the normal of the target's orbit."""
+    normal = Rotation.from_quat(problem.target.attitude, scalar_first=True).apply([0, 0, 1])
+    return normal if normal[2] == pytest.approx(1, abs=1e-15) else nu / np.linalg.norm(nu)
+
+
 @pytest.mark.parametrize("degrees", DEGREES)
 class TestFamily:
     def test_every_member_leaves_nothing_of_what_is_printed(self, degrees):
@@ -45,6 +55,23 @@ class TestFamily:
     def test_the_attitude_is_off_by_the_angle_and_right_at_whole_turns_alone(self, degrees):
         turns = np.abs((family(degrees).angles + math.pi) % (2 * math.pi) - math.pi)
         assert np.allclose(family(degrees).mismatches, turns, atol=1e-9)
+
+    def test_the_angle_has_the_sign_that_is_stated(self, degrees):
+        """By the attitudes, and by the places of Newton's law and Kepler's equation."""
+        problem = true_meeting(degrees).problem
+        for member in family(degrees).members:
+            axis = axis_of(member.flight.costates[3:], problem)
+            turned = 2 * math.atan2(member.turn[1:] @ axis, member.turn[0])
+            assert math.remainder(turned - member.angle, 2 * math.pi) == pytest.approx(0, abs=1e-9)
+            end = fly_cartesian(member.flight, np.array([member.flight.duration]))[0, :6].reshape(2, 3)
+            there = target_by_kepler(problem.scaled, member.flight.duration).reshape(2, 3)
+            assert np.allclose(Rotation.from_rotvec(member.angle * axis).apply(there), end, atol=1e-9)
+
+    def test_one_meeting_asked_for_is_that_of_the_family(self, degrees):
+        for member in family(degrees).members[1:]:
+            alone = false_meeting(member.problem, member.angle, true_meeting(degrees))
+            assert alone.duration == pytest.approx(member.duration, rel=1e-9)
+            assert np.allclose(alone.flight.costates, member.flight.costates, atol=1e-8)
 
     def test_the_place_is_another_but_at_whole_turns(self, degrees):
         whole = np.isclose(family(degrees).angles % (2 * math.pi), 0)
@@ -81,15 +108,22 @@ class TestFamily:
         assert abs(cosine) == pytest.approx(1, abs=1e-6)
 
 
-def test_the_ledger_s_false_meetings_lie_on_the_curve():
-    """Found there by themselves; 20 degrees ahead costs less than the true one."""
-    ahead = next(one for one in ledger.COPLANAR if one.name.startswith("20°"))
-    both = false_family(true_meeting(0), np.radians([-20, 20])).members
-    found = min(both, key=lambda one: abs(one.duration - ahead.duration))
-    costates = found.flight.costates * found.problem.scaled.costate_units
-    assert found.duration == pytest.approx(ahead.duration, abs=1e-9)
-    assert np.allclose(costates, ahead.costates, atol=1e-9)
-    assert found.cost < true_meeting(0).cost
+@pytest.mark.parametrize(("kept", "turned"), [(ledger.COPLANAR[1], 20), (ledger.INCLINED[1], 20)])
+def test_the_ledger_s_false_meetings_have_the_sense_that_they_are_named_by(kept, turned):
+    """20 degrees ahead, and 20 degrees about nu*: the equations towards the target so turned hold there."""
+    true = true_meeting(kept.inclination)
+    scaled = true.problem.scaled
+    unknowns = np.append(np.array(kept.costates) / scaled.costate_units, kept.duration / scaled.time)
+    there, _ = towards_turned(true)(unknowns, math.radians(turned))
+    assert np.abs(there.residual).max() < 1e-11
+
+
+def test_a_false_meeting_costs_less_than_the_true_one():
+    """20 degrees ahead in the plane, and 20 degrees about -nu* in space."""
+    for degrees, turned in ((0, 20), (20, -20)):
+        true = true_meeting(degrees)
+        (found,) = false_family(true, [math.radians(turned)]).members
+        assert found.cost < 0.75 * true.cost
 
 
 def test_the_curve_keeps_its_order_and_ends_where_asked():

@@ -6,7 +6,7 @@ units of their trade. Angles are in radians here, in degrees in the names.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pontryagin.rendezvous.problem import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.quaternions import about_third, product
@@ -42,6 +42,19 @@ class Case:
     problem: Rendezvous
     guess: float
     revolutions: float
+
+
+@dataclass(frozen=True)
+class FuelCase(Case):
+    """A rendezvous of least fuel: alpha2 is the weight of |p|.
+
+    Attributes
+    ----------
+    more : int
+        Revolutions more than the number nearest to what the craft would make coasting, for `least_fuel`.
+    """
+
+    more: int = 0
 
 
 def circle(radius: float = 1.0) -> Chaser:
@@ -178,6 +191,35 @@ MAKERS: tuple[Callable[[], Case], ...] = (
 )
 
 
+def leap() -> Rendezvous:
+    """From a circle to an ellipse inclined by 20 degrees in the fixed time 12, with a peak of 0.15."""
+    return Rendezvous(
+        circle(), _orbit(1.5, 0.1, 20, 0.6), time_weight=0, energy_weight=1, peak=0.15, duration=12.0
+    )
+
+
+def _fuel_coplanar() -> FuelCase:
+    problem = replace(leap(), target=_orbit(1.5, 0.1, 0, 0.6), duration=6.0)
+    return FuelCase("fuel", "coplanar, fixed time", problem, 6.0, 0.7)
+
+
+def _fuel_free() -> FuelCase:
+    problem = replace(_fuel_coplanar().problem, time_weight=0.01, duration=None)
+    return FuelCase("fuel-free", "coplanar, free time, $\\alpha_1 = 0.01$", problem, 6.0, 0.7)
+
+
+def _fuel_inclined() -> FuelCase:
+    return FuelCase("fuel-inclined", "inclined by 20°, fixed time", leap(), 12.0, 1.2, more=-1)
+
+
+def _fuel_ellipses() -> FuelCase:
+    problem = replace(_ellipses().problem, duration=9.0, time_weight=0, energy_weight=1, peak=0.15)
+    return FuelCase("fuel-ellipses", "ellipse to ellipse, fixed time", problem, 9.0, 0.9)
+
+
+FUEL_MAKERS: tuple[Callable[[], FuelCase], ...] = (_fuel_coplanar, _fuel_free, _fuel_inclined, _fuel_ellipses)
+
+
 def cases() -> dict[str, Case]:
     """All cases of the report, by name.
 
@@ -187,6 +229,18 @@ def cases() -> dict[str, Case]:
     (15, inf)
     """
     made = [make() for make in MAKERS]
+    return {case.name: case for case in made}
+
+
+def fuel_cases() -> dict[str, FuelCase]:
+    """The cases of least fuel, by name.
+
+    Examples
+    --------
+    >>> list(fuel_cases())
+    ['fuel', 'fuel-free', 'fuel-inclined', 'fuel-ellipses']
+    """
+    made = [make() for make in FUEL_MAKERS]
     return {case.name: case for case in made}
 
 

@@ -1,7 +1,8 @@
 """``python -m pontryagin.rendezvous.judge``: what the direct method finds in the report's cases.
 
 Its costs at two meshes are kept in ``judge.csv``, so that the report needs no CasADi; a row carries the
-checksum of the problem that it was found for. The judge is told nothing of our solutions.
+checksum of the problem that it was found for. The cases of least fuel come last. The judge is told nothing of
+our solutions.
 """
 
 import csv
@@ -14,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.cases import Case, cases
+from pontryagin.rendezvous.cases import Case, FuelCase, cases, fuel_cases
 from pontryagin.rendezvous.problem import Rendezvous
 from pontryagin.tables import csv_table
 
@@ -46,8 +47,13 @@ class Verdict:
     violation: float
 
 
-def checksum(problem: Rendezvous) -> int:
-    """A number that changes with every number of the problem.
+def judged_cases() -> dict[str, Case]:
+    """All cases that the judge is asked about, by name: those of the report, and those of least fuel."""
+    return {**cases(), **fuel_cases()}
+
+
+def checksum(problem: Rendezvous, fuel: bool = False) -> int:
+    """A number that changes with every number of the problem, and with what alpha2 is the weight of.
 
     Examples
     --------
@@ -60,7 +66,8 @@ def checksum(problem: Rendezvous) -> int:
     numbers += [orbit.parameter, orbit.eccentricity, *np.ravel(orbit.attitude), orbit.anomaly]
     numbers += [problem.time_weight, problem.energy_weight, problem.peak, problem.gravity]
     numbers += [] if problem.duration is None else [problem.duration]
-    return zlib.crc32(" ".join(f"{number + 0.0:.10g}" for number in numbers).encode())
+    text = " ".join(f"{number + 0.0:.10g}" for number in numbers)
+    return zlib.crc32(f"{text} fuel".encode() if fuel else text.encode())
 
 
 def judged(case: Case) -> Verdict:
@@ -75,9 +82,10 @@ def judged(case: Case) -> Verdict:
     """
     from pontryagin.rendezvous.direct import direct
 
-    coarse, fine = (direct(case.problem, case.guess, case.revolutions, mesh) for mesh in MESHES)
+    fuel = isinstance(case, FuelCase)
+    coarse, fine = (direct(case.problem, case.guess, case.revolutions, mesh, fuel) for mesh in MESHES)
     return Verdict(
-        checksum(case.problem),
+        checksum(case.problem, fuel),
         (coarse.cost, fine.cost),
         (coarse.duration, fine.duration),
         (coarse.iterations, fine.iterations),
@@ -86,11 +94,11 @@ def judged(case: Case) -> Verdict:
 
 
 def verdicts() -> dict[str, Verdict]:
-    """What ``judge.csv`` holds, by the names of the cases.
+    """What ``judge.csv`` contains, by the names of the cases.
 
     Examples
     --------
-    >>> sorted(verdicts()) == sorted(cases())
+    >>> list(verdicts()) == list(judged_cases())
     True
     """
     with FILE.open(newline="") as file:
@@ -121,7 +129,7 @@ def write(found: dict[str, Verdict]) -> None:
 
 def main(names: Iterable[str] = ()) -> None:
     """Judge the cases named, or all; the others' rows are kept."""
-    known = cases()
+    known = judged_cases()
     chosen = list(names) or list(known)
     found = verdicts() if names else {}
     for name in chosen:

@@ -3,7 +3,8 @@
 nu* is an integral, and (15) asks that lambda*(t_k) carry nu(t_k) into it. Where lambda(t_k) does so, every
 lambda(t_k) turned about nu* does so too: the angle of that turn is free, and the conditions as printed have
 a curve of solutions. It passes through the true ones, at whole turns, and between them the craft meets
-nobody. In the plane the turn is one of the target's orbit in itself.
+nobody. In the plane the turn is one of the target's orbit in itself; angles are then about its normal, along
+which nu* is with either sign, and a positive one puts the craft ahead of the target.
 """
 
 import itertools
@@ -41,7 +42,8 @@ class Meeting:
     problem : Rendezvous
         What is asked for.
     angle : float
-        By how much lambda(t_k) is turned from lambda* about nu*, in radians, whole turns counted.
+        By how much lambda(t_k) is turned from lambda*, in radians, whole turns counted: about nu*, in the
+        plane about the normal of the target's orbit.
     flight : Flight
         The extremal in the solver's units.
     """
@@ -77,12 +79,18 @@ class Meeting:
         return float(np.abs([*rest, at_start]).max())
 
     @cached_property
-    def mismatch(self) -> float:
-        """Angle between lambda(t_k) and lambda*, of (6), in radians; lambda and -lambda are one attitude."""
+    def turn(self) -> Array:
+        """What turns the target at t_k into the craft, lambda(t_k) o lambda*~ in inertial axes, (4,)."""
         last = self._whole[-1]
         goal, _ = self.flight.scaled.target(float(last[3]))
-        apart = product(conjugate(last[4:8]), goal[3:])
-        return float(2 * math.atan2(np.linalg.norm(apart[1:]), abs(apart[0])))
+        whole = product(last[4:8], conjugate(goal[3:]))
+        axes = self.problem.chaser.attitude
+        return product(product(axes, whole if whole[0] >= 0 else -whole), conjugate(axes))
+
+    @property
+    def mismatch(self) -> float:
+        """Angle between lambda(t_k) and lambda*, of (6), in radians; lambda and -lambda are one attitude."""
+        return float(2 * math.atan2(np.linalg.norm(self.turn[1:]), self.turn[0]))
 
     @cached_property
     def _apart(self) -> Array:
@@ -121,7 +129,7 @@ class FalseFamily:
 
     @property
     def angles(self) -> Array:
-        """Turns about nu*, (k,), in radians."""
+        """Turns about nu*, in the plane about its normal, (k,), in radians."""
         return self._each("angle")
 
     @property
@@ -175,7 +183,8 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
     solution : Extremal
         Of a problem with a free duration.
     angles : (k,) array_like
-        The turns wanted, in radians, of either sign; 2 pi is a whole one.
+        The turns wanted, in radians, of either sign; 2 pi is a whole one. They are about nu*, and where craft
+        and target move in one plane about the normal of the target's orbit: positive is ahead of it.
 
     Raises
     ------
@@ -217,7 +226,7 @@ def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
     solution : Extremal
         Of a problem with a free duration.
     first, last : float
-        Turns about nu*, in radians, at which the curve is left: ``first < 0 < last``.
+        Turns as in `false_family`, at which the curve is left: ``first < 0 < last``.
 
     Raises
     ------
@@ -237,7 +246,7 @@ def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
         ):
             if sign * point.parameter >= sign * end.angle:
                 break
-            flight = refined(family, point.unknowns, point.parameter)
+            flight = refined(family, point.unknowns, point.parameter).flight
             there.insert(-1, Meeting(solution.problem, point.parameter, flight))
         members = [*reversed(there), *members] if sign < 0 else [*members, *there]
     return FalseFamily(solution, tuple(members))
@@ -251,7 +260,7 @@ def _walked(family: Family, unknowns: Array, ahead: list[float], sign: float) ->
     for point in follow(family, unknowns, 0.0, sign, largest=LARGEST) if left else ():
         while left and last is not None and abs(point.parameter) >= abs(left[0]):
             angle = left.pop(0)
-            found[angle] = refined(family, between(last, point, angle), angle)
+            found[angle] = refined(family, between(last, point, angle), angle).flight
         if not left:
             break
         last = point

@@ -2,8 +2,8 @@
 
 (15) compares lambda o nu o lambda~ with lambda* o nu o lambda*~. Turning lambda about nu* changes neither, so
 that a craft whose attitude at the end is lambda* turned about nu* by any angle passes (15), and with (5),
-(16) and (17) everything the ten equations are asked. Here that angle is prescribed: chi at the end is what
-(6) asks for and the angle more. From the true meeting the family is followed to it.
+(16) and (17) everything the ten equations are asked. Here that angle is prescribed, and from the true meeting
+the family is followed to it.
 """
 
 import math
@@ -13,17 +13,15 @@ from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.flight import Flight
-from pontryagin.rendezvous.homotopy import Point, Root, between, follow, scales
+from pontryagin.rendezvous.homotopy import Point, between, follow
 from pontryagin.rendezvous.problem import Rendezvous, number
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
-from pontryagin.rendezvous.shooting import Equations, Setting
 from pontryagin.rendezvous.solution import Extremal, solve
-from pontryagin.rendezvous.turned import turned_equations
+from pontryagin.rendezvous.turned import refined, towards_turned
 
 Array = NDArray[np.float64]
 
 STEPS = 200
-ITERATIONS = 8
 
 
 def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = None) -> Extremal:
@@ -37,7 +35,7 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
     problem : Rendezvous
         What is to be met.
     angle : float
-        In radians, about the direction of nu*; 0 gives the true meeting.
+        In radians, about nu*, in the plane about the normal of the target's orbit; 0 gives the true meeting.
     true : Extremal, optional
         A true meeting of the problem, from which the family is followed; `solve` by default.
 
@@ -58,39 +56,18 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
     """
     wanted = number("angle", angle)
     meeting = solve(problem) if true is None else true
-    scaled = problem.scaled
-    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-
-    def family(unknowns: Array, turn: float) -> tuple[Equations, Array]:
-        return turned_equations(setting, unknowns, turn)
-
+    family = towards_turned(meeting)
     last: Point | None = None
     for point in follow(family, meeting.root.unknowns, 0.0, wanted, steps=STEPS):
         if last is not None and (point.parameter - wanted) * (last.parameter - wanted) <= 0:
-            return Extremal(problem, _newton(setting, between(last, point, wanted), wanted))
+            return Extremal(problem, refined(family, between(last, point, wanted), wanted))
         if wanted == 0:
-            return Extremal(problem, _newton(setting, point.unknowns, wanted))
+            return Extremal(problem, refined(family, point.unknowns, wanted))
         if point.parameter * wanted < 0:
             break
         last = point
     reached = 0.0 if last is None else last.parameter
     raise NotConverged(f"the family of false meetings went to {reached:.3g} rad only", abs(wanted - reached))
-
-
-def _newton(setting: Setting, unknowns: Array, angle: float) -> Root:
-    """Newton's method from the point of the family beside it; the iterate with the smallest residual."""
-    best: Root | None = None
-    for _ in range(ITERATIONS):
-        here, _ = turned_equations(setting, unknowns, angle)
-        step = np.linalg.solve(here.jacobian, -here.residual)
-        correction = float(np.abs(step / scales(unknowns)).max())
-        root = Root(unknowns, here, correction)
-        if best is not None and root.residual >= best.residual:
-            break
-        best, unknowns = root, unknowns + step
-    if best is None or not best.residual < 1e-9:
-        raise NotConverged("no false meeting was reached", math.inf if best is None else best.residual)
-    return best
 
 
 def paper_residual(extremal: Extremal) -> float:

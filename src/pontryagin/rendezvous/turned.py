@@ -1,4 +1,9 @@
-"""The repaired equations towards a target turned about nu*: whose solutions satisfy what is printed."""
+"""The repaired equations towards a target turned about nu*: whose solutions satisfy what is printed.
+
+Angles are about nu*, by the rule of the right hand. In the plane they are about the normal of the target's
+orbit, positive where the craft ends ahead: nu* is parallel to it, of either sign, and along the curve that
+sign may change.
+"""
 
 import math
 from dataclasses import replace
@@ -7,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.flight import Flight
-from pontryagin.rendezvous.homotopy import Family, scales
-from pontryagin.rendezvous.quaternions import rotated
+from pontryagin.rendezvous.homotopy import Family, Root, scales
+from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.search import turning
 from pontryagin.rendezvous.shooting import (
     Equations,
@@ -31,19 +35,17 @@ FLAT = 1e-12
 
 
 def towards_turned(solution: Extremal) -> Family:
-    """The repaired equations towards the target turned by an angle about nu*, and their slope in it."""
+    """The repaired equations towards the target turned by an angle from a true meeting, and their slope."""
     scaled = solution.problem.scaled
-    setting = Setting(scaled, scaled.ratio, scaled.peak)
-    if np.hypot(*setting.scaled.orientation[1:3]) < FLAT:
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    if in_one_plane(scaled):
         return turning(setting)
-    normal = rotated(np.array([0.0, 0.0, 1.0]), setting.scaled.orientation)
-    sense = math.copysign(1.0, float(normal @ solution.flight.costates[3:]))
+    return lambda unknowns, angle: turned_equations(setting, unknowns, angle)
 
-    def family(unknowns: Array, angle: float) -> tuple[Equations, Array]:
-        values, slope = turned_equations(setting, unknowns, sense * angle)
-        return values, sense * slope
 
-    return family
+def in_one_plane(scaled: Scaled) -> bool:
+    """Whether craft and target move in one plane, the same way round."""
+    return bool(np.hypot(*scaled.orientation[1:3]) < FLAT)
 
 
 def turned_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[Equations, Array]:
@@ -66,8 +68,14 @@ def turned_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[E
     return replace(whole, jacobian=jacobian, residual=residual), by_angle
 
 
-def refined(family: Family, unknowns: Array, angle: float) -> Flight:
-    """Newton's method at an angle."""
+def refined(family: Family, unknowns: Array, angle: float) -> Root:
+    """Newton's method at an angle.
+
+    Raises
+    ------
+    NotConverged
+        If it does not converge.
+    """
     size = math.inf
     for _ in range(ITERATIONS):
         values, _ = family(unknowns, angle)
@@ -78,4 +86,4 @@ def refined(family: Family, unknowns: Array, angle: float) -> Flight:
         unknowns = unknowns + change
     if not size < 1e-8:
         raise NotConverged(f"Newton's method did not reach a meeting at the angle {angle:.6g}", size)
-    return values.flight
+    return Root(unknowns, values, size)

@@ -1,8 +1,8 @@
 """Figures and tables of the rendezvous in Sapunkov's elements."""
 
+import functools
 import itertools
 import math
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,13 +10,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pontryagin.errors import NotConverged
 from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PALETTE, RED, SEQUENTIAL, styled, subplots
-from pontryagin.rendezvous.cases import case
+from pontryagin.rendezvous.cases import cases, fuel_cases
 from pontryagin.rendezvous.elements_flight import switching
 from pontryagin.rendezvous.elements_fuel import least_fuel
 from pontryagin.rendezvous.elements_solve import ElementsExtremal, solve_in_elements
-from pontryagin.rendezvous.problem import Rendezvous
-from pontryagin.rendezvous.solution import Extremal, solve
+from pontryagin.rendezvous.figures.solved import solved
+from pontryagin.rendezvous.judge import MESHES, verdicts
+from pontryagin.rendezvous.solution import Extremal
 
 Array = NDArray[np.float64]
 TIME = r"time $t$"
@@ -137,29 +139,50 @@ def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure
     return figure
 
 
-def agreement(names: Sequence[str]) -> dict[str, list[Any]]:
-    """Cases of the report in the axes eta and in the elements: costs, durations, controls, residuals."""
-    rows = [(name, solve(case(name).problem)) for name in names]
-    pairs = [(name, other, _own(other)) for name, other in rows]
+def in_elements(name: str) -> ElementsExtremal:
+    """A case of the report in the elements: the extremal that `solve` found."""
+    return _started(name)[0]
+
+
+@functools.cache
+def _started(name: str) -> tuple[ElementsExtremal, str]:
+    """That extremal, and what it was started from.
+
+    "cold" where the elements come to it by themselves. Otherwise its costates are carried over, and what a
+    cold start comes to is told: the cost of another extremal, or none.
+    """
+    other = solved(name)
+    try:
+        cold = solve_in_elements(other.problem)
+    except NotConverged:
+        return solve_in_elements(other.problem, start=other), "carried (cold: none)"
+    if math.isclose(cold.cost, other.cost, rel_tol=1e-6):
+        return cold, "cold"
+    return solve_in_elements(other.problem, start=other), f"carried (cold: {cold.cost:.4g})"
+
+
+@functools.cache
+def fuel_solved(name: str) -> ElementsExtremal:
+    """A case of least fuel; kept for the next figure."""
+    one = fuel_cases()[name]
+    return least_fuel(one.problem, one.more)
+
+
+def agreement() -> dict[str, list[Any]]:
+    """All cases of the report in the axes eta and in the elements: costs, durations, controls, residuals."""
+    pairs = [(name, solved(name), *_started(name)) for name in cases()]
     return {
-        "case": [name for name, _, _ in pairs],
-        "$J$": [f"{mine.cost:.9g}" for _, _, mine in pairs],
-        "$t_k$": [f"{mine.duration:.9g}" for _, _, mine in pairs],
-        "difference of $J$": [f"{abs(mine.cost / other.cost - 1):.0e}" for _, other, mine in pairs],
-        "of $t_k$": [f"{abs(mine.duration / other.duration - 1):.0e}" for _, other, mine in pairs],
-        "of $|p(0)|$": [f"{_initial(mine, other):.0e}" for _, other, mine in pairs],
-        "residual": [f"{float(mine.certificate.residual):.0e}" for _, _, mine in pairs],
-        "condition, $A, B$": [f"{float(mine.certificate.condition):.0f}" for _, _, mine in pairs],
-        "condition, $\\eta$": [f"{float(other.certificate.condition):.0f}" for _, other, _ in pairs],
+        "case": [name for name, *_ in pairs],
+        "start": [start for *_, start in pairs],
+        "$J$": [f"{mine.cost:.9g}" for _, _, mine, _ in pairs],
+        "$t_k$": [f"{mine.duration:.9g}" for _, _, mine, _ in pairs],
+        "difference of $J$": [f"{abs(mine.cost / other.cost - 1):.0e}" for _, other, mine, _ in pairs],
+        "of $t_k$": [f"{abs(mine.duration / other.duration - 1):.0e}" for _, other, mine, _ in pairs],
+        "of $|p(0)|$": [f"{_initial(mine, other):.0e}" for _, other, mine, _ in pairs],
+        "residual": [f"{float(mine.certificate.residual):.0e}" for _, _, mine, _ in pairs],
+        "condition, $A, B$": [f"{float(mine.certificate.condition):.0f}" for _, _, mine, _ in pairs],
+        "condition, $\\eta$": [f"{float(other.certificate.condition):.0f}" for _, other, _, _ in pairs],
     }
-
-
-def _own(other: Extremal) -> ElementsExtremal:
-    """The solution that the elements find by themselves, or if it is another extremal that near the first."""
-    mine = solve_in_elements(other.problem)
-    if math.isclose(mine.cost, other.cost, rel_tol=1e-6):
-        return mine
-    return solve_in_elements(other.problem, start=other)
 
 
 def _initial(mine: ElementsExtremal, other: Extremal) -> float:
@@ -168,11 +191,12 @@ def _initial(mine: ElementsExtremal, other: Extremal) -> float:
     return float(abs(sizes[0] / sizes[1] - 1))
 
 
-def fuel(problems: Mapping[str, tuple[Rendezvous, int]]) -> dict[str, list[Any]]:
-    """Least fuel of problems, each with the revolutions that `least_fuel` is to take."""
-    found = [least_fuel(problem, revolutions) for problem, revolutions in problems.values()]
+def fuel() -> dict[str, list[Any]]:
+    """The cases of least fuel: cost, burns, and what their certificates leave."""
+    known = fuel_cases()
+    found = [fuel_solved(name) for name in known]
     return {
-        "case": list(problems),
+        "case": [one.title for one in known.values()],
         "$J_2$": [f"{one.cost:.9f}" for one in found],
         "$t_k$": [f"{one.duration:.6f}" for one in found],
         "burns": [one.modes.count("saturated") for one in found],
@@ -180,3 +204,21 @@ def fuel(problems: Mapping[str, tuple[Rendezvous, int]]) -> dict[str, list[Any]]
         "residual": [f"{float(one.certificate.residual):.0e}" for one in found],
         "off the level": [f"{float(one.certificate.switching):.0e}" for one in found],
     }
+
+
+def fuel_judge() -> dict[str, list[Any]]:
+    """The cases of least fuel beside their direct costs at two meshes, as `tables.judge` has the others."""
+    known = fuel_cases()
+    found = {name: fuel_solved(name).cost for name in known}
+    kept = {name: one for name, one in verdicts().items() if name in found}
+    columns: dict[str, list[Any]] = {
+        "case": [one.title for one in known.values()],
+        "$J_2$": [f"{cost:.9g}" for cost in found.values()],
+    }
+    for j, mesh in enumerate(MESHES):
+        columns[f"direct, {mesh} intervals"] = [f"{kept[name].costs[j]:.9g}" for name in found]
+        columns[f"direct/$J_2$ − 1, {mesh}"] = [
+            f"{kept[name].costs[j] / cost - 1:+.0e}" for name, cost in found.items()
+        ]
+    columns["Ipopt's iterations"] = [" + ".join(map(str, kept[name].iterations)) for name in found]
+    return columns

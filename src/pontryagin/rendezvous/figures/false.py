@@ -7,12 +7,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pontryagin.plotting import BLUE, INK, RED, WIDTH, styled, subplots
-from pontryagin.rendezvous.figures.labels import CRAFT, TARGET, THRUST, power
+from pontryagin.rendezvous.figures.labels import CRAFT, PHANTOM, TARGET, THRUST, power
 from pontryagin.rendezvous.figures.orbit import equal
-from pontryagin.rendezvous.figures.paths import flown, target_at, target_orbit
+from pontryagin.rendezvous.figures.paths import flown, target_at, target_orbit, turned_orbit
 from pontryagin.rendezvous.meetings import FalseFamily, Meeting
 from pontryagin.rendezvous.printed import printed_jacobian
 from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.turned import in_one_plane
 
 COLUMNS = 3
 FLOOR = 1e-18
@@ -21,32 +22,37 @@ FLOOR = 1e-18
 
 @styled
 def false_meetings(family: FalseFamily) -> Figure:
-    """A panel for each member: the way flown, where the target is then, what is left of the conditions."""
+    """A panel for each member: the way flown, where the target is then, what is left of the conditions.
+
+    Dashed is the target's orbit as turned with the craft: the printed conditions are met there.
+    """
     rows = -(-len(family.members) // COLUMNS)
-    figure = Figure(figsize=(WIDTH, 2.85 * rows + 0.3), layout="constrained")
+    figure = Figure(figsize=(WIDTH, 2.85 * rows + 0.5), layout="constrained")
     figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.97))
-    scaled = family.solution.problem.scaled
-    space = np.hypot(*scaled.orientation[1:3]) > 1e-9
+    space = not in_one_plane(family.solution.problem.scaled)
     for number, member in enumerate(family.members, 1):
         ax = figure.add_subplot(rows, COLUMNS, number, projection="3d" if space else None)
         _panel(ax, member, 3 if space else 2)
         ax.set_title(_account(member), fontsize=9.5, linespacing=1.25)
     handles, names = figure.axes[-1].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
+    figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.2)
     return figure
 
 
 def _account(member: Meeting) -> str:
     turned = f"turned by ${np.degrees(member.angle):.0f}$°" if member.angle else "the true meeting"
     apart = f"{member.distance:.2f}" if member.distance > 1e-6 else power(member.distance)
-    return f"{turned}\nprinted conditions leave {power(member.printed)}\nmisses by {apart}"
+    cost = f"$J = {member.cost:.4f}$"
+    return f"{turned}, {cost}\nprinted conditions leave {power(member.printed)}\nmisses by {apart}"
 
 
 def _panel(ax: Axes, member: Meeting, axes: int) -> None:
     problem = member.problem
     _, places, _ = flown(problem, member.flight)
     target, there = target_orbit(problem), target_at(problem, member.duration)
+    turned = turned_orbit(problem, member.turn)
     ax.plot(*target.T[:axes], color=TARGET, linewidth=1.0, label="orbit of the target")
+    ax.plot(*turned.T[:axes], "--", color=PHANTOM, linewidth=1.0, label="that orbit as turned")
     ax.plot(*places.T[:axes], color=CRAFT, linewidth=1.3, label="way of the craft")
     gap = np.array([places[-1], there])
     ax.plot(*gap.T[:axes], ":", color=THRUST, linewidth=1.6, label="missed by")
@@ -54,7 +60,7 @@ def _panel(ax: Axes, member: Meeting, axes: int) -> None:
     ax.plot(*places[-1:].T[:axes], "o", color=CRAFT, markersize=5, label="craft at $t_k$")
     ax.plot(*np.zeros((axes, 1)), "+", color=INK, markersize=6)
     if axes == 3:
-        equal(ax, np.vstack([target, places, there[None]]))
+        equal(ax, np.vstack([target, turned, places]))
     else:
         ax.set_aspect("equal")
     ax.set_axis_off()
@@ -79,10 +85,13 @@ def missed(family: FalseFamily) -> Figure:
     axes[1].set(ylabel="distance missed")
     axes[2].plot(turns, family.costs, color=RED, label="false meetings")
     axes[2].plot(turns[true], family.costs[true], "o", color=BLUE, label="true meetings")
-    axes[2].set(ylabel="cost $J$", xlabel=r"turn of $\lambda(t_k)$ about $\nu^*$ [°]")
-    axes[2].legend(loc="upper left")
+    plane = in_one_plane(family.solution.problem.scaled)
+    about = "the normal of the plane" if plane else r"$\nu^*$"
+    axes[2].set(ylabel="cost $J$", xlabel=rf"turn of $\lambda(t_k)$ about {about} [°]")
+    axes[2].legend(loc="best")
+    tick = 90 if np.ptp(turns) > 180 else 10
     for ax in axes:
-        ax.set_xticks(np.arange(np.ceil(turns.min() / 90), np.floor(turns.max() / 90) + 1) * 90)
+        ax.set_xticks(np.arange(np.ceil(turns.min() / tick), np.floor(turns.max() / tick) + 1) * tick)
     figure.align_ylabels(axes)
     return figure
 

@@ -8,6 +8,8 @@ from pontryagin.rendezvous.problem import Rendezvous
 
 COMPONENTS = (BLUE, GREEN, ORANGE)
 CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, "#888888", RED, INK, PURPLE
+PHANTOM = ORANGE
+"""Where the target would be if a false meeting were true."""
 
 
 @dataclass(frozen=True)

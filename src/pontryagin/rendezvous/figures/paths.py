@@ -39,6 +39,11 @@ def target_orbit(problem: Rendezvous) -> Array:
     return r[:, None] * rotated(np.broadcast_to(EX, (len(angles), 3)), attitude)
 
 
+def turned_orbit(problem: Rendezvous, turn: Array) -> Array:
+    """The target's ellipse turned by a quaternion of inertial axes, (k, 3)."""
+    return rotated(target_orbit(problem), turn)
+
+
 def first_orbit(problem: Rendezvous) -> Array:
     """The ellipse that the craft leaves, (k, 3)."""
     craft = problem.chaser

@@ -62,7 +62,7 @@ def _thrust(extremal: Extremal, states: Array, times: Array) -> Array:
 
 def _components(ax: Axes, extremal: Extremal, times: Array, states: Array) -> None:
     thrust = _thrust(extremal, states, times)
-    names = ("$p_1$, along the radius", "$p_2$, along the way", "$p_3$, out of the plane")
+    names = ("$p_1$, radial", "$p_2$, transversal", "$p_3$, out of the plane")
     for values, name, colour in zip(thrust.T, names, COMPONENTS, strict=True):
         ax.plot(times, values, color=colour, label=name)
     ax.set_ylabel(units(extremal.problem).axis(r"thrust $p_\eta$", "acceleration"))

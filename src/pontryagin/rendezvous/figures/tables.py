@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from pontryagin.rendezvous import small_weight
 from pontryagin.rendezvous.cases import cases
 from pontryagin.rendezvous.figures.labels import Units, units
 from pontryagin.rendezvous.judge import MESHES, verdicts
@@ -107,6 +108,19 @@ def others(found: Mapping[str, Extremal]) -> Columns:
         "$t_k$": [_time(one.duration, own) for _, one, own in rows],
         "revolutions": [f"{one.revolutions:.3f}" for _, one, _ in rows],
         "residual": [f"{float(one.certificate.residual):.0e}" for _, one, _ in rows],
+    }
+
+
+def small_weights() -> Columns:
+    """The case `mixed` at falling weights of time."""
+    kept = small_weight.rows()
+    return {
+        "$\\alpha_1$": [f"$10^{{{np.log10(one.time_weight):.0f}}}$" for one in kept],
+        "$t_k$": [f"{one.duration:.6f}" for one in kept],
+        "$J$": [f"{one.cost:.8g}" for one in kept],
+        "revolutions": [f"{one.revolutions:.3f}" for one in kept],
+        "condition": [f"{one.condition:.0f}" for one in kept],
+        "largest residual": [f"{one.residual:.0e}" for one in kept],
     }
 
 

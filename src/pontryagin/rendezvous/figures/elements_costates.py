@@ -1,0 +1,51 @@
+"""The costates of Sapunkov's elements along a rendezvous, and how well H is kept there."""
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pontryagin.plotting import BLUE, PALETTE, styled, subplots
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.elements_arcs import COSTATES
+from pontryagin.rendezvous.elements_certify import running_cost
+from pontryagin.rendezvous.elements_flight import switching
+from pontryagin.rendezvous.elements_solve import ElementsExtremal
+
+Array = NDArray[np.float64]
+SAMPLES = 601
+
+
+@styled
+def costates_along(solution: ElementsExtremal) -> Figure:
+    """a and b against time, and the drift of H, by `drift`; p* = c* = fM = alpha2 = 1.
+
+    Examples
+    --------
+    >>> from pontryagin.rendezvous.cases import case
+    >>> from pontryagin.rendezvous.elements_solve import solve_in_elements
+    >>> costates_along(solve_in_elements(case("circle-energy").problem)).get_label()
+    'costates-along'
+    """
+    times = np.linspace(0.0, solution.duration, SAMPLES)
+    phi = solution.flight.angle_at(times / solution.problem.scaled.time)
+    states = solution.flight.sample(phi)
+    figure, axes = subplots(3, sharex=True, height=5.6)
+    for ax, name, values in zip(axes, "ab", np.split(states[:, COSTATES], 2, axis=1), strict=False):
+        for k in range(4):
+            ax.plot(times, values[:, k], color=PALETTE[k], label=f"component {k}")
+        ax.set_ylabel(f"${name}$")
+    axes[2].plot(times, 1e14 * drift(solution, states, phi), color=BLUE, linewidth=0.9)
+    axes[2].set(ylabel="drift of $H$ [$10^{-14}$]", xlabel="time $t$", xlim=(0, solution.duration))
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4)
+    figure.align_ylabels(list(axes))
+    return figure
+
+
+def drift(solution: ElementsExtremal, states: Array, phi: Array) -> Array:
+    """H = -L + (n, p) + kappa/t' less its value at the end, over the largest running cost."""
+    thrust = solution.flight.thrust(states, phi)
+    spent = running_cost(solution.flight, thrust)
+    phase = np.asarray(kernels.element_phase(*[*states[:, :16].T, phi]))
+    energy = np.sum(switching(states, phi) * thrust, axis=1) - spent + phase
+    return (energy - energy[-1]) / spent.max()
