@@ -324,9 +324,9 @@ class TestMistakes:
     def test_what_was_typed_wrong_is_named_in_one_line(self, arguments, begins):
         assert_refused(run(*arguments), begins)
 
-    def test_numbers_that_overflow_exit_with_1_and_a_line(self, write):
+    def test_numbers_that_overflow_are_refused_by_name(self, write):
         path = write(LEAP | {"chaser": CRAFT | {"c": 1e200}})
-        assert_refused(run("--file", path), "the numbers overflow", status=1)
+        assert_refused(run("--file", path), f"--file: {path}, chaser must start on an ellipse")
 
     def test_a_bound_too_small_for_the_time_exits_with_1_and_the_reason(self, write):
         path = write(LEAP | {"peak": 0.02})

@@ -70,7 +70,7 @@ def newton(setting: Setting, unknowns: Array) -> Root:
     here = equations(setting, unknowns)
     size = float(np.linalg.norm(here.residual))
     for _ in range(ITERATIONS):
-        step, last = _step(here), correction
+        step, last = step_of(here), correction
         correction = float(np.abs(step / scales(unknowns)).max())
         moved = _damped(setting, unknowns, step, size)
         if moved is None:
@@ -95,7 +95,7 @@ def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:
     here = equations(rough, unknowns)
     correction = np.inf
     for _ in range(ITERATIONS):
-        step, last = _step(here), correction
+        step, last = step_of(here), correction
         correction = float(np.abs(step / scales(unknowns)).max())
         if expected(correction, last) < NEAR:
             return unknowns + step, correction
@@ -106,7 +106,14 @@ def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:
     return unknowns, np.inf
 
 
-def _step(here: Equations) -> Array:
+def step_of(here: Equations) -> Array:
+    """Newton's step.
+
+    Raises
+    ------
+    NotConverged
+        Where there is none.
+    """
     try:
         return np.asarray(np.linalg.solve(here.jacobian, -here.residual), dtype=float)
     except np.linalg.LinAlgError:

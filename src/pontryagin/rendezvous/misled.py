@@ -16,7 +16,7 @@ from pontryagin.rendezvous.flight import Flight
 from pontryagin.rendezvous.homotopy import Point, between, follow
 from pontryagin.rendezvous.problem import Rendezvous, number
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
-from pontryagin.rendezvous.solution import Extremal, solve
+from pontryagin.rendezvous.solution import Extremal, require_extremal, solve
 from pontryagin.rendezvous.turned import refined, towards_turned
 
 Array = NDArray[np.float64]
@@ -41,6 +41,8 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
 
     Raises
     ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
     NotConverged
         Where the family turns back before it reaches the angle.
 
@@ -55,6 +57,8 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
     (True, True)
     """
     wanted = number("angle", angle)
+    if true is not None:
+        require_extremal("true", true)
     meeting = solve(problem) if true is None else true
     family = towards_turned(meeting)
     last: Point | None = None

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.homotopy import Family, Root, scales
+from pontryagin.rendezvous.homotopy import Family, Root, scales, step_of
 from pontryagin.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.search import turning
 from pontryagin.rendezvous.shooting import (
@@ -79,11 +79,13 @@ def refined(family: Family, unknowns: Array, angle: float) -> Root:
     size = math.inf
     for _ in range(ITERATIONS):
         values, _ = family(unknowns, angle)
-        change = np.linalg.solve(values.jacobian, -values.residual)
+        change = step_of(values)
         size = float(np.abs(change / scales(unknowns)).max())
         if size < 1e-13 or (size < 1e-10 and np.abs(values.residual).max() < 1e-14):
             break
         unknowns = unknowns + change
+    else:
+        values, _ = family(unknowns, angle)
     if not size < 1e-8:
         raise NotConverged(f"Newton's method did not reach a meeting at the angle {angle:.6g}", size)
     return Root(unknowns, values, size)

@@ -45,8 +45,9 @@ def certificates(found: Mapping[str, Extremal]) -> Columns:
         "(16), end": "transversality",
         "$H$": "hamiltonian",
         "maximality": "maximality",
-        "16 equations": "agreement",
+        "on the way": "agreement",
         "Cartesian": "cartesian",
+        "$J$": "cost",
     }
     columns: Columns = {"case": list(found)}
     for title, name in residuals.items():
