@@ -1,6 +1,7 @@
 """The rendezvous solved in Sapunkov's elements: both functionals, against `solve`, Newton and differences."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from pontryagin.rendezvous import (
     Extremal,
     Orbit,
     Rendezvous,
+    elements_shooting,
     least_fuel,
     shooting,
     solve,
@@ -306,6 +308,54 @@ def test_no_step_leaps_over_a_burn_under_a_sharp_jump():
         assert_allclose(rough, exact, atol=1e-3 * np.abs(exact).max())  # a leap costs 1 and more
         compared += 1
     assert compared > 20
+
+
+@dataclass(frozen=True)
+class Level:
+    """A setting that only says what a function of the first unknown should be."""
+
+    value: float
+    rough: bool = False
+
+
+@pytest.fixture
+def bent(monkeypatch):
+    """Equations whose first is a given function of the first unknown, and the others 1 each."""
+
+    def bend(function, slope):
+        def equations(setting, unknowns):
+            residual = np.append(function(unknowns[0]) - setting.value, unknowns[1:] - 1)
+            jacobian = np.diag([slope(unknowns[0]), *np.ones(6)])
+            return elements_shooting.Equations(None, residual, jacobian)
+
+        monkeypatch.setattr(elements_shooting, "equations", equations)
+
+    return bend
+
+
+def lying_at(value, x):
+    unknowns = np.append(x, np.ones(6))
+    return elements_shooting.Root(unknowns, elements_shooting.equations(Level(value), unknowns))
+
+
+def test_a_family_is_followed_round_its_folds(bent):
+    """x^3 - x = value: from -1.5 to 1.5 the curve turns back at -1/sqrt(3) and at 1/sqrt(3)."""
+    bent(lambda x: x**3 - x, lambda x: 3 * x**2 - 1)
+    root = elements_shooting.follow(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
+    assert root.unknowns[0] == pytest.approx(1.5, abs=1e-12)
+
+
+def test_a_family_that_only_turns_back_is_not_converged(bent):
+    bent(lambda x: -(x**2), lambda x: -2 * x)
+    with pytest.raises(pontryagin.NotConverged, match="could not be followed"):
+        elements_shooting.follow(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
+
+
+def test_a_singular_end_is_no_meeting(bent):
+    """However large the condition number, a residual above 1e-6 is none."""
+    bent(lambda x: x**2 + 0.5, lambda x: 2 * x)
+    with pytest.raises(pontryagin.NotConverged):
+        elements_shooting.newton(Level(0.0), np.append(1e-9, np.ones(6)))
 
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):

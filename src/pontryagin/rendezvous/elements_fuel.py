@@ -2,8 +2,9 @@
 
 An entropy of the throttle, of a given width, keeps the thrust smooth: p = p_max (1 + tanh(S/width))/2 with
 S = |n|/alpha2 - 1. From an extremal of the first functional the costates are scaled to give about the same
-thrust, the goal is led to the target, the bound lowered and the width after it. Then the jump itself takes
-the place of the smoothed one: Newton's method with the switches located as events.
+thrust, the goal is led to the target, a free duration to the terminal law, the bound lowered and the width
+after it. Then the jump itself takes the place of the smoothed one: Newton's method with the switches located
+as events.
 """
 
 import math
@@ -93,8 +94,8 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
 def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
     """As `_sharpened`, with the terminal law in place of the duration.
 
-    The smoothed thrust is led to the law, since with a jump arcs come and go along the durations; where that
-    family ends, the sharp extremal of one duration is.
+    With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
+    extremal of one duration led to the law.
     """
     try:
         return _sharpened(scaled, law, wide, None)

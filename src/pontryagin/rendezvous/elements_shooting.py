@@ -23,7 +23,8 @@ from pontryagin.rendezvous.elements_flight import (
     switching_gradient,
 )
 from pontryagin.rendezvous.elements_law import Law
-from pontryagin.rendezvous.homotopy import EXACT, NEAR, POLISHED, expected, scales, tolerance
+from pontryagin.rendezvous.homotopy import EXACT, NEAR, POLISHED, between, expected, scales, tolerance
+from pontryagin.rendezvous.homotopy import follow as arcs
 from pontryagin.rendezvous.scaled import Scaled
 
 Array = NDArray[np.float64]
@@ -35,6 +36,13 @@ ITERATIONS = 25
 TRIES = 60
 LEAST_STEP = 1 / 128
 """Of the way that a family is followed, the least step."""
+FARTHEST = 1.5
+"""How far from its end a family may lead, in units of the way."""
+ARCS = 100
+"""Points of a curve that is followed round its folds."""
+FIRST_ARC = 0.01
+DIFFERENCE = 1e-4
+"""Of the parameter, for the slope of the equations; flights there are good to 1e-10."""
 ROUGH_MEETING = 1e-6
 """Residual above which Newton's method has not arrived, on the way of a family."""
 
@@ -178,18 +186,32 @@ def _damped(setting: Setting, unknowns: Array, step: Array, size: float) -> tupl
 
 
 def follow(family: Callable[[float], Setting], root: Root, start: float, end: float) -> Root:
-    """The solution at ``end`` of a family of settings, from that at ``start``: secants and Newton's method.
+    """The solution at ``end`` of a family of settings, from that at ``start``.
+
+    By secants and Newton's method; where these end, by pseudo-arclength, so that the family may turn back on
+    the way (a fold: two extremals of one problem meet).
 
     Raises
     ------
     NotConverged
-        Where the steps become too short; its residual is the share of the way left.
+        Where that ends as well; its residual is the share of the way left.
     """
+    at, unknowns = _secants(family, root.unknowns, start, end)
+    if at == end:
+        return newton(family(end), unknowns)
+    return _around(family, unknowns, at, end, abs(end - start))
+
+
+def _secants(
+    family: Callable[[float], Setting], unknowns: Array, at: float, end: float
+) -> tuple[float, Array]:
+    """How far the unknowns of a family can be followed as functions of its parameter."""
     last: tuple[float, Array] | None = None
-    at, unknowns, step = start, root.unknowns, (end - start) / 4
+    whole = end - at
+    step = whole / 4
     for _ in range(TRIES):
         if at == end:
-            return newton(family(end), unknowns)
+            break
         there = end if abs(end - at) <= abs(step) * 1.0001 else at + step
         guess = unknowns.copy()
         if last is not None:
@@ -198,9 +220,36 @@ def follow(family: Callable[[float], Setting], root: Root, start: float, end: fl
             found = newton(replace(family(there), rough=True), guess, tries=8)
         except NotConverged:
             step /= 2
-            if abs(step) < abs(end - start) * LEAST_STEP:
+            if abs(step) < abs(whole) * LEAST_STEP:
                 break
             continue
         last, at, unknowns = (at, unknowns), there, found.unknowns
         step *= 1.6
-    raise NotConverged("the family of extremals could not be followed", abs((end - at) / (end - start)))
+    return at, unknowns
+
+
+def _around(
+    family: Callable[[float], Setting], unknowns: Array, start: float, end: float, way: float
+) -> Root:
+    """The solution at ``end`` on the curve through a solution, wherever the curve turns."""
+    nearest, last = abs(end - start), None
+    for point in arcs(_slope(family), unknowns, start, end, step=FIRST_ARC, steps=ARCS):
+        if last is not None and (point.parameter - end) * (last.parameter - end) <= 0:
+            return newton(family(end), between(last, point, end))
+        nearest, last = min(nearest, abs(end - point.parameter)), point
+        if abs(end - point.parameter) > FARTHEST * way:
+            break
+    raise NotConverged("the family of extremals could not be followed", nearest / way)
+
+
+def _slope(family: Callable[[float], Setting]) -> Callable[[Array, float], tuple[Equations, Array]]:
+    """The equations at a parameter and, by differences, how they change with it."""
+
+    def at(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        here, after, before = (
+            equations(replace(family(parameter + shift), rough=True), unknowns)
+            for shift in (0.0, DIFFERENCE, -DIFFERENCE)
+        )
+        return here, (after.residual - before.residual) / (2 * DIFFERENCE)
+
+    return at

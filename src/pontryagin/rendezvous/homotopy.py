@@ -26,7 +26,8 @@ NEAR = 1e-8
 POLISHED = 1e-9
 """Residual below which Newton's method converges quadratically, or stands at rounding."""
 MEETING = 1e-10
-"""Residual of a meeting, where its conditioning allows."""
+"""Residual of a meeting, where its conditioning allows; and where it does not:"""
+FARTHEST = 1e-6
 CLOSE = 1e-9
 """Relative size of a correction after which a point of a curve is taken."""
 STEPS = 400
@@ -85,9 +86,9 @@ def newton(setting: Setting, unknowns: Array) -> Root:
 
 
 def tolerance(jacobian: Array, unknowns: Array) -> float:
-    """The residual of a meeting: 1e-10, or what rounding makes of it where the equations are worse."""
-    condition = float(np.linalg.cond(jacobian * scales(unknowns)))
-    return max(MEETING, 100 * float(np.finfo(float).eps) * condition)
+    """The residual of a meeting: 1e-10, or up to 1e-6 what rounding makes of it in worse equations."""
+    rounding = 100 * float(np.finfo(float).eps) * float(np.linalg.cond(jacobian * scales(unknowns)))
+    return min(max(MEETING, rounding), FARTHEST)
 
 
 def _approach(rough: Setting, unknowns: Array) -> tuple[Array, float]:
