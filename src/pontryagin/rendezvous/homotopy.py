@@ -6,6 +6,7 @@ of one problem meet) and give several solutions at one value of the parameter.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,21 @@ from pontryagin.rendezvous.shooting import Equations, Setting, equations
 Array = NDArray[np.float64]
 Family = Callable[[Array, float], tuple[Equations, Array]]
 """Unknowns and the parameter to the equations and their derivative in the parameter."""
+
+
+class Linearised(Protocol):
+    """Equations at some unknowns."""
+
+    @property
+    def residual(self) -> Array:
+        """What is zero at a solution, (m,)."""
+
+    @property
+    def jacobian(self) -> Array:
+        """Its derivatives in the unknowns, (m, n)."""
+
+
+E = TypeVar("E", bound=Linearised)
 
 ITERATIONS = 12
 EXACT = 1e-15
@@ -145,16 +161,16 @@ def _damped(setting: Setting, unknowns: Array, step: Array, size: float) -> tupl
 
 
 @dataclass(frozen=True)
-class Point:
+class Point(Generic[E]):
     """A point of a curve."""
 
     unknowns: Array
     parameter: float
-    equations: Equations
+    equations: E
 
 
 def follow(
-    family: Family,
+    family: Callable[[Array, float], tuple[E, Array]],
     unknowns: Array,
     start: float,
     towards: float,
@@ -162,7 +178,7 @@ def follow(
     steps: int = STEPS,
     largest: float = 0.5,
     rows: int | None = None,
-) -> Iterator["Point"]:
+) -> Iterator[Point[E]]:
     """Points of the curve through a solution, from ``start`` first in the direction of ``towards``.
 
     Yields `Point`; the first is the start itself. It ends where the steps become too short or too many: the
@@ -200,8 +216,13 @@ def _tangent(jacobian: Array, by_parameter: Array, scale: Array, direction: Arra
 
 
 def _land(
-    family: Family, here: Point, scale: Array, tangent: Array, step: float, rows: int | None
-) -> tuple[Point, Array, int] | None:
+    family: Callable[[Array, float], tuple[E, Array]],
+    here: Point[E],
+    scale: Array,
+    tangent: Array,
+    step: float,
+    rows: int | None,
+) -> tuple[Point[E], Array, int] | None:
     """Predict along the tangent, correct across it: the new point, its slope in the parameter, the effort."""
     start = np.append(here.unknowns, here.parameter)
     y = start + step * scale * tangent
