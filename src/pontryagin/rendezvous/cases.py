@@ -50,6 +50,8 @@ class FuelCase(Case):
 
     Attributes
     ----------
+    name, title, problem, guess, revolutions
+        As for `Case`.
     more : int
         Revolutions more than the number nearest to what the craft would make coasting, for `least_fuel`.
     """

@@ -143,7 +143,7 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     Examples
     --------
     >>> s = maximum_entropy(Maneuver([0, 0, 0], [1, 3, 6], tf=1.0))
-    >>> s.control([0.0, 1.0]).round(9).tolist(), float(s.norm)
+    >>> s.control([0.0, 1.0]).round(9).tolist(), round(float(s.norm), 12)
     ([6.0, 6.0], 6.0)
     """
     c1, c2, c3 = (part.reshape(-1) for part in np.moveaxis(maneuver.moments, -1, 0))
