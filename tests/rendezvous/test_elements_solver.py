@@ -341,14 +341,14 @@ def lying_at(value, x):
 def test_a_family_is_followed_round_its_folds(bent):
     """x^3 - x = value: from -1.5 to 1.5 the curve turns back at -1/sqrt(3) and at 1/sqrt(3)."""
     bent(lambda x: x**3 - x, lambda x: 3 * x**2 - 1)
-    root = elements_shooting.follow(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
+    root = elements_shooting.follow_round(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
     assert root.unknowns[0] == pytest.approx(1.5, abs=1e-12)
 
 
 def test_a_family_that_only_turns_back_is_not_converged(bent):
     bent(lambda x: -(x**2), lambda x: -2 * x)
     with pytest.raises(pontryagin.NotConverged, match="could not be followed"):
-        elements_shooting.follow(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
+        elements_shooting.follow_round(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
 
 
 def test_a_singular_end_is_no_meeting(bent):

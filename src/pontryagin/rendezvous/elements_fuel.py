@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.elements_flight import switching
 from pontryagin.rendezvous.elements_law import Law
-from pontryagin.rendezvous.elements_shooting import Root, Setting, follow, newton
+from pontryagin.rendezvous.elements_shooting import Root, Setting, follow_round, newton
 from pontryagin.rendezvous.elements_solve import ElementsExtremal, largest_thrust, require
 from pontryagin.rendezvous.elements_start import energy, led, marched
 from pontryagin.rendezvous.first import first_duration
@@ -121,7 +121,7 @@ def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
     def lowered(logarithm: float) -> Setting:
         return Setting(scaled, wide.but(peak=math.exp(logarithm)), fixed)
 
-    return follow(lowered, root, math.log(wide.peak), math.log(law.peak))
+    return follow_round(lowered, root, math.log(wide.peak), math.log(law.peak))
 
 
 def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> tuple[list[Root], Root]:
@@ -133,7 +133,7 @@ def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> 
     found = [wide]
     for width in WIDTHS[1:]:
         last = found[-1]
-        found.append(follow(narrowed, last, math.log(last.flight.law.width), math.log(width)))
+        found.append(follow_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
         if width <= SHARPENED_FROM:
             try:
                 return found, newton(Setting(scaled, law, duration), found[-1].unknowns)

@@ -186,10 +186,24 @@ def _damped(setting: Setting, unknowns: Array, step: Array, size: float) -> tupl
 
 
 def follow(family: Callable[[float], Setting], root: Root, start: float, end: float) -> Root:
-    """The solution at ``end`` of a family of settings, from that at ``start``.
+    """The solution at ``end`` of a family of settings, from that at ``start``: secants and Newton's method.
 
-    By secants and Newton's method; where these end, by pseudo-arclength, so that the family may turn back on
-    the way (a fold: two extremals of one problem meet).
+    Raises
+    ------
+    NotConverged
+        Where the steps become too short; its residual is the share of the way left.
+    """
+    at, unknowns = _secants(family, root.unknowns, start, end)
+    if at == end:
+        return newton(family(end), unknowns)
+    raise NotConverged("the family of extremals could not be followed", abs((end - at) / (end - start)))
+
+
+def follow_round(family: Callable[[float], Setting], root: Root, start: float, end: float) -> Root:
+    """As `follow`, and where that ends by pseudo-arclength.
+
+    So the family may turn back on the way (a fold: two extremals of one problem meet); it then may end on
+    another extremal than a family that does not.
 
     Raises
     ------
