@@ -133,8 +133,9 @@ def regular():
     "the equations in the elements have a structure that suits numerical solution",
     verdict="not checked",
     remark="A judgement. What can be shown is shown: they are regular on ellipses, and A and B are constant "
-    "without thrust. `solve_in_elements` meets all of the report's cases in them, with the costs of `solve`; "
-    "the three redundancies of the four numbers u must be taken out of the shooting first.",
+    "without thrust. `solve_in_elements` meets all of the report's cases in them, four of them from the "
+    "costates of `solve`; the three redundancies of the four numbers u must be taken out of the shooting "
+    "first.",
 )
 def structure():
     return None
