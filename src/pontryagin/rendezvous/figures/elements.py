@@ -175,7 +175,6 @@ def agreement() -> dict[str, list[Any]]:
         "case": [name for name, *_ in pairs],
         "start": [start for *_, start in pairs],
         "$J$": [f"{mine.cost:.9g}" for _, _, mine, _ in pairs],
-        "$t_k$": [f"{mine.duration:.9g}" for _, _, mine, _ in pairs],
         "difference of $J$": [f"{abs(mine.cost / other.cost - 1):.0e}" for _, other, mine, _ in pairs],
         "of $t_k$": [f"{abs(mine.duration / other.duration - 1):.0e}" for _, other, mine, _ in pairs],
         "of $|p(0)|$": [f"{_initial(mine, other):.0e}" for _, other, mine, _ in pairs],
