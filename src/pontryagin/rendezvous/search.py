@@ -75,10 +75,9 @@ def _kept(setting: Setting, found: list["Found"], log: Search) -> list["Found"]:
     """Those that are taken on to the bound, cheapest first; without one all of them."""
     most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
     if most < len(found):
-        dear = value(found[most]) / value(found[0])
         log.given_up.append(
-            f"{len(found) - most} extremals of the unbounded problem were not taken to the bound: there they "
-            f"cost {dear:.3g} times the best and more"
+            f"{len(found) - most} extremals of the unbounded problem were not taken to the bound: of it they "
+            "are the dearest"
         )
     return found[:most]
 
@@ -129,7 +128,7 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
             log.revolutions.append(j)
             cost = value(found[-1])
             best = min(best, cost)
-        end = _end(point, cost / best)
+        end = _end(point, cost, best)
         if end:
             break
         last = point
@@ -138,11 +137,11 @@ def _walk(setting: Setting, first: Root, sign: int, log: Search, best: float) ->
     return found
 
 
-def _end(point: Point, dear: float) -> str:
+def _end(point: Point, cost: float, best: float) -> str:
     """Why the walk through the revolutions goes no farther; empty if it does."""
     if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
         return f"{REVOLUTIONS} revolutions were looked at"
-    return f"the last meeting cost {dear:.3g} times the best" if dear > WORSE else ""
+    return f"the last meeting cost more than {WORSE:g} times the best" if cost > WORSE * best else ""
 
 
 def _passed(last: Point | None, point: Point) -> list[tuple[int, Array]]:
