@@ -63,7 +63,7 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 .PHONY: judge
 judge: $(EXTRA) ## solve the rendezvous directly, from cold starts, for comparison
 	@echo "== rendezvous by collocation"
-	@$(PY) -m pontryagin.rendezvous.judge
+	@$(PY) -m pontryagin.rendezvous.judge.table
 
 .PHONY: lint
 lint: $(READY) ## style and types

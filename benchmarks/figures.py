@@ -6,7 +6,16 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from benchmarks.contest import CALL, STACK, Row
-from pontryagin.plotting import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    styled,
+    subplots,
+)
 
 MARKS = {
     "pontryagin": ("o", BLUE),

@@ -6,7 +6,8 @@ from time import perf_counter
 
 from benchmarks import papers, peers, table
 from benchmarks.papers import PAPERS, Measured
-from pontryagin import files, plotting
+from pontryagin.display import plotting
+from pontryagin.io import files
 
 FOLDER = "benchmarks"
 """Folder of the committed tables and plots below figures/."""

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from pontryagin.files import repository
+from pontryagin.io.files import repository
 
 README = (repository() / "README.md").read_text()
 DRAWN = sorted(path for path in (repository() / "figures").rglob("*") if path.suffix in {".svg", ".csv"})

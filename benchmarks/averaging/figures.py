@@ -8,7 +8,16 @@ from matplotlib.ticker import NullFormatter
 
 from benchmarks.averaging.flows import OURS, TOGETHER
 from pontryagin.averaging.extremal import Extremals
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    styled,
+    subplots,
+)
 
 Table = Mapping[str, Sequence]
 

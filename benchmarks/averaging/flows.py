@@ -17,9 +17,14 @@ from scipy.integrate import odeint, solve_ivp
 from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from benchmarks.clock import Timing, take_turns
-from pontryagin import compile as compiler
 from pontryagin.averaging.canonical import Canonical, y
-from pontryagin.flow import compact, ends, has_heyoka, heyoka_system
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    compact,
+    ends,
+    has_heyoka,
+    heyoka_system,
+)
 
 TOLERANCE = 1e-12
 EPSILON = 0.01
@@ -122,7 +127,7 @@ def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
 
 
 def by_heyoka(path: Trajectory, sensitivities: bool, count: int) -> Array:
-    """Ours: `pontryagin.flow.ends`, which compiles the equations once; of the first trajectory."""
+    """Ours: `pontryagin.numerics.flow.ends`, which compiles the equations once; of the first trajectory."""
     e = path.equations
     wrt = path.wrt if sensitivities else ()
     carry = ends(e.states, e.rates, e.parameters, e.anomaly, wrt, tolerance=TOLERANCE)

@@ -6,7 +6,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.figures import MARKS
-from pontryagin.plotting import BLUE, INK, RED, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    RED,
+    styled,
+    subplots,
+)
 
 LINES = {"costate": ":", "linprog": ":"}
 """Second forms of one solver are dotted."""

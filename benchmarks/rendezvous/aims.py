@@ -2,17 +2,21 @@
 
 from time import process_time
 
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    Case,
+    cases,
+)
+
 from benchmarks.clock import repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Rendezvous, solve
-from pontryagin.rendezvous.bound import bounded
-from pontryagin.rendezvous.cases import Case, cases
-from pontryagin.rendezvous.first import first
-from pontryagin.rendezvous.homotopy import Root
-from pontryagin.rendezvous.search import END_SHARES
-from pontryagin.rendezvous.searched import Search
+from pontryagin.rendezvous.reduced.bound import bounded
+from pontryagin.rendezvous.reduced.first_extremal import first
+from pontryagin.rendezvous.reduced.homotopy import Root
+from pontryagin.rendezvous.reduced.search import END_SHARES
+from pontryagin.rendezvous.reduced.search_log import Search
 
 WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
 """Seconds on one core."""
@@ -87,7 +91,7 @@ def _direct(case: Case, best: float) -> tuple[float, float]:
     """Seconds of the direct method from its cold start, and its cost over ours; nan where there is none."""
     if absent("casadi"):
         return float("nan"), float("nan")
-    from pontryagin.rendezvous.direct import direct
+    from pontryagin.rendezvous.judge.table.collocation import direct
 
     begun = process_time()
     try:

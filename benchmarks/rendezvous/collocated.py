@@ -5,8 +5,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
 from pontryagin.rendezvous import Extremal, Rendezvous, kernels
-from pontryagin.rendezvous.flight import chart_of
-from pontryagin.rendezvous.shooting import SEEN
+from pontryagin.rendezvous.reduced.flight import chart_of
+from pontryagin.rendezvous.reduced.shooting import SEEN
 
 Array = NDArray[np.float64]
 NODES, MOST = 60, 20_000

@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.rendezvous import pykep_least_time
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.rendezvous import Extremal, Rendezvous
-from pontryagin.rendezvous.cartesian import start_of, target_by_kepler
+from pontryagin.rendezvous.witness.cartesian import (
+    start_of,
+    target_by_kepler,
+)
 
 
 def interpreter() -> Path:

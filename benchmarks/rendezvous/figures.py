@@ -6,7 +6,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    styled,
+    subplots,
+)
 
 Table = Mapping[str, Sequence]
 FLOOR = 1e-16

@@ -6,10 +6,10 @@ from functools import cache
 from time import process_time
 
 import numpy as np
+from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
-from pontryagin.rendezvous.cases import cases
-from pontryagin.rendezvous.shooting import Setting
+from pontryagin.rendezvous.reduced.shooting import Setting
 
 SEED = 2014
 NEIGHBOUR = 1.02

@@ -8,11 +8,14 @@ from benchmarks.clock import take_turns
 from benchmarks.contest import worst
 from benchmarks.rendezvous import problems
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.batch import fly_all
-from pontryagin.rendezvous.bound import largest_thrust
-from pontryagin.rendezvous.flight import fly
-from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.many import NEAR, newton_from_all
+from pontryagin.rendezvous.reduced.bound import largest_thrust
+from pontryagin.rendezvous.reduced.flight import fly
+from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.lanes import fly_all
+from pontryagin.rendezvous.reduced.multistart import (
+    NEAR,
+    newton_from_all,
+)
 
 COUNT, NEARBY = 512, 0.02
 DEGREES, SPREAD, STARTS = 20, 0.05, 64

@@ -10,13 +10,16 @@ from time import process_time
 
 import numpy as np
 from numpy.typing import NDArray
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
 from benchmarks.rendezvous import problems
 from benchmarks.rendezvous.systems import PROBLEMS, Problem
 from pontryagin.rendezvous import Extremal
-from pontryagin.rendezvous.flight import fly
-from pontryagin.rendezvous.scaled import Scaled
-from pontryagin.rendezvous.shooting import goal_of, mismatch
+from pontryagin.rendezvous.reduced.flight import fly
+from pontryagin.rendezvous.reduced.shooting import (
+    goal_of,
+    mismatch,
+)
 
 Array = NDArray[np.float64]
 ITERATIONS, HALVINGS = 30, 6

@@ -11,16 +11,19 @@ from typing import Any
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
-from pontryagin.flow import TOLERANCE, heyoka_system
+from pontryagin.numerics.flow import (
+    TOLERANCE,
+    heyoka_system,
+)
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form
 from pontryagin.rendezvous.derivation.principle import Mode
-from pontryagin.rendezvous.flight import chart_of
 from pontryagin.rendezvous.generate import chart, in_any_chart
 from pontryagin.rendezvous.quaternions import conjugate, product
-from pontryagin.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.reduced.flight import chart_of
 
 Array = NDArray[np.float64]
 STEPS = 2000

@@ -15,7 +15,7 @@ from benchmarks.triple_integrator import (
     transfers,
 )
 from benchmarks.triple_integrator.problems import SEED
-from pontryagin.jit import COMPILE_FROM
+from pontryagin.numerics.jit import COMPILE_FROM
 
 NOTES = (
     "Stacks hold 100000 problems, fewer in a quick run.",

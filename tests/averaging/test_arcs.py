@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 from pontryagin.averaging.arcs import switched_ends, switched_flow
 from pontryagin.averaging.modes import modal
-from pontryagin.flow import has_heyoka
+from pontryagin.numerics.flow import has_heyoka
 
 x, v, p, q, t = sp.symbols("x v p q t", real=True)
 KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]

@@ -28,8 +28,11 @@ from pontryagin.averaging.claims import (
 from pontryagin.averaging.derivation import optimum as derived_optimum
 from pontryagin.averaging.derivation import principle as derived_principle
 from pontryagin.averaging.derivation import ripple
-from pontryagin.evidence import Misprint, Refutation
 from pontryagin.ledger import Unsupported, counts
+from pontryagin.ledger.evidence import (
+    Misprint,
+    Refutation,
+)
 
 R = sp.Rational
 

@@ -17,8 +17,8 @@ from pontryagin.averaging.claims import (
 from pontryagin.averaging.derivation import kepler
 from pontryagin.averaging.derivation.kepler_optimum import duration, energy0, rho
 from pontryagin.averaging.derivation.kepler_principle import costate_momentum, price
-from pontryagin.evidence import Misprint
 from pontryagin.ledger import VERDICTS, Unsupported
+from pontryagin.ledger.evidence import Misprint
 
 MODULES = (kepler_motion, kepler_elements, kepler_principle, kepler_optimum, kepler_controls)
 ENTRIES = tuple(chain.from_iterable(module.claim for module in MODULES))

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from pontryagin.averaging import kepler, rotor, smooth_example, spin_down
 from pontryagin.cli import app
-from pontryagin.recording import read_back
+from pontryagin.display.recording import read_back
 
 KEPLER = ["--E0", "-1/2", "--K0", "0.95", "--E1", "-0.35", "--l", "0.1"]
 SMOOTH = ["--v0", "1", "--v1", "2", "--ripple", "0.5"]

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from pontryagin.averaging import figures, kepler, slopes, smooth_example, spin_down
 from pontryagin.averaging.figures import pictures, tables
-from pontryagin.plotting import svg_of
+from pontryagin.display.plotting import svg_of
 
 EPSILONS = (0.1, 0.05)
 

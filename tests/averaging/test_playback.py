@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from pontryagin.averaging import kepler, playback, smooth_example, spin_down, spiral, tumble
 from pontryagin.averaging.figures.drift import drift
 from pontryagin.averaging.replay import Pair
-from pontryagin.recording import read_back
+from pontryagin.display.recording import read_back
 
 
 def recorded(pair, path):

@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from pontryagin.evidence import Misprint, Refutation
 from pontryagin.ledger import Unsupported, counts
+from pontryagin.ledger.evidence import (
+    Misprint,
+    Refutation,
+)
 from pontryagin.orbit_correction import derivation, exact
 from pontryagin.orbit_correction.claims import ENTRIES, convexity, images, reduction, sums, tables, worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs

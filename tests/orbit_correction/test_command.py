@@ -12,9 +12,9 @@ from scipy.linalg import expm
 from typer.testing import CliRunner
 
 from pontryagin.cli import app
+from pontryagin.display.recording import read_back
 from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.satellite import LINEAR
-from pontryagin.recording import read_back
 
 Z0 = "-0.0037787,-0.0039109,0.0141512"
 STATE = [-0.0037787, -0.0039109, 0.0141512]

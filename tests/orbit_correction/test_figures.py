@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from pontryagin.display.plotting import svg_of
 from pontryagin.orbit_correction import close_loop, correct, figures, sets
 from pontryagin.orbit_correction.figures import flight, growth, impulses, tables
 from pontryagin.orbit_correction.montecarlo import impulse_distribution
 from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
 from pontryagin.orbit_correction.waste import count_impulses, random_states
-from pontryagin.plotting import svg_of
 
 Z0 = [-0.0037787, -0.0039109, 0.0141512]
 PLAN = correct(Z0)

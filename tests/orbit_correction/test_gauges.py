@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
-from pontryagin import jit
+from pontryagin.numerics import jit
 from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
 from pontryagin.orbit_correction.zonotope import turning_place
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from pontryagin import jit
+from pontryagin.numerics import jit
 from pontryagin.triple_integrator import (
     Maneuver,
     arrival,

@@ -7,10 +7,13 @@ import pytest
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, carry, multistart
-from pontryagin.rendezvous.batch import fly_all
-from pontryagin.rendezvous.flight import fly, switching
-from pontryagin.rendezvous.shooting import Setting
-from pontryagin.rendezvous.start import cold_start
+from pontryagin.rendezvous.reduced.flight import (
+    fly,
+    switching,
+)
+from pontryagin.rendezvous.reduced.lanes import fly_all
+from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.start import cold_start
 
 ONE = [1, 0, 0, 0]
 KINDS = [(math.inf, False), (0.05, False), (0.05, True)]

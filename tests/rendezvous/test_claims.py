@@ -8,8 +8,11 @@ import pytest
 import sympy as sp
 from scipy.optimize import root
 
-from pontryagin.evidence import Misprint, Refutation
 from pontryagin.ledger import Unsupported, counts
+from pontryagin.ledger.evidence import (
+    Misprint,
+    Refutation,
+)
 from pontryagin.rendezvous.claims import ENTRIES, functional, meetings, spirals
 
 

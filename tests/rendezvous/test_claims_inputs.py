@@ -11,8 +11,11 @@ from dataclasses import dataclass, replace
 import pytest
 import sympy as sp
 
-from pontryagin.evidence import Proof, Refutation
 from pontryagin.ledger import Unsupported
+from pontryagin.ledger.evidence import (
+    Proof,
+    Refutation,
+)
 from pontryagin.rendezvous.claims import ENTRIES
 from pontryagin.rendezvous.derivation import (
     forms,

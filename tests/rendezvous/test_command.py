@@ -7,16 +7,31 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    cases,
+    chaser_on,
+)
 from typer.testing import CliRunner
 
 from pontryagin.cli import app
-from pontryagin.files import repository
-from pontryagin.recording import read_back
-from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, asked, solve, transcript
-from pontryagin.rendezvous.cases import cases, chaser_on
-from pontryagin.rendezvous.homotopy import Root
-from pontryagin.rendezvous.searched import Search
-from pontryagin.rendezvous.shooting import Setting, equations
+from pontryagin.display.recording import read_back
+from pontryagin.io.files import repository
+from pontryagin.rendezvous import (
+    Chaser,
+    Orbit,
+    Rendezvous,
+    solve,
+    transcript,
+)
+from pontryagin.rendezvous import (
+    schema as asked,
+)
+from pontryagin.rendezvous.reduced.homotopy import Root
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import (
+    Setting,
+    equations,
+)
 
 CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}
 TARGET = {"parameter": 1.5, "eccentricity": 0.1, "anomaly": 0.6, "attitude": [1, 0, 0, 0]}
@@ -122,7 +137,7 @@ class TestAnswers:
         assert transcript.shown(told)["problem"]["duration"] == "free"
 
     def test_files_are_drawn_and_recorded(self, write, tmp_path, leap, monkeypatch):
-        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", lambda problem: leap)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: leap)
         files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
         result = run("--file", write(LEAP), *files)
         assert result.exit_code == 0, result.stderr
@@ -148,7 +163,7 @@ class TestAnswers:
         def reached(problem):
             raise Reached(problem)
 
-        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", reached)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", reached)
         for name in ("mars", "mixed-bounded"):
             with pytest.raises(Reached) as asked_for:
                 run("--case", name)
@@ -338,7 +353,7 @@ class TestMistakes:
         setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
         moved = leap.root.unknowns + 1e-4
         wrong = replace(leap, root=Root(moved, equations(setting, moved), 0.0), searched=Search())
-        monkeypatch.setattr("pontryagin.rendezvous.solution.solve", lambda problem: wrong)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: wrong)
         assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
 
 
@@ -358,7 +373,7 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
         solved.append(given)
         return leap
 
-    monkeypatch.setattr("pontryagin.rendezvous.solution.solve", known)
+    monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", known)
     examples = re.findall(r"^ +pontryagin (.*)$", shown, re.MULTILINE)
     assert len(examples) == 4
     for example in examples:

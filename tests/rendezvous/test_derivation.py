@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from pontryagin import compile as compiler
-from pontryagin.flow import flow
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import flow
 from pontryagin.rendezvous.derivation import (
     canonical,
     forms,

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
+from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
 from pontryagin import Infeasible, NotConverged
 from pontryagin.rendezvous import (
@@ -23,11 +24,10 @@ from pontryagin.rendezvous import (
     solve,
     solve_in_elements,
 )
-from pontryagin.rendezvous import first as first_extremals
-from pontryagin.rendezvous.cases import cases
-from pontryagin.rendezvous.quadrature import energy
-from pontryagin.rendezvous.search import KEPT
-from pontryagin.rendezvous.shooting import Setting
+from pontryagin.rendezvous.reduced import first_extremal as first_extremals
+from pontryagin.rendezvous.reduced.quadrature import energy
+from pontryagin.rendezvous.reduced.search import KEPT
+from pontryagin.rendezvous.reduced.shooting import Setting
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 LEAP = Rendezvous(CRAFT, Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6), 0, 1, math.inf, duration=6.0)
@@ -85,7 +85,7 @@ class TestCost:
 
     def test_the_certificate_tells_a_wrong_one(self, leap, monkeypatch):
         monkeypatch.setattr(
-            "pontryagin.rendezvous.certify.energy", lambda flight: energy(flight) * (1 + 1e-6)
+            "pontryagin.rendezvous.reduced.certificate.energy", lambda flight: energy(flight) * (1 + 1e-6)
         )
         again = replace(leap)
         assert float(again.certificate.cost) == pytest.approx(1e-6, rel=1e-3)

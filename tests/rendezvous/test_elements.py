@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from pontryagin import compile as compiler
+from pontryagin.numerics import compile as compiler
 from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, vect
 from pontryagin.rendezvous.derivation.sapunkov import A, B, Q, epsilon, force, half_anomaly, u, velocity, w

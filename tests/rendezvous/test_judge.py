@@ -5,12 +5,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    FuelCase,
+    case,
+    cases,
+    fuel_cases,
+)
 
-from pontryagin.files import figures_folder
-from pontryagin.rendezvous import judge, small_weight, solve
-from pontryagin.rendezvous.cases import FuelCase, case, cases, fuel_cases
+from pontryagin.io.files import figures_folder
+from pontryagin.rendezvous import (
+    small_weight,
+    solve,
+)
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.figures.tables import excess, nearest
+from pontryagin.rendezvous.judge.table import table as judge
 
 KEPT = judge.verdicts()
 SQUARE = {name: KEPT[name] for name in cases()}

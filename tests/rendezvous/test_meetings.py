@@ -9,14 +9,27 @@ from scipy.spatial.transform import Rotation
 
 from pontryagin import NotConverged
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous
-from pontryagin.rendezvous.cartesian import fly_cartesian, target_by_kepler
 from pontryagin.rendezvous.claims import meetings as ledger
-from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.meetings import false_curve, false_family
-from pontryagin.rendezvous.misled import false_meeting
-from pontryagin.rendezvous.printed import printed_conditions, printed_jacobian, reduced
-from pontryagin.rendezvous.shooting import Setting, equations
-from pontryagin.rendezvous.turned import towards_turned
+from pontryagin.rendezvous.false_meetings.family import (
+    false_curve,
+    false_family,
+)
+from pontryagin.rendezvous.false_meetings.meeting import false_meeting
+from pontryagin.rendezvous.false_meetings.printed_conditions import (
+    printed_conditions,
+    printed_jacobian,
+    reduced,
+)
+from pontryagin.rendezvous.false_meetings.rotated_target import towards_turned
+from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.shooting import (
+    Setting,
+    equations,
+)
+from pontryagin.rendezvous.witness.cartesian import (
+    fly_cartesian,
+    target_by_kepler,
+)
 
 DEGREES = (0, 20)
 TURNS = {0: (-2 * math.pi, -1.5, -0.4, 0.0, 0.7, 2.0), 20: (-0.6, -0.2, 0.0, 0.3)}

@@ -7,13 +7,20 @@ import pytest
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
-from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.misled import distance, false_meeting, paper_residual
+from pontryagin.rendezvous.false_meetings.meeting import (
+    distance,
+    false_meeting,
+    paper_residual,
+)
+from pontryagin.rendezvous.false_meetings.rotated_target import turned_equations
 from pontryagin.rendezvous.quaternions import about_third, conjugate, product, rotated
-from pontryagin.rendezvous.shooting import Setting, equations
-from pontryagin.rendezvous.solution import Extremal
-from pontryagin.rendezvous.start import cold_start
-from pontryagin.rendezvous.turned import turned_equations
+from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.shooting import (
+    Setting,
+    equations,
+)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.start import cold_start
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [math.cos(0.2), 0.0, math.sin(0.2), 0.0])
 

@@ -11,16 +11,23 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import Rotation
 
-from pontryagin.files import repository
-from pontryagin.recording import read_back
+from pontryagin.display.recording import read_back
+from pontryagin.io.files import repository
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, playback
-from pontryagin.rendezvous.bound import bounded
-from pontryagin.rendezvous.misled import distance, false_meeting
-from pontryagin.rendezvous.passage import EVEN, TURN, passage
-from pontryagin.rendezvous.profile import profile
-from pontryagin.rendezvous.shooting import Setting
-from pontryagin.rendezvous.solution import Extremal
-from pontryagin.rendezvous.start import cold_start
+from pontryagin.rendezvous.false_meetings.meeting import (
+    distance,
+    false_meeting,
+)
+from pontryagin.rendezvous.figures.profile import profile
+from pontryagin.rendezvous.playback.motion import (
+    EVEN,
+    TURN,
+    passage,
+)
+from pontryagin.rendezvous.reduced.bound import bounded
+from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.start import cold_start
 
 LENGTH, GRAVITY = 7000.0, 398600.0
 TIME = math.sqrt(LENGTH**3 / GRAVITY)

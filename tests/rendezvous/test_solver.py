@@ -7,19 +7,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pontryagin.rendezvous.problem.rendezvous.cases import chaser_on
 
 import pontryagin
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, solve
-from pontryagin.rendezvous.bound import bounded
-from pontryagin.rendezvous.cases import chaser_on
-from pontryagin.rendezvous.certify import certify
-from pontryagin.rendezvous.flight import fly
-from pontryagin.rendezvous.homotopy import newton
-from pontryagin.rendezvous.quadrature import energy
-from pontryagin.rendezvous.search import extremals
-from pontryagin.rendezvous.searched import Search
-from pontryagin.rendezvous.shooting import Setting, end_thrust, equations
-from pontryagin.rendezvous.start import cold_start
+from pontryagin.rendezvous.reduced.bound import bounded
+from pontryagin.rendezvous.reduced.certificate import certify
+from pontryagin.rendezvous.reduced.flight import fly
+from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.quadrature import energy
+from pontryagin.rendezvous.reduced.search import extremals
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import (
+    Setting,
+    end_thrust,
+    equations,
+)
+from pontryagin.rendezvous.reduced.start import cold_start
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 COSTATES = np.array([0.01, 0.02, 0.05, 0.01, 0.02, 0.03])
@@ -203,7 +207,7 @@ def test_a_neighbours_solution_is_a_start():
 
 def test_the_judge_agrees_and_its_error_shrinks():
     pytest.importorskip("casadi")
-    from pontryagin.rendezvous.direct import direct
+    from pontryagin.rendezvous.judge.table.collocation import direct
 
     given = problem(20, duration=8.0)
     best = solve(given)

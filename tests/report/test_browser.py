@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 from tornado.websocket import websocket_connect
 
-from pontryagin import recording
+from pontryagin.display import recording
 from pontryagin.report import browser, player, text
 from pontryagin.report.recordings import Clip
 from pontryagin.report.render_html import render_html

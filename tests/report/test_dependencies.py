@@ -116,7 +116,7 @@ def test_nothing_below_the_report_imports_the_report_or_the_command_line():
 
 
 @pytest.mark.parametrize(
-    "module", ["pontryagin.ledger", "pontryagin.triple_integrator", "pontryagin.recording"]
+    "module", ["pontryagin.ledger", "pontryagin.triple_integrator", "pontryagin.display.recording"]
 )
 def test_what_python_loads_for_a_module_is_in_its_closure(module):
     script = f"import sys, {module}; print(*(m for m in sys.modules if m.split('.')[0] == 'pontryagin'))"

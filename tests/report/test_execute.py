@@ -6,14 +6,14 @@ import time
 import nbformat
 import pytest
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import assemble
 from pontryagin.report.execute import CellFailure, execute, execute_all, notebook_key, publish, read_notebook
 
 COUNT = "open('../../runs', 'a').write('x')"
 SLOW_AT_FIRST = "import time; time.sleep(60 if len(open('../../runs').read()) < 2 else 0)"
 DRAW = """
-from pontryagin.plotting import show, show_table, styled, subplots
+from pontryagin.display.plotting import show, show_table, styled, subplots
 @styled
 def line():
     figure, axes = subplots(height=2)

@@ -20,7 +20,7 @@ from pontryagin.report.render_pdf import render_pdf, typst_text
 CLIP = Clip("triple_integrator", "turn", "A turn", "It turns.")
 TITLE = {"pagetitle": "pontryagin", "subtitle": "s", "imprint": "i"}
 DRAW = """
-from pontryagin.plotting import show, show_table, styled, subplots
+from pontryagin.display.plotting import show, show_table, styled, subplots
 @styled
 def line():
     figure, axes = subplots(height=2)

@@ -5,8 +5,8 @@ import re
 import pytest
 import sympy as sp
 
-from pontryagin.evidence import Refutation
 from pontryagin.ledger import Unsupported, counts
+from pontryagin.ledger.evidence import Refutation
 from pontryagin.triple_integrator.claims import ENTRIES, model, principle, problems, reach
 
 R = sp.Rational

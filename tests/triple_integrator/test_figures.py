@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from tests.independent import response
 from tests.strategies import maneuver_with, maneuvers, moments, states
 
-from pontryagin.plotting import svg_of
+from pontryagin.display.plotting import svg_of
 from pontryagin.triple_integrator import (
     Maneuver,
     figures,

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from pontryagin.recording import read_back
+from pontryagin.display.recording import read_back
 from pontryagin.triple_integrator import (
     Maneuver,
     minimum_energy,

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from pontryagin.triple_integrator import kinematics
+from pontryagin.numerics import rotation as kinematics
 from pontryagin.triple_integrator.derivation import rigid_body as derivation
 from pontryagin.triple_integrator.rigid_body import Commands, RigidBody, simulate
 

@@ -12,10 +12,18 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.modes import Modes
 from pontryagin.errors import NotConverged
-from pontryagin.flow import STEPS, TOLERANCE, Ends, Flow, has_heyoka, heyoka_system, with_floats
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    STEPS,
+    TOLERANCE,
+    Ends,
+    Flow,
+    has_heyoka,
+    heyoka_system,
+    with_floats,
+)
 
 Array = NDArray[np.float64]
 
@@ -29,7 +37,7 @@ def switched_ends(
     wrt: Sequence = (),
     taylor: bool | None = None,
 ) -> Ends:
-    """As `pontryagin.flow.ends`, for rates that hold modes.
+    """As `pontryagin.numerics.flow.ends`, for rates that hold modes.
 
     Parameters
     ----------
@@ -76,7 +84,7 @@ def switched_flow(
     clock: object = None,
     taylor: bool | None = None,
 ) -> Flow:
-    """As `pontryagin.flow.flow`, for rates that hold modes."""
+    """As `pontryagin.numerics.flow.flow`, for rates that hold modes."""
     run = _arcs(modes, tuple(states), tuple(rates), tuple(parameters), clock, (), _use(taylor))
 
     def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:

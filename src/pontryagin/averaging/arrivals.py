@@ -14,12 +14,15 @@ import sympy as sp
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
-from pontryagin.flow import Flow, flow
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    Flow,
+    flow,
+)
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from pontryagin import console, formula, rows
+from pontryagin.io import (
+    formula,
+    rows,
+)
+from pontryagin.terminal import console
 
 VECTORS = {"omega0": ("omega_x", "omega_y", "omega_z"), "semiaxes": ("l_x", "l_y", "l_z")}
 """Options of three numbers, and the columns of a table that hold them."""
@@ -54,7 +58,7 @@ class Example:
 
         Raises
         ------
-        pontryagin.console.Refusal
+        pontryagin.terminal.console.Refusal
             If one is missing or is not what it should be.
         """
         console.required({option(name): given[name] for name in self.required})

@@ -5,10 +5,10 @@ from typing import Any
 
 import sympy as sp
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.jets import Kernel, expressions
 from pontryagin.averaging.model import Model
 from pontryagin.averaging.system import PhaseSystem
+from pontryagin.numerics import compile as compiler
 
 EFFORT = 400
 """Operations in an integrand up to which a closed form is looked for."""

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import OdeSolution, solve_ivp
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.derivation import rigid_body
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive, vectors
 
 Array = NDArray[np.float64]

@@ -5,9 +5,10 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin import console, rows
 from pontryagin.averaging import asked, transcript
 from pontryagin.averaging.asked import EXAMPLES, Example
+from pontryagin.io import rows
+from pontryagin.terminal import console
 
 Text = str | None
 File = Path | None

@@ -8,8 +8,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.system_checks import listed, numeric, require_count, require_positive
+from pontryagin.numerics import compile as compiler
 
 Number: TypeAlias = "float | sp.Expr"
 

@@ -10,11 +10,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import Canonical, canonical, epsilon, y
 from pontryagin.averaging.turn import anomaly_at
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import compile as compiler
 from pontryagin.validation import finite
 
 Array = NDArray[np.float64]

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.averaging.solution import AveragedSolution, solved
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive
 
 Array = NDArray[np.float64]

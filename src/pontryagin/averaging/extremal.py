@@ -8,12 +8,15 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.family import Family
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.flow import Flow, flow
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    Flow,
+    flow,
+)
 from pontryagin.validation import times
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ from pathlib import Path
 from pontryagin.averaging.average import kernel_expressions
 from pontryagin.averaging.derived import EXAMPLES, Example
 from pontryagin.averaging.system import PhaseSystem
-from pontryagin.compile import source
-from pontryagin.files import write
+from pontryagin.io.files import write
+from pontryagin.numerics.compile import source
 
 HEADER = '''"""Numeric kernels of the paper's examples, and the examples themselves as SymPy text.
 

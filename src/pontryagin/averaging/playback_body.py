@@ -8,8 +8,20 @@ from numpy.typing import NDArray
 from pontryagin.averaging import replay, tumble
 from pontryagin.averaging.replay import AVERAGED, EXACT, Pair
 from pontryagin.averaging.tumble import Motion
-from pontryagin.plotting import GREEN, INK, PURPLE, RED
-from pontryagin.recording import Events, Plot, Recording, Scene, View, record
+from pontryagin.display.plotting import (
+    GREEN,
+    INK,
+    PURPLE,
+    RED,
+)
+from pontryagin.display.recording import (
+    Events,
+    Plot,
+    Recording,
+    Scene,
+    View,
+    record,
+)
 
 LONG = 1.5
 """Length of the axis and of the angular momentum as drawn; the body is scaled to it."""

@@ -7,8 +7,19 @@ from numpy.typing import NDArray
 
 from pontryagin.averaging import replay, spiral
 from pontryagin.averaging.replay import AVERAGED, EXACT, Pair
-from pontryagin.plotting import GREEN, INK, RED, SKY
-from pontryagin.recording import Events, Recording, Scene, View, record
+from pontryagin.display.plotting import (
+    GREEN,
+    INK,
+    RED,
+    SKY,
+)
+from pontryagin.display.recording import (
+    Events,
+    Recording,
+    Scene,
+    View,
+    record,
+)
 
 POINTS = 97
 """Points of an ellipse as drawn."""

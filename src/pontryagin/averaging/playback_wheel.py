@@ -6,8 +6,13 @@ import numpy as np
 
 from pontryagin.averaging import replay
 from pontryagin.averaging.replay import Pair
-from pontryagin.plotting import RED
-from pontryagin.recording import Events, Scene, View, record
+from pontryagin.display.plotting import RED
+from pontryagin.display.recording import (
+    Events,
+    Scene,
+    View,
+    record,
+)
 
 A_TURN = 60
 """Samples a turn."""

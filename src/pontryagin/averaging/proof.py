@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import compile as compiler
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,17 @@ from scipy.interpolate import CubicSpline
 
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.solution import AveragedSolution
-from pontryagin.plotting import BLUE, GREEN, ORANGE, PURPLE
-from pontryagin.recording import Plot, Recording, View
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+)
+from pontryagin.display.recording import (
+    Plot,
+    Recording,
+    View,
+)
 
 Array = NDArray[np.float64]
 

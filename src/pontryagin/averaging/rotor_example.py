@@ -117,8 +117,8 @@ def _of(name: str, value: Any, letters: str) -> "sp.Expr":
 
 @lru_cache(maxsize=64)
 def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
-    from pontryagin import compile as compiler
     from pontryagin.averaging.derivation import rotor as derivation
+    from pontryagin.numerics import compile as compiler
 
     angles = 2 * np.pi * np.arange(LOOK) / LOOK
     return compiler.function("values", [derivation.x], {"value": expression})(angles)[0]

@@ -13,11 +13,15 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.arcs import switched_ends
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
-from pontryagin.flow import TOLERANCE, Ends, ends
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    TOLERANCE,
+    Ends,
+    ends,
+)
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.derivation import kepler as elements
 from pontryagin.averaging.derivation import kepler_orbit as orbit
 from pontryagin.averaging.extremal import Extremal
+from pontryagin.numerics import compile as compiler
 
 Array = NDArray[np.float64]
 

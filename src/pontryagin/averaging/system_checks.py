@@ -6,7 +6,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from pontryagin import compile as compiler
+from pontryagin.numerics import compile as compiler
 from pontryagin.validation import common_shape, finite
 
 

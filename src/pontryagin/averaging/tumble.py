@@ -16,11 +16,11 @@ from scipy.integrate import OdeSolution, solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-from pontryagin import compile as compiler
 from pontryagin.averaging.braking import fly, synthesis
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.replay import Pair
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import compile as compiler
 
 Array = NDArray[np.float64]
 

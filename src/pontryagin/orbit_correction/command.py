@@ -5,8 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin import console
 from pontryagin.orbit_correction import transcript
+from pontryagin.terminal import console
 
 ACCEPTED = 1e-8
 """Largest residual and gap of a plan that is handed out."""

@@ -11,7 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.flow import Flow, flow
+from pontryagin.numerics.flow import (
+    Flow,
+    flow,
+)
 from pontryagin.orbit_correction.plan import Plan, correct
 from pontryagin.validation import positive, vectors
 

@@ -11,11 +11,25 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    RED,
+    SKY,
+)
+from pontryagin.display.recording import (
+    Events,
+    Plot,
+    Point,
+    Recording,
+    Scene,
+    View,
+    record,
+)
 from pontryagin.orbit_correction import satellite, sets
 from pontryagin.orbit_correction.flight import fly_plan, single
 from pontryagin.orbit_correction.plan import Plan, correct
-from pontryagin.plotting import BLUE, GREEN, ORANGE, RED, SKY
-from pontryagin.recording import Events, Plot, Point, Recording, Scene, View, record
 
 Z0 = (-0.0037787, -0.0039109, 0.0141512)
 SAMPLES = 13

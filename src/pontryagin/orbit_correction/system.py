@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible
-from pontryagin.jit import compiled
+from pontryagin.numerics.jit import compiled
 from pontryagin.orbit_correction.ellipsoids import gauge_stack
 from pontryagin.orbit_correction.proof import require_closed, unit
 from pontryagin.validation import finite, vectors

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.errors import Infeasible
-from pontryagin.jit import compiled
+from pontryagin.numerics.jit import compiled
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.ellipsoids import gauge_of
 from pontryagin.orbit_correction.kinks import flat_gauge

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin import formula
+from pontryagin.io import formula
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.plan import Plan
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin import console
+from pontryagin.terminal import console
 
 Text = str | None
 File = Path | None
@@ -70,7 +70,7 @@ def solve(
 
 
 def _list(json: bool) -> None:
-    from pontryagin.rendezvous.cases import cases
+    from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
     titles = {name: one.title for name, one in cases().items()}
     if json:
@@ -80,8 +80,8 @@ def _list(json: bool) -> None:
 
 
 def _problem(case: Text, file: File) -> Any:
-    from pontryagin.rendezvous import asked
-    from pontryagin.rendezvous.cases import cases
+    from pontryagin.rendezvous import schema as asked
+    from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
     if file is None:
         if case is None:
@@ -97,7 +97,7 @@ def _problem(case: Text, file: File) -> Any:
 
 def _solved(problem: Any, option: str) -> Any:
     from pontryagin.errors import Infeasible, NotConverged
-    from pontryagin.rendezvous.solution import solve as solver
+    from pontryagin.rendezvous.reduced.solution import solve as solver
 
     with console.solving({}):
         try:
@@ -113,7 +113,7 @@ def _solved(problem: Any, option: str) -> Any:
 
 def _title(problem: Any, case: Text) -> str:
     if case is not None:
-        from pontryagin.rendezvous.cases import cases
+        from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
         return f"Rendezvous {case!r}: {cases()[case].title}"
     if not problem.energy_weight:
@@ -125,7 +125,7 @@ def _title(problem: Any, case: Text) -> str:
 
 def _files(extremal: Any, plot: File, record: File) -> None:
     if plot:
-        from pontryagin.rendezvous.profile import profile
+        from pontryagin.rendezvous.figures.profile import profile
 
         console.save_figure("--plot", plot, profile(extremal))
     if record:

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import sympy as sp
 
-from pontryagin.compile import source
-from pontryagin.files import write
+from pontryagin.io.files import write
+from pontryagin.numerics.compile import source
 from pontryagin.rendezvous.derivation import (
     forms,
     inertial,

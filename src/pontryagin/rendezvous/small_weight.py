@@ -10,10 +10,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pontryagin.rendezvous.cases import case
-from pontryagin.rendezvous.problem import Rendezvous
-from pontryagin.rendezvous.solution import Extremal, solve
-from pontryagin.tables import csv_table
+from pontryagin.display.tables import csv_table
+from pontryagin.rendezvous.problem.rendezvous.cases import case
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.solution import (
+    Extremal,
+    solve,
+)
 
 FILE = Path(__file__).with_name("small_weight.csv")
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.rendezvous import asked
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous import schema as asked
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Report = dict[str, dict[str, Any]]
 

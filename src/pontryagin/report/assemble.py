@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from nbformat import NotebookNode
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import tex
 from pontryagin.report.execute import Executed
 from pontryagin.report.workspace import Workspace

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import assemble, front, player, progress, publish, recordings
 from pontryagin.report.execute import CellFailure, Executed, execute_all
 from pontryagin.report.execute import publish as publish_figures

@@ -18,7 +18,7 @@ from typing import Any
 import nbformat
 from nbformat import NotebookNode
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import dependencies
 from pontryagin.report.environment import FIXED_KEY, environment
 from pontryagin.report.workspace import Workspace

@@ -7,12 +7,12 @@ import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from pontryagin import files
+from pontryagin.display.tables import markdown_table
+from pontryagin.io import files
 from pontryagin.report import dependencies
 from pontryagin.report.environment import environment
 from pontryagin.report.papers import PAPERS, Paper
 from pontryagin.report.workspace import Workspace
-from pontryagin.tables import markdown_table
 
 Entry = Mapping[str, str]
 

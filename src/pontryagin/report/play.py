@@ -4,7 +4,7 @@ import os
 import sys
 import webbrowser
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import progress
 from pontryagin.report.workspace import Workspace
 

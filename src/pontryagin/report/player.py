@@ -15,7 +15,7 @@ from base64 import b64encode
 from importlib import metadata, util
 from pathlib import Path
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report.recordings import Clip
 from pontryagin.report.render_html import ASSETS
 from pontryagin.report.workspace import Workspace

@@ -9,11 +9,11 @@ from importlib import metadata
 from typing import Any
 
 from pontryagin import __version__
+from pontryagin.display.tables import markdown_table
 from pontryagin.report.assemble import Item
 from pontryagin.report.environment import EPOCH
 from pontryagin.report.execute import Executed
 from pontryagin.report.workspace import Workspace
-from pontryagin.tables import markdown_table
 
 PACKAGES = (
     "numpy",

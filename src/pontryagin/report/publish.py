@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
-from pontryagin import __version__, files
+from pontryagin import __version__
+from pontryagin.io import files
 from pontryagin.report import (
     assemble,
     browser,

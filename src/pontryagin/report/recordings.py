@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import dependencies
 from pontryagin.report.environment import environment
 from pontryagin.report.papers import PAPERS

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report import tex, tree
 from pontryagin.report.environment import EPOCH
 from pontryagin.report.render_html import ASSETS

@@ -6,7 +6,7 @@ that c3 = x3f - x30 >= 0. The unknown is z = T - c3 >= 0: in less than c3 not ev
 
 from math import fabs, sqrt
 
-from pontryagin.jit import batched
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator.kernels import (
     bang_bang_moments,
     moments,

@@ -12,9 +12,14 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin.compile import function
+from pontryagin.numerics.compile import function
+from pontryagin.numerics.rotation import (
+    between,
+    cross,
+    quaternion,
+    rotation_vector,
+)
 from pontryagin.triple_integrator.disturbance import Panels
-from pontryagin.triple_integrator.kinematics import between, cross, quaternion, rotation_vector
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
 from pontryagin.validation import vectors

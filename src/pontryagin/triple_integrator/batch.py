@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin import formula
+from pontryagin.io import formula
 from pontryagin.triple_integrator.transcript import account, certificate_of
 
 START, END = ("x10", "x20", "x30"), ("x1f", "x2f", "x3f")

@@ -13,8 +13,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.errors import NotConverged
-from pontryagin.triple_integrator.attitude import Programme, disturbance_of, impulses
-from pontryagin.triple_integrator.kinematics import (
+from pontryagin.numerics.rotation import (
     FULL_TURN,
     between,
     quaternion,
@@ -22,6 +21,7 @@ from pontryagin.triple_integrator.kinematics import (
     vector_acceleration_drift,
     vector_rate_matrix,
 )
+from pontryagin.triple_integrator.attitude import Programme, disturbance_of, impulses
 from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
 
 DEGREE = 40

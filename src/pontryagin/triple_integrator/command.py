@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
-from pontryagin import console
+from pontryagin.terminal import console
 from pontryagin.triple_integrator import transcript
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}

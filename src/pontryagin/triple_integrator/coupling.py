@@ -21,9 +21,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import (
+    FULL_TURN,
+    rotation_vector,
+    vector_rate_matrix,
+)
 from pontryagin.triple_integrator.attitude import Programme, single
 from pontryagin.triple_integrator.channels import Channels, Coupling
-from pontryagin.triple_integrator.kinematics import FULL_TURN, rotation_vector, vector_rate_matrix
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.rigid_body import Motion, RigidBody
 from pontryagin.validation import finite

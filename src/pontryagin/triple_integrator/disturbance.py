@@ -62,7 +62,7 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
     """Antiderivatives by SymPy, where it finds them and they agree with quadrature; else quadrature."""
     import sympy as sp
 
-    from pontryagin import compile as compiler
+    from pontryagin.numerics import compile as compiler
 
     if not isinstance(expression, sp.Expr) or expression.is_real is False:
         raise TypeError(f"disturbance must be a real expression in t, got {expression}")

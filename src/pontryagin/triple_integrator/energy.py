@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
-from pontryagin.jit import batched
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels, trajectory
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.maneuver import Maneuver

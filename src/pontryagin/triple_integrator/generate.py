@@ -4,8 +4,8 @@ from pathlib import Path
 
 import sympy as sp
 
-from pontryagin.compile import source
-from pontryagin.files import write
+from pontryagin.io.files import write
+from pontryagin.numerics.compile import source
 from pontryagin.triple_integrator.derivation import energy, impulse, model, peak, time
 
 HEADER = '''"""Numeric kernels of the triple integrator.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
-from pontryagin.jit import batched
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import trajectory
 from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, reversed_moments, two_impulses
 from pontryagin.triple_integrator.maneuver import Maneuver

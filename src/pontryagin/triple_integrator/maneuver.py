@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin.jit import batched
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import disturbance as disturbances
 from pontryagin.triple_integrator import kernels
 from pontryagin.validation import common_shape, finite, times, vectors

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
-from pontryagin.jit import batched
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import trajectory
 from pontryagin.triple_integrator.kernels import (
     bang_bang_moments,

@@ -11,14 +11,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
-from pontryagin.recording import Events, Plot, Recording, Scene, View, record
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+)
+from pontryagin.display.recording import (
+    Events,
+    Plot,
+    Recording,
+    Scene,
+    View,
+    record,
+)
+from pontryagin.numerics.rotation import (
+    between,
+    quaternion,
+    rotation_vector,
+)
 from pontryagin.triple_integrator.attitude import Programme, Turn, impulses, single, turn
 from pontryagin.triple_integrator.channels import Channels
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple
 from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.kinematics import between, quaternion, rotation_vector
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import minimum_peak
 from pontryagin.triple_integrator.rigid_body import RigidBody

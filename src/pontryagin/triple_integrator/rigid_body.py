@@ -15,7 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin.errors import NotConverged
-from pontryagin.triple_integrator.kinematics import attitude_rate, cross
+from pontryagin.numerics.rotation import (
+    attitude_rate,
+    cross,
+)
 from pontryagin.validation import finite, vectors
 
 TOLERANCE = 1e-13

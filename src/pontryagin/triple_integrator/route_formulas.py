@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import sympy as sp
 
-from pontryagin.compile import function
+from pontryagin.numerics.compile import function
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import tf
 

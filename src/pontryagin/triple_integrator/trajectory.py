@@ -5,7 +5,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.jit import Batched
+from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.maneuver import Maneuver
 

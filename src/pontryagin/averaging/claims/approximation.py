@@ -8,8 +8,13 @@ from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.claims.optimum import closed
 from pontryagin.averaging.derivation import averaged, ripple
 from pontryagin.averaging.derivation.averaged import kappa
-from pontryagin.evidence import Conditional, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -7,8 +7,15 @@ from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.claims.principle import cost_costate
 from pontryagin.averaging.derivation import averaged, principle, rotor, smooth
 from pontryagin.averaging.derivation.averaged import alpha, eta, g, h0, omega, xi
-from pontryagin.evidence import Conditional, Consequence, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

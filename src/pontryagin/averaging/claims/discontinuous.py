@@ -8,8 +8,13 @@ from pontryagin.averaging import smooth_example
 from pontryagin.averaging.claims import worked
 from pontryagin.averaging.derivation import correction, principle, ripple, smooth
 from pontryagin.averaging.derivation.principle import psi
-from pontryagin.evidence import Conditional, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

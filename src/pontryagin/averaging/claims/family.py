@@ -6,8 +6,16 @@ import sympy as sp
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import principle, ripple, rotor, smooth
 from pontryagin.averaging.derivation.principle import a, epsilon, f, omega, p, q, u
-from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

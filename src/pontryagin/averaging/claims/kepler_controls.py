@@ -18,8 +18,15 @@ from pontryagin.averaging.derivation.kepler import (
 )
 from pontryagin.averaging.derivation.kepler_optimum import OPTIMUM, energy0, momentum0, solution, tau
 from pontryagin.averaging.derivation.kepler_principle import costate_energy, price
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

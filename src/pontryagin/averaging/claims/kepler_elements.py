@@ -19,8 +19,15 @@ from pontryagin.averaging.derivation.kepler import (
     v_transverse,
 )
 from pontryagin.averaging.derivation.kepler_phase import eccentricity_rate, pericentre_rate
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -20,8 +20,14 @@ from pontryagin.averaging.derivation.kepler import (
     v_radial,
     v_transverse,
 )
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

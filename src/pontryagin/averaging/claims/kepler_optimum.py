@@ -20,8 +20,15 @@ from pontryagin.averaging.derivation.kepler_optimum import (
     tau,
 )
 from pontryagin.averaging.derivation.kepler_principle import costate_energy, price
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

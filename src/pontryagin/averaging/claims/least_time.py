@@ -5,7 +5,8 @@ import sympy as sp
 from pontryagin.averaging.claims.rotor import TURN
 from pontryagin.averaging.derivation import rotor
 from pontryagin.averaging.derivation.rotor import FORCE, MASS, a, epsilon, u, v, x
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
@@ -15,7 +16,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 
 claim = Page("Akulenko 1977")
 

@@ -7,8 +7,13 @@ from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import averaged, optimum, ripple, rotor
 from pontryagin.averaging.derivation.averaged import kappa
 from pontryagin.averaging.derivation.optimum import Psi
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

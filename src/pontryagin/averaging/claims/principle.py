@@ -4,8 +4,16 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import principle, smooth
 from pontryagin.averaging.derivation.principle import F, alpha, epsilon, f, g, h_star, omega, p, psi, q
-from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -4,8 +4,13 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import rigid_body
 from pontryagin.averaging.derivation.rigid_body import a, c, d, epsilon, psi, u, w
-from pontryagin.evidence import Conditional, Equality, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -4,8 +4,16 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import rigid_body
 from pontryagin.averaging.derivation.rigid_body import a, c, epsilon, h, l, p_a, p_c, p_psi, psi, u
-from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -19,8 +19,16 @@ from pontryagin.averaging.derivation.rigid_body import (
     u,
     w,
 )
-from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -6,8 +6,13 @@ import sympy as sp
 from pontryagin.averaging import smooth_example
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import optimum, ripple, smooth
-from pontryagin.evidence import Conditional, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

@@ -4,8 +4,13 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import rotor
 from pontryagin.averaging.derivation.rotor import FORCE, MASS, POTENTIAL, a, epsilon, u, v, x
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

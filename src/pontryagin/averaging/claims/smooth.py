@@ -4,7 +4,8 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import smooth
 from pontryagin.averaging.derivation.smooth import T, eta, gap, k, kappa, tau, u, v, v0, v1
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
@@ -13,7 +14,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 
 claim = Page("Akulenko 1977")
 

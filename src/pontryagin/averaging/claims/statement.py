@@ -4,8 +4,14 @@ import sympy as sp
 
 from pontryagin.averaging.derivation import averaged, kepler, principle, ripple, smooth
 from pontryagin.averaging.derivation.principle import epsilon, psi
-from pontryagin.evidence import Conditional, Proof, Slip, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Proof,
+    Slip,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

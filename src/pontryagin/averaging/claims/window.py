@@ -6,8 +6,14 @@ import sympy as sp
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import averaged, ripple
 from pontryagin.averaging.derivation.averaged import h0, kappa
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 
 claim = Page("Akulenko 1977")
 

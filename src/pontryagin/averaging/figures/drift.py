@@ -8,7 +8,12 @@ from numpy.typing import NDArray
 
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.solution import AveragedSolution
-from pontryagin.plotting import BLUE, ORANGE, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    ORANGE,
+    styled,
+    subplots,
+)
 
 TAU = r"slow time $\tau=\varepsilon t$"
 SAMPLES = 1201

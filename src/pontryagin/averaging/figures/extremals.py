@@ -6,7 +6,11 @@ from matplotlib.figure import Figure
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
 from pontryagin.averaging.solution import AveragedSolution
-from pontryagin.plotting import PALETTE, styled, subplots
+from pontryagin.display.plotting import (
+    PALETTE,
+    styled,
+    subplots,
+)
 
 
 @styled

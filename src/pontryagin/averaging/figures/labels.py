@@ -1,6 +1,12 @@
 """Words and colours that the figures of this paper share."""
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, RED
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    RED,
+)
 
 SLOW_TIME = r"slow time $\tau = \varepsilon t$"
 END_TIME = r"end time $\tau_1$"

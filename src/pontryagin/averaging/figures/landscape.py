@@ -10,8 +10,11 @@ from scipy.interpolate import CubicSpline
 from pontryagin.averaging.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.averaging.solution import AveragedSolution, solve_averaged
+from pontryagin.display.plotting import (
+    styled,
+    subplots,
+)
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.plotting import styled, subplots
 
 Array = NDArray[np.float64]
 

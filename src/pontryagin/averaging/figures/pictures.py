@@ -16,7 +16,11 @@ from pontryagin.averaging.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.averaging.smooth import smooth_example
 from pontryagin.averaging.solution import solve_averaged
-from pontryagin.plotting import INK, styled, subplots
+from pontryagin.display.plotting import (
+    INK,
+    styled,
+    subplots,
+)
 
 Array = NDArray[np.float64]
 

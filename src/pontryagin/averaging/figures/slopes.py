@@ -7,7 +7,12 @@ from numpy.typing import NDArray
 
 from pontryagin.averaging import slopes
 from pontryagin.averaging.figures.labels import EXACT, MEAN
-from pontryagin.plotting import INK, ORANGE, styled, subplots
+from pontryagin.display.plotting import (
+    INK,
+    ORANGE,
+    styled,
+    subplots,
+)
 
 
 @styled

@@ -6,7 +6,12 @@ from matplotlib.figure import Figure
 from pontryagin.averaging.braking import Braking, brake
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
 from pontryagin.averaging.spin_down_example import spin_down
-from pontryagin.plotting import INK, SKY, styled, subplots
+from pontryagin.display.plotting import (
+    INK,
+    SKY,
+    styled,
+    subplots,
+)
 
 
 @styled

@@ -8,7 +8,12 @@ from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.averaging.spiral import fly
-from pontryagin.plotting import GREEN, INK, WIDTH, styled
+from pontryagin.display.plotting import (
+    GREEN,
+    INK,
+    WIDTH,
+    styled,
+)
 
 
 @styled

@@ -2,8 +2,13 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Proof, Slip, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Proof,
+    Slip,
+    Steps,
+    vanishes,
+)
 from pontryagin.orbit_correction import exact
 from pontryagin.orbit_correction.claims.convexity import DISC, deficit
 from pontryagin.orbit_correction.claims.family import family, named

@@ -4,7 +4,8 @@ from itertools import pairwise
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
@@ -13,7 +14,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.orbit_correction import summands
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.summands import A, u, x

@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Equality
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import Equality
 from pontryagin.orbit_correction import summands
 from pontryagin.orbit_correction.claims.costate import parts
 from pontryagin.orbit_correction.claims.family import family, named

@@ -2,8 +2,15 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Slip, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Slip,
+    Steps,
+    vanishes,
+)
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.exact import Ellipsoid
 

@@ -4,8 +4,13 @@ import functools
 
 import sympy as sp
 
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.orbit_correction import summands
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.exact import ExactSystem

@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Slip, Steps
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Slip,
+    Steps,
+)
 from pontryagin.orbit_correction import exact, summands
 from pontryagin.orbit_correction.claims.boundary import only_controls, optimal
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2

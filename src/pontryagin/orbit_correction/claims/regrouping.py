@@ -3,7 +3,8 @@
 import numpy as np
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
     Misprint,
@@ -11,7 +12,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.orbit import RADIAL, TRANSVERSE, printed_transition

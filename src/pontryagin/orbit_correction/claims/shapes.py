@@ -2,8 +2,15 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.orbit_correction import summands
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.family import family, named

@@ -3,14 +3,14 @@
 import numpy as np
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Equality,
     Proof,
     Refutation,
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 

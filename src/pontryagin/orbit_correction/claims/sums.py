@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Consequence, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.orbit_correction import exact
 from pontryagin.orbit_correction.claims.convexity import deficit
 from pontryagin.orbit_correction.claims.family import family, named

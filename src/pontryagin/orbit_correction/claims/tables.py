@@ -3,9 +3,16 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.decimals import Decimals, unit
-from pontryagin.evidence import Conditional, Proof, Steps
 from pontryagin.ledger import Entry, Page
+from pontryagin.ledger.decimals import (
+    Decimals,
+    unit,
+)
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Proof,
+    Steps,
+)
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 

@@ -8,8 +8,8 @@ import sympy as sp
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from pontryagin.evidence import Steps
 from pontryagin.ledger import Unsupported
+from pontryagin.ledger.evidence import Steps
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.plan import Plan, correct
 from pontryagin.orbit_correction.system import Gauge, gauge_of_factors

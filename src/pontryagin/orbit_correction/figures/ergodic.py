@@ -4,10 +4,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from pontryagin.display.plotting import (
+    INK,
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction import ergodic
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.thrust import THRUSTS
-from pontryagin.plotting import INK, styled, subplots
 
 
 @styled

@@ -8,12 +8,20 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
 
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    RED,
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.alternatives import Alternative, least_energy, least_fuel, least_peak
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.flight import single
 from pontryagin.orbit_correction.plan import Plan
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, RED, styled, subplots
 
 MEASURES = {"peak": BLUE, "energy": ORANGE, "fuel": GREEN}
 

@@ -3,9 +3,12 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from pontryagin.display.plotting import (
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.montecarlo import Distribution
-from pontryagin.plotting import styled, subplots
 
 
 @styled

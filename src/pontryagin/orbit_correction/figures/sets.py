@@ -6,10 +6,21 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    WIDTH,
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.flight import single
 from pontryagin.orbit_correction.plan import Plan
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
 
 SHADES = (PURPLE, GREEN, BLUE, SKY, RED, INK)
 PERCENT = 100.0

@@ -4,10 +4,16 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.intervals import singular_values, sweep
 from pontryagin.orbit_correction.thrust import THRUSTS
-from pontryagin.plotting import BLUE, GREEN, ORANGE, styled, subplots
 
 
 @styled

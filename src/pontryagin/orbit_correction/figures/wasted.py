@@ -3,9 +3,14 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    styled,
+    subplots,
+)
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.waste import Waste
-from pontryagin.plotting import BLUE, INK, styled, subplots
 
 AREA = 5.0
 """Of a dot that stands for one state, in square points."""

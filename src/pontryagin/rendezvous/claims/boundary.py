@@ -2,8 +2,15 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.claims.statement import growth
 from pontryagin.rendezvous.derivation import (
     model,

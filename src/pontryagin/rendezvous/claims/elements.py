@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, vect
 from pontryagin.rendezvous.derivation.sapunkov import A, B, Q, epsilon, force, half_anomaly, u, velocity, w

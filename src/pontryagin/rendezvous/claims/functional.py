@@ -4,8 +4,15 @@ import math
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Slip, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Slip,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.claims import meetings, spirals
 from pontryagin.rendezvous.derivation import model, principle, terminal
 from pontryagin.rendezvous.derivation.model import anomaly, thrust, v1

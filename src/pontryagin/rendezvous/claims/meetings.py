@@ -14,9 +14,9 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from pontryagin import compile as compiler
-from pontryagin.evidence import Steps
-from pontryagin.flow import flow
+from pontryagin.ledger.evidence import Steps
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import flow
 from pontryagin.rendezvous.derivation import forms, model, principle, reduction, terminal, transversality
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, vect
 

@@ -2,8 +2,13 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.derivation import (
     canonical,
     forms,

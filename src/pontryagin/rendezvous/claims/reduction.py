@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Equality, Proof, Refutation, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Refutation,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.claims import meetings
 from pontryagin.rendezvous.claims.statement import at_unit_norm
 from pontryagin.rendezvous.derivation import principle, reduction, terminal, transversality, variation

@@ -11,7 +11,7 @@ from functools import cache
 import sympy as sp
 from scipy.integrate import quad
 
-from pontryagin import compile as compiler
+from pontryagin.numerics import compile as compiler
 from pontryagin.rendezvous.derivation import model
 from pontryagin.rendezvous.derivation.model import c, gravity, r, thrust
 

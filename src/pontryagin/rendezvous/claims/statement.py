@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.rendezvous.claims import meetings
 from pontryagin.rendezvous.derivation import forms, model, principle, transversality
 from pontryagin.rendezvous.derivation.model import (

@@ -4,9 +4,12 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import WIDTH, styled
+from pontryagin.display.plotting import (
+    WIDTH,
+    styled,
+)
 from pontryagin.rendezvous.figures.orbit import draw
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 COLUMNS = 3
 

@@ -10,15 +10,34 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PALETTE,
+    RED,
+    SEQUENTIAL,
+    styled,
+    subplots,
+)
 from pontryagin.errors import NotConverged
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PALETTE, RED, SEQUENTIAL, styled, subplots
-from pontryagin.rendezvous.cases import cases, fuel_cases
-from pontryagin.rendezvous.elements_flight import switching
-from pontryagin.rendezvous.elements_fuel import least_fuel
-from pontryagin.rendezvous.elements_solve import ElementsExtremal, solve_in_elements
+from pontryagin.rendezvous.elements.elements.flight import switching
+from pontryagin.rendezvous.elements.elements.least_fuel import least_fuel
+from pontryagin.rendezvous.elements.elements.solution import (
+    ElementsExtremal,
+    solve_in_elements,
+)
 from pontryagin.rendezvous.figures.solved import solved
-from pontryagin.rendezvous.judge import MESHES, verdicts
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.judge.table.table import (
+    MESHES,
+    verdicts,
+)
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    cases,
+    fuel_cases,
+)
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Array = NDArray[np.float64]
 TIME = r"time $t$"
@@ -31,7 +50,7 @@ def elements_along(solution: ElementsExtremal) -> Figure:
 
     Examples
     --------
-    >>> from pontryagin.rendezvous.cases import case
+    >>> from pontryagin.rendezvous.problem.cases import case
     >>> elements_along(solve_in_elements(case("circle-energy").problem)).get_label()
     'elements-along'
     """

@@ -4,12 +4,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pontryagin.plotting import BLUE, PALETTE, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    PALETTE,
+    styled,
+    subplots,
+)
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.elements_arcs import COSTATES
-from pontryagin.rendezvous.elements_certify import running_cost
-from pontryagin.rendezvous.elements_flight import switching
-from pontryagin.rendezvous.elements_solve import ElementsExtremal
+from pontryagin.rendezvous.elements.elements.arcs import COSTATES
+from pontryagin.rendezvous.elements.elements.certificate import running_cost
+from pontryagin.rendezvous.elements.elements.flight import switching
+from pontryagin.rendezvous.elements.elements.solution import ElementsExtremal
 
 Array = NDArray[np.float64]
 SAMPLES = 601
@@ -21,8 +26,8 @@ def costates_along(solution: ElementsExtremal) -> Figure:
 
     Examples
     --------
-    >>> from pontryagin.rendezvous.cases import case
-    >>> from pontryagin.rendezvous.elements_solve import solve_in_elements
+    >>> from pontryagin.rendezvous.problem.cases import case
+    >>> from pontryagin.rendezvous.elements.solution import solve_in_elements
     >>> costates_along(solve_in_elements(case("circle-energy").problem)).get_label()
     'costates-along'
     """

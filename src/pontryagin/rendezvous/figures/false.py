@@ -6,14 +6,24 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import BLUE, INK, RED, WIDTH, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    RED,
+    WIDTH,
+    styled,
+    subplots,
+)
+from pontryagin.rendezvous.false_meetings.family import (
+    FalseFamily,
+    Meeting,
+)
+from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jacobian
+from pontryagin.rendezvous.false_meetings.rotated_target import in_one_plane
 from pontryagin.rendezvous.figures.labels import CRAFT, PHANTOM, TARGET, THRUST, power
 from pontryagin.rendezvous.figures.orbit import equal
 from pontryagin.rendezvous.figures.paths import flown, target_at, target_orbit, turned_orbit
-from pontryagin.rendezvous.meetings import FalseFamily, Meeting
-from pontryagin.rendezvous.printed import printed_jacobian
-from pontryagin.rendezvous.solution import Extremal
-from pontryagin.rendezvous.turned import in_one_plane
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 COLUMNS = 3
 FLOOR = 1e-18

@@ -2,9 +2,20 @@
 
 from dataclasses import dataclass
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
-from pontryagin.rendezvous.cases import ASTRONOMICAL_UNIT, DAY, SUN
-from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+)
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    ASTRONOMICAL_UNIT,
+    DAY,
+    SUN,
+)
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 
 COMPONENTS = (BLUE, GREEN, ORANGE)
 CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, "#888888", RED, INK, PURPLE

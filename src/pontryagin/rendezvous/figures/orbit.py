@@ -5,10 +5,14 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 from numpy.typing import NDArray
 
-from pontryagin.plotting import INK, WIDTH, styled
+from pontryagin.display.plotting import (
+    INK,
+    WIDTH,
+    styled,
+)
 from pontryagin.rendezvous.figures.labels import CRAFT, START, TARGET, THRUST, units
 from pontryagin.rendezvous.figures.paths import first_orbit, flown, target_orbit
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Array = NDArray[np.float64]
 VIEW = {"elev": 28, "azim": -60}

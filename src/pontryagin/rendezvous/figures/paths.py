@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.rendezvous.cartesian import target_by_kepler
-from pontryagin.rendezvous.flight import Flight
-from pontryagin.rendezvous.problem import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
+from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
 Array = NDArray[np.float64]
 EX = np.array([1.0, 0.0, 0.0])

@@ -8,12 +8,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pontryagin.plotting import styled, subplots
+from pontryagin.display.plotting import (
+    styled,
+    subplots,
+)
 from pontryagin.rendezvous.figures.labels import CRAFT, INK, OTHER
-from pontryagin.rendezvous.homotopy import follow
-from pontryagin.rendezvous.quadrature import energy
-from pontryagin.rendezvous.shooting import Equations, Setting, equations
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.reduced.homotopy import follow
+from pontryagin.rendezvous.reduced.quadrature import energy
+from pontryagin.rendezvous.reduced.shooting import (
+    Equations,
+    Setting,
+    equations,
+)
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Array = NDArray[np.float64]
 MARGIN, DEAR = 1.25, 1.6

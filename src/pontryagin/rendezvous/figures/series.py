@@ -5,11 +5,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pontryagin.plotting import BLUE, INK, styled, subplots
-from pontryagin.rendezvous.certify import anomaly_constant, flown_thrust, hamiltonian
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    styled,
+    subplots,
+)
 from pontryagin.rendezvous.figures.labels import BOUND, COMPONENTS, THRUST, units
-from pontryagin.rendezvous.flight import switching
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.reduced.certificate import (
+    anomaly_constant,
+    flown_thrust,
+    hamiltonian,
+)
+from pontryagin.rendezvous.reduced.flight import switching
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Array = NDArray[np.float64]
 COUNT = 601

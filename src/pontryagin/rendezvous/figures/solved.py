@@ -2,8 +2,14 @@
 
 import functools
 
-from pontryagin.rendezvous.cases import case, cases
-from pontryagin.rendezvous.solution import Extremal, solve
+from pontryagin.rendezvous.problem.rendezvous.cases import (
+    case,
+    cases,
+)
+from pontryagin.rendezvous.reduced.solution import (
+    Extremal,
+    solve,
+)
 
 
 @functools.cache

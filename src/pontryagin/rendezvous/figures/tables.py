@@ -6,11 +6,14 @@ from typing import Any
 import numpy as np
 
 from pontryagin.rendezvous import small_weight
-from pontryagin.rendezvous.cases import cases
+from pontryagin.rendezvous.false_meetings.family import FalseFamily
 from pontryagin.rendezvous.figures.labels import Units, units
-from pontryagin.rendezvous.judge import MESHES, verdicts
-from pontryagin.rendezvous.meetings import FalseFamily
-from pontryagin.rendezvous.solution import Extremal
+from pontryagin.rendezvous.judge.table.table import (
+    MESHES,
+    verdicts,
+)
+from pontryagin.rendezvous.problem.rendezvous.cases import cases
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 Columns = dict[str, list[Any]]
 

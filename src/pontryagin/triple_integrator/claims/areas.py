@@ -2,12 +2,12 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
     Misprint,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.peak import (
     area_with_two_zeros,
     first,

@@ -2,8 +2,15 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, LinearSystem, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    LinearSystem,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import sign, signed_norm, z

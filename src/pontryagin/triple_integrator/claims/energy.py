@@ -2,8 +2,16 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Consequence, Equality, Misprint, Proof, Steps, Unreadable, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    Unreadable,
+    vanishes,
+)
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import drive, tau, tf
 from pontryagin.triple_integrator.derivation.model import (

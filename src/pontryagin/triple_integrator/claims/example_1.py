@@ -2,8 +2,13 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.model import (

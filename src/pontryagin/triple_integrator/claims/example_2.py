@@ -2,13 +2,13 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Equality,
     Proof,
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.duality import area_of, dual_function_of, piecewise_moments

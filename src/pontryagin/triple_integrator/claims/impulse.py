@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
@@ -12,7 +13,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.chebyshev import element
 from pontryagin.triple_integrator.derivation import channel, chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive, kick, required_moments, tau

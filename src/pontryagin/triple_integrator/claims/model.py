@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import (

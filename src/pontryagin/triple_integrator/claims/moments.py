@@ -2,8 +2,13 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.derivation import channel
 from pontryagin.triple_integrator.derivation.channel import control, disturbance, t, t0, tau, tf
 from pontryagin.triple_integrator.derivation.model import (

@@ -2,8 +2,16 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.derivation import energy
 from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.duality import conjugate_norm, lengths, levels

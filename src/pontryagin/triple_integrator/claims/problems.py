@@ -2,8 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Proof,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN
 from pontryagin.triple_integrator.derivation.channel import t, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses

@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
@@ -10,7 +11,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses

@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
@@ -11,7 +12,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.peak import two_switches
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.duality import piecewise_moments

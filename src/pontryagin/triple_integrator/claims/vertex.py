@@ -2,14 +2,14 @@
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import (
     drive,

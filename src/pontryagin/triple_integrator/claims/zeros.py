@@ -4,7 +4,8 @@ import itertools
 
 import sympy as sp
 
-from pontryagin.evidence import (
+from pontryagin.ledger import Page
+from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     LinearSystem,
@@ -12,7 +13,6 @@ from pontryagin.evidence import (
     Steps,
     vanishes,
 )
-from pontryagin.ledger import Page
 from pontryagin.triple_integrator.claims.peak import (
     area_with_two_zeros,
     first,

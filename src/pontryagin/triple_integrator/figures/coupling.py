@@ -8,8 +8,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    RED,
+    SEQUENTIAL,
+    styled,
+    subplots,
+)
 from pontryagin.errors import NotConverged
-from pontryagin.plotting import BLUE, INK, RED, SEQUENTIAL, styled, subplots
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple, spherical_factor
 from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.maneuver import Maneuver

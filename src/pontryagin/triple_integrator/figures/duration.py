@@ -4,7 +4,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.plotting import BLUE, INK, ORANGE, RED, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    INK,
+    ORANGE,
+    RED,
+    styled,
+    subplots,
+)
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import PeakSolution, minimum_peak
 from pontryagin.triple_integrator.time import minimum_time

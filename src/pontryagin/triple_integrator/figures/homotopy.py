@@ -8,7 +8,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pontryagin.plotting import BLUE, GREEN, INK, RED, SEQUENTIAL, styled, subplots
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    RED,
+    SEQUENTIAL,
+    styled,
+    subplots,
+)
 from pontryagin.triple_integrator.energy import minimum_energy
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.programmes import draw_impulses

@@ -4,7 +4,14 @@ from typing import Any
 
 import numpy as np
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+)
 from pontryagin.triple_integrator.energy import EnergySolution, minimum_energy
 from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
 from pontryagin.triple_integrator.maneuver import Maneuver

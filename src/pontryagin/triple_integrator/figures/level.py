@@ -5,7 +5,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from pontryagin.plotting import INK, RED, SKY, styled, subplots
+from pontryagin.display.plotting import (
+    INK,
+    RED,
+    SKY,
+    styled,
+    subplots,
+)
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.kernels import level_equation
 from pontryagin.triple_integrator.maneuver import Maneuver

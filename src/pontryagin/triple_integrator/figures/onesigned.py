@@ -6,7 +6,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import GREEN, INK, ORANGE, SEQUENTIAL, styled, subplots
+from pontryagin.display.plotting import (
+    GREEN,
+    INK,
+    ORANGE,
+    SEQUENTIAL,
+    styled,
+    subplots,
+)
 from pontryagin.triple_integrator.entropy import maximum_entropy
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.programmes import draw_impulses

@@ -4,7 +4,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import INK, WIDTH, styled
+from pontryagin.display.plotting import (
+    INK,
+    WIDTH,
+    styled,
+)
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.impulse import minimum_impulse

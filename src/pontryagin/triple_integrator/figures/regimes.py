@@ -6,7 +6,15 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, WIDTH, styled
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    WIDTH,
+    styled,
+)
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.impulse import REGIMES, minimum_impulse
 

@@ -3,7 +3,17 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    WIDTH,
+    styled,
+)
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.search import Survey
 

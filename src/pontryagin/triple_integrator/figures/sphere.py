@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from pontryagin.plotting import INK
+from pontryagin.display.plotting import INK
 from pontryagin.triple_integrator.maneuver import Maneuver
 
 Array = NDArray[np.float64]

@@ -4,7 +4,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.plotting import INK, RED, SKY, styled, subplots
+from pontryagin.display.plotting import (
+    INK,
+    RED,
+    SKY,
+    styled,
+    subplots,
+)
 from pontryagin.triple_integrator.attitude import turn
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution

@@ -1,0 +1,1 @@
+"""Figures, tables, recordings and what a notebook shows."""

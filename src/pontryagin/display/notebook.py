@@ -1,0 +1,179 @@
+"""What notebooks display besides figures and tables: formulas, and entries of the ledger judged anew."""
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from pontryagin import ledger
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    WIDTH,
+    styled,
+)
+from pontryagin.ledger import Entry
+
+TILES: dict[str, str] = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
+_SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
+
+
+def equation(left: Any, right: Any) -> None:
+    r"""Display ``left = right`` as mathematics.
+
+    Parameters
+    ----------
+    left, right : SymPy expression or matrix, or LaTeX
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> equation("J", sp.Symbol("x") ** 2)
+    {'text/latex': '$\\displaystyle J = x^{2}$', 'text/plain': ...}
+    """
+    equations([left], [right])
+
+
+def equations(left: Iterable[Any], right: Iterable[Any] | None = None) -> None:
+    r"""Display equations one below the other, aligned at the sign of equality.
+
+    Parameters
+    ----------
+    left, right : SymPy expressions or matrices, or LaTeX
+        Both sides; or a mapping from left-hand to right-hand sides alone.
+    """
+    sides = left.items() if isinstance(left, Mapping) else zip(left, right or (), strict=True)
+    rows = [f"{_latex(a)} &= {_latex(b)}" for a, b in sides]
+    single = len(rows) == 1
+    lines = r" \\ ".join(rows)
+    body = lines.replace(" &= ", " = ") if single else rf"\begin{{aligned}} {lines} \end{{aligned}}"
+    _publish({"text/latex": rf"$\displaystyle {body}$"})
+
+
+def vanishing(expressions: Iterable[Any]) -> None:
+    """Display expressions that are to be zero, as equations one below the other."""
+    listed = list(expressions)
+    equations(listed, ["0"] * len(listed))
+
+
+def entry(label: str, paper: str | None = None) -> None:
+    """Check an entry of the ledger; display what is printed, what is derived, the verdict and the remark.
+
+    Parameters
+    ----------
+    label : str
+        Equation number or place, as in the ledger.
+    paper : str, optional
+        A paper's name or part of it.
+
+    Raises
+    ------
+    ValueError
+        If there is no such entry, or several papers have one.
+    pontryagin.ledger.Unsupported
+        If the verdict does not stand.
+    """
+    found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
+    if not found:
+        raise ValueError(f"label: got {label!r}, takes one of the ledger's")
+    if len(papers := list(dict.fromkeys(one.paper for one in found))) > 1:
+        raise ValueError(f"paper: got {paper!r}, takes one of those that have {label}: {', '.join(papers)}")
+    for one in found:
+        one.check()
+        _publish({"text/markdown": account(one)})
+
+
+def verdicts(verdict: str, paper: str | None = None) -> None:
+    """Check every entry of a verdict; display each as `entry` does, with the steps of its proof."""
+    for one in ledger.entries(paper, verdict):
+        steps = "\n".join(f"- {_text(step)}" for step in one.proof())
+        _publish({"text/markdown": f"{account(one)}\n\nChecked here, step by step:\n\n{steps}"})
+
+
+def account(entry: Entry) -> str:
+    """An entry as Markdown: print and derivation typeset, then the remark."""
+    parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
+    if entry.printed_latex:
+        parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
+    if entry.derived_latex:
+        same = entry.verdict == "holds"
+        parts.append("Derived: the same." if same else f"Derived:\n\n$${entry.derived_latex}$$")
+    if entry.remark:
+        parts.append(_text(entry.remark))
+    return "\n\n".join(parts)
+
+
+def counts_table() -> dict[str, list[Any]]:
+    """Entries of each verdict by paper: columns for `plotting.show_table`."""
+    rows = by_paper(ledger.entries())
+    groups = [*rows.values(), [one for group in rows.values() for one in group]]
+    tallies = [ledger.counts(group) for group in groups]
+    seen = [verdict for verdict in ledger.VERDICTS if tallies[-1][verdict]]
+    columns: dict[str, list[Any]] = {"paper": [*rows, "all"]}
+    columns |= {verdict: [tally[verdict] for tally in tallies] for verdict in seen}
+    return columns | {"entries": [len(group) for group in groups]}
+
+
+def by_paper(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
+    """Entries under the names of their papers, in the order of the ledger."""
+    grouped: dict[str, list[Entry]] = {}
+    for one in entries:
+        grouped.setdefault(one.paper, []).append(one)
+    return grouped
+
+
+@styled
+def verdict_tiles() -> Figure:
+    """One tile for each entry in the order of its paper, papers below one another, coloured by verdict."""
+    grouped = by_paper(ledger.entries())
+    across = 36
+    gap = 0.5
+    lines = [
+        (number * gap, name if start == 0 else "", group[start : start + across])
+        for number, (name, group) in enumerate(grouped.items())
+        for start in range(0, len(group), across)
+    ]
+    height = len(lines) + gap * (len(grouped) - 1)
+    figure = Figure(figsize=(WIDTH, 0.5 + 0.165 * height), layout="constrained")
+    ax = figure.subplots()
+    for line, (offset, name, group) in enumerate(lines):
+        row = line + offset
+        ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)
+        for column, one in enumerate(group):
+            faint = 0.35 if one.verdict == "holds" else 1.0
+            tile = Rectangle(
+                (column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0
+            )
+            ax.add_patch(tile)
+    ax.set(xlim=(-10.5, across), ylim=(height, 0), aspect="equal")
+    ax.axis("off")
+    present = [verdict for verdict, count in ledger.counts(ledger.entries()).items() if count]
+    handles = [Patch(color=TILES[verdict], alpha=0.35 if verdict == "holds" else 1.0) for verdict in present]
+    figure.legend(handles, present, loc="outside lower center", ncols=len(present), handlelength=1.0)
+    return figure
+
+
+def _latex(side: Any) -> str:
+    import sympy as sp
+
+    return side if isinstance(side, str) else sp.latex(side)
+
+
+def _text(words: str) -> str:
+    """Words for Markdown: what stands between dollars is kept, the rest means itself."""
+    parts = re.split(r"(\$[^$]*\$)", words)
+    return "".join(part if part.startswith("$") else _SPECIAL.sub(r"\\\1", part) for part in parts)
+
+
+def _publish(data: dict[str, str]) -> None:
+    from IPython.display import display
+
+    plain = next(iter(data.values()))
+    display({**data, "text/plain": plain}, raw=True)

@@ -1,0 +1,1 @@
+"""Files and texts: formulas, rows of a table, paths."""

@@ -1,0 +1,1 @@
+"""The rendezvous solved in Sapunkov's orbital elements."""

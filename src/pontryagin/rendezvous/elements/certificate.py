@@ -1,0 +1,199 @@
+"""How exactly an extremal in the elements satisfies everything that it must, with Newton's law as a witness.
+
+The witness has Cartesian coordinates, other costates and another integrator; it shares the thrust's law and
+the switch times.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.certificate import MaximumPrinciple
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.elements.elements.arcs import (
+    COSTATES,
+    TIME,
+)
+from pontryagin.rendezvous.elements.elements.elements import (
+    I1,
+    Elements,
+    place,
+    place_gradient,
+    relation_gradient,
+)
+from pontryagin.rendezvous.elements.elements.flight import (
+    ElementFlight,
+    start_of,
+    switching,
+)
+from pontryagin.rendezvous.elements.elements.shooting import Root
+from pontryagin.rendezvous.quaternions import product
+from pontryagin.rendezvous.witness.cartesian import (
+    cartesian_of,
+    target_by_kepler,
+)
+
+Array = NDArray[np.float64]
+SAMPLES = 201
+
+
+@dataclass(frozen=True)
+class ElementsCertificate(MaximumPrinciple):
+    """Residuals of a rendezvous in the elements, in units with p* = c* = fM = 1; no bound on other costs.
+
+    Parameters
+    ----------
+    boundary : () array
+        Distance between craft and target at the meeting, difference of their velocities, and by what a fixed
+        duration is missed.
+    transversality : () array
+        Momentum of the turn, relative to the largest costate, and at a free duration the terminal law.
+    hamiltonian : () array
+        |H| with what the target's motion adds, which is constant and at a free duration 0; at a fixed one
+        the change of H. In units of the largest running cost.
+    maximality : () array
+        As in `MaximumPrinciple`, in units of the largest running cost.
+    cartesian : () array
+        ``boundary`` by Newton's law in inertial axes.
+    agreement : () array
+        Largest difference of R and V on the way between the elements and Newton's law, and of n relative to
+        the largest.
+    relation : () array
+        Largest |scal(A~ o i1 o B)|.
+    switching : () array
+        Largest relative difference between |n| and its level at the switches.
+    condition : () array
+        Condition number of the shooting equations, costates measured by the largest and phi by itself.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve_in_elements
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> proof = solve_in_elements(leap).certificate
+    >>> proof.holds(1e-10), bool(proof.relation < 1e-12)
+    (True, True)
+    """
+
+    cartesian: NDArray[np.float64]
+    agreement: NDArray[np.float64]
+    relation: NDArray[np.float64]
+    switching: NDArray[np.float64]
+    condition: NDArray[np.float64]
+
+    @cached_property
+    def residual(self) -> NDArray[np.float64]:
+        """The largest of all but the condition number."""
+        own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
+        return np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)
+
+
+def certify(root: Root, free: bool) -> ElementsCertificate:
+    """Evaluate every condition anew."""
+    flight = root.flight
+    grid = np.linspace(0.0, flight.phi, SAMPLES)
+    states = flight.sample(grid)
+    thrust, n = flight.thrust(states, grid), switching(states, grid)
+    running = running_cost(flight, thrust)
+    largest = float(running.max())
+    kappa = np.asarray(kernels.element_phase(*[*states[:, :16].T, grid]))
+    energy = -running + np.sum(n * thrust, axis=1) + kappa
+    law = abs(float(n[-1] @ thrust[-1] - running[-1])) / largest if free else 0.0
+    late = 0.0 if free else abs(flight.duration - float(flight.scaled.duration or 0))
+    here = place(states[:, :4], states[:, 4:8], grid)
+    there = fly_cartesian(flight, states[:, TIME])
+    goal = target_by_kepler(flight.scaled, flight.duration)
+    size = np.linalg.norm(n, axis=1).max()
+    pair = Elements(states[:, :4], states[:, 4:8])
+    scale = np.append(np.full(6, np.abs(root.unknowns[:6]).max()), root.unknowns[6])
+    return ElementsCertificate(
+        boundary=np.maximum(np.abs(here[-1] - goal).max(), late),
+        transversality=np.maximum(law, turn_momentum(states)),
+        hamiltonian=np.abs(energy - (kappa[-1] if free else energy[-1])).max() / largest,
+        maximality=np.asarray(np.max(maximality(flight, n, thrust)) / largest),
+        cartesian=np.abs(there[-1, :6] - goal).max(),
+        agreement=np.maximum(np.abs(there[:, :6] - here).max(), np.abs(there[:, 9:] - n).max() / size),
+        relation=np.abs(pair.relation).max(),
+        switching=np.asarray(off_level(flight)),
+        condition=np.asarray(np.linalg.cond(root.equations.jacobian * scale)),
+    )
+
+
+def running_cost(flight: ElementFlight, thrust: Array) -> Array:
+    """L at thrusts (k, 3)."""
+    size = np.linalg.norm(thrust, axis=1)
+    if flight.law.bang:
+        return np.ones_like(size)
+    return flight.law.ratio + (size**2 if flight.law.kind == "square" else size)
+
+
+def maximality(flight: ElementFlight, n: Array, thrust: Array) -> Array:
+    """By how much the largest H over |p| <= p_max exceeds H at the thrust flown."""
+    size, law = np.linalg.norm(n, axis=1), flight.law
+    if law.bang:
+        most = size * law.peak
+    elif law.kind == "fuel":
+        most = np.maximum(size - 1, 0.0) * law.peak
+    else:
+        best = np.minimum(size / 2, law.peak)
+        most = size * best - best**2
+    used = np.sum(n * thrust, axis=1) - running_cost(flight, thrust) + (1.0 if law.bang else law.ratio)
+    excess = np.maximum(np.linalg.norm(thrust, axis=1) - law.peak, 0.0)
+    return np.abs(most - used) + excess
+
+
+def turn_momentum(states: Array) -> float:
+    """Largest |(a, i1 o A) + (b, i1 o B)|, relative to the largest costate."""
+    moved = np.hstack([product(I1, states[:, :4]), product(I1, states[:, 4:8])])
+    costates = states[:, COSTATES]
+    return float(np.abs(np.sum(moved * costates, axis=1)).max() / np.abs(costates).max())
+
+
+def off_level(flight: ElementFlight) -> float:
+    """Largest relative difference between |n| and its level, at the switches."""
+    if len(flight.pieces) == 1:
+        return 0.0
+    states = np.array([piece.whole[:17] for piece in flight.pieces[1:]])
+    level = flight.law.constants(flight.pieces[0].mode).level
+    return float(np.abs(np.linalg.norm(switching(states, flight.switch_angles), axis=1) / level - 1).max())
+
+
+def fly_cartesian(flight: ElementFlight, times: Array) -> Array:
+    """R, V, psi_R and psi_V (k, 12) at ascending times by DOP853, arc by arc."""
+    from scipy.integrate import solve_ivp
+
+    state = cartesian_start(flight)
+    rows = np.empty((len(times), 12))
+    begins = np.append(0.0, flight.switch_times)
+    for piece, begin, end in zip(flight.pieces, begins, np.append(begins[1:], flight.duration), strict=True):
+        peak = flight.law.peak if piece.mode == "saturated" else 0.0
+        kernel, scale = (
+            (kernels.cartesian_unsaturated, 1.0)
+            if piece.mode == "unsaturated"
+            else (kernels.cartesian_saturated, peak)
+        )
+
+        def rate(_: float, x: Array, kernel=kernel, scale: float = scale) -> Array:
+            return np.array(kernel(*x, 1.0, scale))
+
+        inside = (times >= begin) & (times <= end)
+        grid, back = np.unique(np.append(times[inside], end), return_inverse=True)
+        result = solve_ivp(rate, (begin, end), state, "DOP853", grid, rtol=3e-14, atol=1e-15)
+        if result.status:
+            raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - result.t[-1])
+        rows[inside], state = result.y.T[back[:-1]], result.y[:, -1]
+    return rows
+
+
+def cartesian_start(flight: ElementFlight) -> Array:
+    """R, V and their costates psi at t0: (a, b) is M' psi and a multiple of the relation's gradient."""
+    craft = start_of(flight.scaled)
+    costates = flight.pieces[0].whole[COSTATES]
+    columns = np.column_stack([place_gradient(craft).T, relation_gradient(craft)])
+    psi = np.linalg.lstsq(columns, costates, rcond=None)[0][:6]
+    return np.concatenate([cartesian_of(flight.scaled.start, np.array([1.0, 0, 0, 0])), psi])

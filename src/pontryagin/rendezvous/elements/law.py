@@ -1,0 +1,81 @@
+"""What is minimised in the elements and under which bound: which thrust the switching function n asks for."""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from pontryagin.rendezvous.elements.elements.arcs import (
+    RISING,
+    Constants,
+    Mode,
+)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A functional and its bound, in the units of `Scaled` with alpha2 = 1.
+
+    Parameters
+    ----------
+    kind : "square" or "fuel"
+        alpha1 + alpha2 p^2, or alpha1 + alpha2 |p|.
+    ratio : float
+        alpha1/alpha2; inf for alpha2 = 0, least time.
+    peak : float
+        p_max.
+    width : float
+        Of the smoothed jump of "fuel"; 0 for the jump itself.
+    """
+
+    kind: Literal["square", "fuel"]
+    ratio: float
+    peak: float
+    width: float = 0.0
+
+    def but(self, **changes) -> "Law":
+        """The same with some of it changed."""
+        return replace(self, **changes)
+
+    @property
+    def bang(self) -> bool:
+        """Whether alpha2 = 0."""
+        return self.ratio == np.inf
+
+    @property
+    def charge(self) -> float:
+        """L at p_max, without alpha1."""
+        return 0.0 if self.bang or self.peak == np.inf else self.peak ** (2 if self.kind == "square" else 1)
+
+    @property
+    def end_switching(self) -> float:
+        """|n(t_k)| of a free meeting, by (n, p) = L; of "fuel" with its jump, and with alpha1 > 0."""
+        if self.bang:
+            return 1 / self.peak
+        if self.kind == "fuel":
+            return 1 + self.ratio / self.peak
+        root = np.sqrt(self.ratio)
+        return float(2 * root if root <= self.peak else self.ratio / self.peak + self.peak)
+
+    def mode(self, size: float) -> Mode:
+        """Of the thrust where |n| has a size."""
+        if self.bang:
+            return "saturated"
+        if self.kind == "square":
+            return "saturated" if size > 2 * self.peak else "unsaturated"
+        if self.width:
+            return "smoothed"
+        return "saturated" if size > 1 else "coast"
+
+    def constants(self, mode: Mode) -> Constants:
+        """Of the integrator of a mode."""
+        peak = self.peak if self.peak < np.inf else 1.0
+        levels = {"square": 2 * self.peak, "fuel": 1.0}
+        never = self.bang or mode == "smoothed" or levels[self.kind] == np.inf
+        level = (1e30 if RISING[mode] > 0 else 1e-30) if never else levels[self.kind]
+        return Constants(peak, self.charge, level, self.width or 1.0)
+
+    @property
+    def jumps(self) -> bool:
+        """Whether the thrust jumps at a switch."""
+        return self.kind == "fuel" and not self.bang and not self.width

@@ -1,0 +1,165 @@
+"""The second functional, alpha1 + alpha2 |p|: thrust at the peak or none, found smooth and then sharpened.
+
+An entropy of the throttle, of a given width, keeps the thrust smooth: p = p_max (1 + tanh(S/width))/2 with
+S = |n|/alpha2 - 1. From an extremal of the first functional the costates are scaled to give about the same
+thrust, the goal is led to the target, a free duration to the terminal law, the bound lowered and the width
+after it. Then the jump itself takes the place of the smoothed one: Newton's method with the switches located
+as events.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.elements.elements.flight import switching
+from pontryagin.rendezvous.elements.elements.law import Law
+from pontryagin.rendezvous.elements.elements.shooting import (
+    Root,
+    Setting,
+    follow_round,
+    newton,
+)
+from pontryagin.rendezvous.elements.elements.solution import (
+    ElementsExtremal,
+    largest_thrust,
+    require,
+)
+from pontryagin.rendezvous.elements.elements.start import (
+    energy,
+    led,
+    marched,
+)
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.reduced.first_extremal import first_duration
+from pontryagin.validation import integer
+
+Array = NDArray[np.float64]
+
+WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
+"""Of the smoothed jump; from the fourth on, sharpening is tried."""
+SHARPENED_FROM = 0.1
+ROOM = 1.3
+"""The bound that the smoothed family starts from, in units of the largest thrust of the first functional."""
+
+
+def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
+    """A rendezvous of least integral of alpha1 + alpha2 |p|, with its thrust on or off.
+
+    The problem's ``time_weight`` and ``energy_weight`` are alpha1 and alpha2, the latter of |p| here. One
+    family of extremals is followed; other numbers of revolutions are other local optima.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        What is to be solved; its peak must be finite.
+    revolutions : int
+        How many more than the number nearest to what the craft would make coasting.
+
+    Returns
+    -------
+    ElementsExtremal
+        Its ``modes`` are "saturated" and "coast" in turn; ``smoothed`` holds the extremals that led to it.
+
+    Raises
+    ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, or ``revolutions`` no integer.
+    ValueError
+        If the peak is infinite: the optimum is then a few impulses, and no thrust; if ``energy_weight``
+        is 0: that is the least time, which `solve` and `solve_in_elements` find; or if the duration is
+        free and the craft is with the target at the start.
+    Infeasible
+        If the duration is free and costs nothing.
+    NotConverged
+        If the family turns back or ends before the problem asked for.
+
+    Examples
+    --------
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, least_fuel
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=0.15, duration=6.0)
+    >>> found = least_fuel(leap)
+    >>> found.modes, found.certificate.holds(1e-10)
+    (('saturated', 'coast', 'saturated'), True)
+    """
+    require(problem)
+    integer("revolutions", revolutions)
+    if problem.energy_weight == 0:
+        raise ValueError("energy_weight must be greater than 0, got 0: nothing but time would cost")
+    if problem.peak == math.inf:
+        raise ValueError(
+            "peak must be finite, got inf: without a bound the least integral of |p| is not reached by any "
+            "thrust, but approached by impulses"
+        )
+    scaled = problem.scaled
+    law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
+    value = problem.energy_weight * scaled.acceleration * scaled.time
+    duration = scaled.duration or _duration(scaled)
+    wide = _wide(scaled, law, duration, revolutions)
+    smoothed, sharp = _freed(scaled, law, wide) if problem.free else _sharpened(scaled, law, wide, duration)
+    return ElementsExtremal(problem, sharp, value, tuple(smoothed))
+
+
+def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
+    """As `_sharpened`, with the terminal law in place of the duration.
+
+    With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
+    extremal of one duration led to the law.
+    """
+    try:
+        return _sharpened(scaled, law, wide, None)
+    except NotConverged:
+        smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
+        return smoothed, marched(scaled, law, sharp)
+
+
+def _duration(scaled: Scaled) -> float:
+    """Of a problem with a free one, to start from: with half the peak one orbit becomes the other."""
+    return 1.5 * first_duration(scaled, (scaled.peak / 2) ** 2)
+
+
+def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
+    """The extremal of the widest smoothed jump."""
+    gentle = energy(scaled, duration, revolutions)
+    wide = law.but(width=WIDTHS[0], peak=max(law.peak, ROOM * largest_thrust(gentle.flight)))
+    root = led(Setting(scaled, wide, duration), scaled_to(gentle, wide))
+    fixed = scaled.duration
+    if fixed is None:
+        root = marched(scaled, wide, root)
+
+    def lowered(logarithm: float) -> Setting:
+        return Setting(scaled, wide.but(peak=math.exp(logarithm)), fixed)
+
+    return follow_round(lowered, root, math.log(wide.peak), math.log(law.peak))
+
+
+def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> tuple[list[Root], Root]:
+    """The smoothed extremals, widest first, and the one with the jump itself that the last leads to."""
+
+    def narrowed(logarithm: float) -> Setting:
+        return Setting(scaled, law.but(width=math.exp(logarithm)), duration)
+
+    found = [wide]
+    for width in WIDTHS[1:]:
+        last = found[-1]
+        found.append(follow_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
+        if width <= SHARPENED_FROM:
+            try:
+                return found, newton(Setting(scaled, law, duration), found[-1].unknowns)
+            except NotConverged:
+                continue
+    raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
+
+
+def scaled_to(gentle: Root, law: Law) -> Array:
+    """Unknowns of an extremal of the first functional, scaled to a smoothed thrust about as large."""
+    flight = gentle.flight
+    grid = np.linspace(0.0, flight.phi, 201)
+    size = float(np.sqrt(np.mean(switching(flight.sample(grid), grid) ** 2) * 3))
+    share = min(0.9, size / 2 / law.peak)
+    factor = max(0.1, 1 + law.width * math.atanh(2 * share - 1)) / size
+    return gentle.unknowns * np.append(np.full(6, factor), 1.0)

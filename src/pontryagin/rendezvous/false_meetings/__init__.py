@@ -1,0 +1,1 @@
+"""False meetings: extremals that satisfy the paper's ten equations and miss the target."""

@@ -1,0 +1,110 @@
+"""One extremal at a glance: its way from above and from the side, thrust, |n| and H against time."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    styled,
+    subplots,
+)
+from pontryagin.rendezvous.playback.motion import (
+    Passage,
+    passage,
+)
+from pontryagin.rendezvous.reduced.solution import Extremal
+
+POINTS = 241
+ARROWS = 24
+"""Thrust arrows along the way."""
+FLOOR = 1e-17
+GREY = "#999999"
+
+
+@styled
+def profile(extremal: Extremal) -> Figure:
+    """The way in the target's axes, and thrust, |n| and H against time.
+
+    Parameters
+    ----------
+    extremal : Extremal
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> problem = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6),
+    ...                      time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
+    >>> profile(solve(problem)).get_label()
+    'profile'
+    """
+    flown = passage(extremal)
+    figure, axes = subplots(3, 2, height=7.2, height_ratios=[1.7, 1, 1])
+    _way(axes[0, 0], flown, (0, 1))
+    _way(axes[0, 1], flown, (0, 2))
+    axes[0, 0].legend(loc="upper left", bbox_to_anchor=(0.0, 1.2), ncols=3, columnspacing=1.0)
+    _thrust(axes[1, 0], axes[1, 1], flown)
+    _switching(axes[2, 0], flown)
+    _hamiltonian(axes[2, 1], flown)
+    for ax in axes[2]:
+        ax.set_xlabel("time $t$")
+    return figure
+
+
+def _way(ax: Axes, flown: Passage, shown: tuple[int, int]) -> None:
+    """The way and both orbits on two of the target's axes, in units of p*."""
+    where = list(shown)
+    target = flown.on_orbit(np.linspace(0.0, 2 * np.pi, POINTS))
+    start = flown.osculating(POINTS, slice(1))[0]
+    place = flown.place[: flown.meeting]
+    ax.plot(*start[:, where].T, color=GREY, linewidth=1.0, label="orbit at $t_0$")
+    ax.plot(*target[:, where].T, color=GREEN, linewidth=1.0, label="target's orbit")
+    ax.plot(*place[:, where].T, color=BLUE, label="craft")
+    some = np.unique(np.searchsorted(flown.t, np.linspace(0, flown.t[-1], ARROWS)))
+    arrows = flown.thrust[some] / np.linalg.norm(flown.thrust, axis=1).max()
+    ax.quiver(*place[some][:, where].T, *arrows[:, where].T, color=RED, width=0.006, scale=9, zorder=3)
+    ax.plot(*place[0, where], "o", color=GREY)
+    ax.plot(*flown.target[0, where], "o", color=GREEN, fillstyle="none")
+    ax.plot(*flown.target[flown.meeting - 1, where], "o", color=GREEN)
+    ax.plot(0, 0, "o", color=INK, markersize=3.5)
+    names = ("x", "y", "z")
+    ax.set(xlabel=f"${names[shown[0]]}/p^*$", ylabel=f"${names[shown[1]]}/p^*$")
+    ax.set_aspect("equal", adjustable="datalim")
+
+
+def _thrust(components: Axes, magnitude: Axes, flown: Passage) -> None:
+    for i, (values, colour) in enumerate(zip(flown.control.T, (BLUE, ORANGE, PURPLE), strict=True), start=1):
+        components.plot(flown.t, values, color=colour, label=f"$p_{i}$")
+    components.set_ylabel(r"thrust in $\eta$")
+    components.margins(y=0.28)
+    components.legend(ncols=3, loc="upper center", columnspacing=1.0, handlelength=1.2)
+    magnitude.plot(flown.t, np.linalg.norm(flown.control, axis=1), color=RED, label="$|p|$")
+    peak = flown.extremal.problem.peak
+    if np.isfinite(peak):
+        magnitude.axhline(peak, color=INK, linewidth=0.9, linestyle="--", label=r"$p_{\max}$")
+        magnitude.legend(loc="best")
+    magnitude.set_ylabel("magnitude $|p|$")
+    magnitude.set_ylim(bottom=0.0)
+
+
+def _switching(ax: Axes, flown: Passage) -> None:
+    ax.plot(flown.t, flown.primer, color=BLUE, label="$|n|$")
+    if flown.saturation is not None:
+        label = r"$2\alpha_2 p_{\max}$"
+        ax.axhline(flown.saturation, color=INK, linewidth=0.9, linestyle="--", label=label)
+        ax.legend(loc="best")
+    ax.set_ylabel("switching function $|n|$")
+    ax.set_ylim(bottom=0.0)
+
+
+def _hamiltonian(ax: Axes, flown: Passage) -> None:
+    ax.semilogy(flown.t, np.maximum(np.abs(flown.hamiltonian), FLOOR), color=BLUE, linewidth=0.9)
+    told = "|H|" if flown.extremal.problem.free else "|H-H(t_k)|"
+    ax.set_ylabel(f"${told}$ over cost rate")
+    ax.set_ylim(FLOOR, 1.0)

@@ -1,0 +1,1 @@
+"""The rendezvous solved by a direct method, as an independent check."""

@@ -1,0 +1,1 @@
+"""The rendezvous solved by the repaired equations of reduced dimension."""

@@ -1,0 +1,168 @@
+"""A whole extremal of given costates: its arcs, its end and how the end depends on the costates.
+
+A flight starts in the mode that |n| says and changes it at every switch. It knows nothing of a target.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.reduced.arcs import (
+    COUNT,
+    Mode,
+    arc,
+    identity,
+)
+
+Array = NDArray[np.float64]
+SWITCHES = 200
+"""A flight with more switches than this is given up."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One arc: where it begins, in which mode."""
+
+    begin: float
+    mode: Mode
+    whole: Array
+
+
+@dataclass(frozen=True)
+class Flight:
+    """An extremal in the units of `Scaled`.
+
+    Attributes
+    ----------
+    scaled : Scaled
+        The problem.
+    costates : (6,) array
+        rho, s1, e, nu1, nu2, nu3 at t0.
+    duration : float
+        Its end.
+    peak : float
+        p_max.
+    bang : bool
+        Whether alpha2 = 0: saturated throughout.
+    chart : int
+        Chart of chi.
+    pieces : tuple of Piece
+        Its arcs.
+    end : (12,) array
+        r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3, chi, p_max at the end.
+    slopes : (12, 7) array
+        Derivatives of the end in the costates and in p_max.
+    taylor : bool or None
+        As for `pontryagin.numerics.flow.flow`.
+    """
+
+    scaled: Scaled
+    costates: Array
+    duration: float
+    peak: float
+    bang: bool
+    chart: int
+    pieces: tuple[Piece, ...]
+    end: Array
+    slopes: Array
+    taylor: bool | None
+
+    @property
+    def switch_times(self) -> Array:
+        """Where the thrust meets or leaves its bound."""
+        return np.array([piece.begin for piece in self.pieces[1:]])
+
+    @property
+    def has_switches(self) -> bool:
+        """Whether the thrust can meet its bound and leave it again."""
+        return not self.bang and self.peak < np.inf
+
+    @property
+    def mode(self) -> Mode:
+        """The mode at the end."""
+        return self.pieces[-1].mode
+
+    def sample(self, times: Array) -> Array:
+        """The twelve states at ascending times, (k, 12)."""
+        starts = np.array([piece.begin for piece in self.pieces])
+        which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, None)
+        rows = np.empty((len(times), COUNT))
+        for i in np.unique(which):
+            piece, chosen = self.pieces[i], np.flatnonzero(which == i)
+            grid, back = np.unique(np.append(times[chosen], piece.begin), return_inverse=True)
+            integrator = arc(piece.mode, self.has_switches, self.taylor)
+            states = integrator.sample(piece.whole, grid, self.scaled.eccentricity, self.chart)
+            rows[chosen] = states[back[:-1]]
+        return rows
+
+    def attitude(self, states: Array) -> Array:
+        """lambda0~ o lambda (..., 4) of states (..., 12)."""
+        values = [*self.costates[3:], *np.moveaxis(states[..., 7:11], -1, 0), float(self.chart)]
+        return np.stack(kernels.attitude(*values), axis=-1)
+
+    def thrust(self, times: Array) -> Array:
+        """p in eta, (k, 3)."""
+        return thrust(self.sample(times), self.peak, self.bang)
+
+
+def switching(states: Array) -> Array:
+    """n in eta, (..., 3), of the twelve states (..., 12)."""
+    r, _, c, _, _, s1, e, nu1 = np.moveaxis(states[..., :8], -1, 0)
+    return np.stack(kernels.switching(r, c, s1, e, nu1), axis=-1)
+
+
+def thrust(states: Array, peak: float, bang: bool) -> Array:
+    """What maximises H, (8) and (10): n/2, or p_max n/|n| where that is smaller or alpha2 = 0."""
+    n = switching(states)
+    size = np.linalg.norm(n, axis=-1, keepdims=True)
+    bounded = peak / np.where(size > 0, size, 1.0)
+    return n * (bounded if bang else np.minimum(0.5, bounded))
+
+
+def chart_of(costates: Array) -> int:
+    """The chart whose singular direction is farther from nu."""
+    return 1 if costates[5] >= 0 else -1
+
+
+def fly(
+    scaled: Scaled,
+    costates: Array,
+    duration: float,
+    peak: float = np.inf,
+    bang: bool = False,
+    chart: int | None = None,
+    taylor: bool | None = None,
+    rough: bool = False,
+) -> Flight:
+    """Follow the extremal that starts with the given costates; roughly, where it is but a guess.
+
+    Raises
+    ------
+    NotConverged
+        Where the integrator stops short: at the centre of attraction, or at |n| = 0 under alpha2 = 0.
+    """
+    bound = peak if peak < np.inf else 1.0
+    chosen = chart_of(costates) if chart is None else chart
+    start = np.concatenate([scaled.start, [scaled.anomaly], costates, [0.0, bound]])
+    whole = np.concatenate([start, identity().ravel()])
+    loud = bang or float(np.sum(switching(start) ** 2)) > (2 * peak) ** 2
+    pieces: list[Piece] = []
+    time, left = 0.0, True
+    while left:
+        mode: Mode = "saturated" if loud else "unsaturated"
+        pieces.append(Piece(time, mode, whole))
+        if len(pieces) > SWITCHES:
+            raise NotConverged("the thrust switches too often", duration - time)
+        integrator = arc(mode, not bang and peak < np.inf, taylor, rough)
+        time, whole, left = integrator.run(whole, time, duration, scaled.eccentricity, chosen)
+        loud = not loud
+    end, slopes = whole[:COUNT], whole[COUNT:].reshape(COUNT, -1)
+    if not np.isfinite(whole).all():
+        raise NotConverged("the extremal leaves the domain of the equations", float("inf"))
+    return Flight(
+        scaled, np.array(costates), duration, peak, bang, chosen, tuple(pieces), end, slopes, taylor
+    )

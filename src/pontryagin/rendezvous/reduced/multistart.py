@@ -1,0 +1,272 @@
+"""Many starts of one rendezvous: where each leads, and Newton's method from all of them side by side."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.quaternions import product
+from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.lanes import (
+    Flights,
+    fly_all,
+)
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import (
+    SEEN,
+    STEP,
+    Setting,
+)
+from pontryagin.rendezvous.reduced.solution import (
+    Extremal,
+    distinct,
+)
+from pontryagin.validation import positive, vectors
+
+Array = NDArray[np.float64]
+ITERATIONS, HALVINGS = 30, 6
+FAINT = 1e-8
+"""In the place of nu = 0, which has no direction; the slopes change by as much."""
+NEAR = 1e-8
+"""Residual from which Newton's method for one flight does the rest."""
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Where extremals of given costates lead.
+
+    Attributes
+    ----------
+    reached : (...) array of bool
+        Whether the extremal could be followed to its end; where not, its other rows hold nan.
+    state : (..., 8) array
+        r, v1, c, phi* and lambda (four) at the end, in the user's units.
+    costate : (..., 6) array
+        rho, s1, e, nu1, nu2, nu3 at the end, in the user's units of the cost over those of the state.
+    miss : (..., 6) array
+        r - r*, v1 - v1*, c - c* of (5) in units with p* = c* = fM = 1, and vect(lambda~ o lambda*) of (6).
+    slopes : (..., 6, 6) array
+        Derivatives of the miss in the costates at t0, by the variational equations.
+    switches : (...) array of int
+        How often the thrust met its bound or left it.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, carry
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> there = carry(leap, np.zeros((2, 3, 6)))
+    >>> there.state.shape, there.slopes.shape, int(there.switches.max())
+    ((2, 3, 8), (2, 3, 6, 6), 0)
+    """
+
+    reached: NDArray[np.bool_]
+    state: Array
+    costate: Array
+    miss: Array
+    slopes: Array
+    switches: NDArray[np.int64]
+
+
+def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None = None) -> Carried:
+    """Carry extremals, (2), (8)-(14), from their costates at t0 to their ends, many at once.
+
+    heyoka's vector mode does it, switches of the thrust included; without heyoka they go one by one.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        Gives the start, the bound, the weights and what is to be met.
+    costates : (..., 6) array_like
+        rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
+    durations : (...) array_like, optional
+        When each ends; by default the problem's own fixed duration.
+
+    Returns
+    -------
+    Carried
+        One row for each start.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> costate = solve(leap).initial_costate
+    >>> there = carry(leap, [costate, 2 * costate])
+    >>> there.reached.tolist(), bool(np.abs(there.miss[0]).max() < 1e-12), there.slopes.shape
+    ([True, True], True, (2, 6, 6))
+    """
+    _require(problem)
+    scaled = problem.scaled
+    given = vectors("costates", costates, 6)
+    asked = problem.duration if durations is None else durations
+    if asked is None:
+        raise ValueError("durations must be given where the problem leaves the duration free, got None")
+    wanted = positive("durations", asked)
+    try:
+        shape = np.broadcast_shapes(given.shape[:-1], wanted.shape)
+    except ValueError:
+        raise ValueError(
+            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {wanted.shape}"
+        ) from None
+    inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
+    times = np.broadcast_to(wanted / scaled.time, shape).ravel()
+    with np.errstate(all="ignore"):  # costates without measure are told by `reached`
+        flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
+    miss, slopes = misses(scaled, flights)
+    speed = scaled.length / scaled.time
+    units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
+    attitude = product(problem.chaser.attitude, relative_attitude(flights))
+    state = np.hstack([flights.ends[:, :4] * units, attitude])
+    reached = flights.reached & np.isfinite(slopes).all(axis=(1, 2))
+    for rows in (state, miss, slopes):
+        rows[~reached] = np.nan
+    return Carried(
+        reached.reshape(shape),
+        state.reshape(*shape, 8),
+        (flights.ends[:, 4:10] * scaled.costate_units).reshape(*shape, 6),
+        miss.reshape(*shape, 6),
+        (slopes / scaled.costate_units).reshape(*shape, 6, 6),
+        flights.switches.reshape(shape),
+    )
+
+
+def _directed(costates: Array) -> Array:
+    """Those without nu are given a little of it along i3: the flight is the same, and chi has its axis."""
+    given = np.array(costates)
+    given[~given[:, 3:].any(axis=1), 5] = FAINT
+    return given
+
+
+def relative_attitude(flights: Flights) -> Array:
+    """lambda0~ o lambda at the ends, (k, 4)."""
+    inputs = [*flights.costates.T[3:], *flights.ends.T[7:11], flights.charts]
+    with np.errstate(all="ignore"):  # of those that could not be followed
+        return np.stack(kernels.attitude(*inputs), axis=-1)
+
+
+def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
+    """(5) and (6) at the ends, (k, 6), and their derivatives in the costates at t0, (k, 6, 6)."""
+    assert flights.slopes is not None
+    count = len(flights.ends)
+    with np.errstate(all="ignore"):
+        values = kernels.target(flights.ends[:, 3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
+    goal = np.delete(np.array([np.broadcast_to(value, count) for value in values]), 3, axis=0)
+    inputs = np.vstack([flights.ends.T[SEEN], flights.costates.T[3:]])
+    steps = inputs[:, None] + 1j * STEP * np.eye(10)[:, :, None]
+    with np.errstate(all="ignore"):  # at a chart's singular direction
+        missed = np.array(kernels.mismatch(*[*steps, flights.charts, *goal]))
+    by_input = np.moveaxis(missed.imag / STEP, -1, 0)
+    slopes = by_input[..., :7] @ flights.slopes[:, SEEN, :6]
+    slopes[..., 3:] += by_input[..., 7:]
+    return missed[:, 0].real.T, slopes
+
+
+def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]:
+    """The extremals of a fixed duration that Newton's method reaches from many starts, cheapest first.
+
+    All starts are carried together; each takes its own step, halved where the miss does not get smaller.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        With a fixed duration.
+    costates : (k, 6) array_like
+        Starts: rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
+
+    Returns
+    -------
+    tuple of Extremal
+        Each extremal once; none where no start led to one. The first's `searched` counts the starts lost.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Naming the argument that is not as above.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> starts = 0.1 * np.random.default_rng(1).standard_normal((8, 6))
+    >>> round(multistart(leap, starts)[0].cost, 6)
+    0.023882
+    """
+    _require(problem)
+    if problem.duration is None:
+        raise ValueError("problem must have a fixed duration, got one whose duration is free")
+    starts = vectors("costates", costates, 6)
+    if starts.ndim != 2:
+        raise ValueError(f"costates must be an array (k, 6), got shape {starts.shape}")
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    ends, sizes = newton_from_all(setting, _directed(starts / scaled.costate_units))
+    found: list[Extremal] = []
+    for unknowns in ends[sizes < NEAR]:
+        try:
+            found.append(Extremal(problem, newton(setting, unknowns)))
+        except NotConverged:
+            continue
+    best, *others = distinct(found) or (None,)
+    if best is None:
+        return ()
+    lost = f"{len(starts) - len(found)} of {len(starts)} starts, from which no meeting was reached"
+    log = Search(durations=[setting.duration or 0.0], given_up=[lost])
+    return (replace(best, others=tuple(others), searched=log), *others)
+
+
+def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:
+    """Where Newton's method with halved steps ends from the starts (k, 6): costates, sizes of the residual.
+
+    The size is inf where even the start cannot be flown.
+    """
+    here = np.array(starts)
+    size, step = _evaluate(setting, here)
+    active, share = np.isfinite(size), np.ones(len(here))
+    for _ in range(ITERATIONS * HALVINGS):
+        rows = np.flatnonzero(active & (size > NEAR) & (share > 0.5**HALVINGS))
+        if not len(rows):
+            break
+        trial = here[rows] + share[rows, None] * step[rows]
+        there, onward = _evaluate(setting, trial)
+        better = there < size[rows]
+        taken = rows[better]
+        here[taken], size[taken], step[taken] = trial[better], there[better], onward[better]
+        share[taken], share[rows[~better]] = 1.0, share[rows[~better]] / 2
+    return here, size
+
+
+def _evaluate(setting: Setting, costates: Array) -> tuple[Array, Array]:
+    """Sizes of the residual (k,), inf where there is none, and Newton's steps (k, 6)."""
+    size, step = np.full(len(costates), np.inf), np.zeros((len(costates), 6))
+    flights = fly_all(
+        setting.scaled, costates, setting.duration or 0, setting.peak, setting.bang, taylor=setting.taylor
+    )
+    miss, slopes = misses(setting.scaled, flights)
+    usable = flights.reached & np.isfinite(slopes).all(axis=(1, 2))
+    size[usable] = np.linalg.norm(miss[usable], axis=1)
+    for i in np.flatnonzero(usable):
+        step[i] = np.linalg.lstsq(slopes[i], -miss[i])[0]
+    return size, step
+
+
+def _require(problem: Rendezvous) -> None:
+    if not isinstance(problem, Rendezvous):
+        raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")

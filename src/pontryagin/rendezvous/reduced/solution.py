@@ -1,0 +1,246 @@
+"""Solve a rendezvous: every extremal found, best first."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.errors import Infeasible
+from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.quaternions import product
+from pontryagin.rendezvous.reduced.certificate import (
+    RendezvousCertificate,
+    certify,
+)
+from pontryagin.rendezvous.reduced.first_extremal import require_apart
+from pontryagin.rendezvous.reduced.flight import (
+    Flight,
+    thrust,
+)
+from pontryagin.rendezvous.reduced.homotopy import (
+    Root,
+    newton,
+)
+from pontryagin.rendezvous.reduced.quadrature import (
+    energy,
+    turned,
+)
+from pontryagin.rendezvous.reduced.search import extremals
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.validation import times
+
+Array = NDArray[np.float64]
+SAME = 1e-7
+"""Extremals whose durations and costs agree to this are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Extremal:
+    """A rendezvous that satisfies the maximum principle.
+
+    Attributes
+    ----------
+    problem : Rendezvous
+        What was asked for.
+    root : Root
+        The roots of the shooting equations, in the solver's units.
+    others : tuple of Extremal
+        The other extremals found, by cost; only the best one has them.
+    searched : Search
+        Where extremals were looked for and what was given up, and why; None with a ``start``.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> best = solve(leap)
+    >>> best.state([0.0, 6.0]).shape, best.costate([0.0, 6.0]).shape, best.control([0.0, 6.0]).shape
+    ((2, 8), (2, 6), (2, 3))
+    >>> len(best.others), best.modes, best.searched.revolutions
+    (1, ('unsaturated',), [0, 1])
+    """
+
+    problem: Rendezvous
+    root: Root = field(repr=False)
+    others: tuple["Extremal", ...] = field(default=(), repr=False)
+    searched: Search | None = field(default=None, repr=False)
+
+    @property
+    def flight(self) -> Flight:
+        """The extremal in the solver's units."""
+        return self.root.flight
+
+    @property
+    def duration(self) -> float:
+        """t_k, in the user's unit of time."""
+        return self.flight.duration * self.problem.scaled.time
+
+    @cached_property
+    def cost(self) -> float:
+        """J, the integral of alpha1 + alpha2 p^2."""
+        scaled = self.problem.scaled
+        alpha1, alpha2 = scaled.weights
+        spent = alpha2 * energy(self.flight) if alpha2 else 0.0
+        return (alpha1 * self.flight.duration + spent) * scaled.value
+
+    @property
+    def arrival_anomaly(self) -> float:
+        """phi*_k in radians, with the revolutions since t0 counted."""
+        return float(self.flight.end[3])
+
+    @property
+    def initial_costate(self) -> Array:
+        """rho, s1, e, nu1, nu2, nu3 at t0, (6,), in the user's units of the cost over those of the state."""
+        return self.flight.costates * self.problem.scaled.costate_units
+
+    @property
+    def switch_times(self) -> Array:
+        """Where the thrust meets its bound or leaves it, (k,)."""
+        return self.flight.switch_times * self.problem.scaled.time
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """ "unsaturated" or "saturated" for each arc between the switches."""
+        return tuple(piece.mode for piece in self.flight.pieces)
+
+    @cached_property
+    def revolutions(self) -> float:
+        """Angle that the craft turns about the centre, in revolutions."""
+        return turned(self.flight) / (2 * math.pi)
+
+    @cached_property
+    def certificate(self) -> RendezvousCertificate:
+        """Every condition of the maximum principle evaluated anew; see `RendezvousCertificate`."""
+        return certify(self.root, self.problem.scaled.weights, self.problem.free)
+
+    def _sampled(self, t: ArrayLike) -> Array:
+        zero, end = np.array(0.0), np.array(self.duration)
+        inside = times("t", t, zero, end) / self.problem.scaled.time
+        rows = self.flight.sample(np.clip(inside, 0.0, self.flight.duration).ravel())
+        return rows.reshape(*inside.shape, -1)
+
+    def state(self, t: ArrayLike) -> Array:
+        """r, v1, c, phi* and lambda (four) at the times t (..., k), (..., k, 8)."""
+        scaled, states = self.problem.scaled, self._sampled(t)
+        speed = scaled.length / scaled.time
+        attitude = product(self.problem.chaser.attitude, self.flight.attitude(states))
+        units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
+        return np.concatenate([states[..., :4] * units, attitude], axis=-1)
+
+    def costate(self, t: ArrayLike) -> Array:
+        """rho, s1, e, nu1, nu2, nu3 at the times t (..., k), (..., k, 6)."""
+        return self._sampled(t)[..., 4:10] * self.problem.scaled.costate_units
+
+    def control(self, t: ArrayLike) -> Array:
+        """p_eta at the times t (..., k), (..., k, 3)."""
+        return thrust(self._sampled(t), self.flight.peak, self.flight.bang) * self.problem.scaled.acceleration
+
+
+def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
+    """The best extremal found of the rendezvous (1)-(7); the others found are its `others`.
+
+    Solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
+    From coasting the costates are led to a transfer without bound, by families over the duration and over
+    the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
+    saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
+    cheapest comes first, and `searched` tells where they were looked for.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        What is to be solved.
+    start : Extremal, optional
+        A solution of a problem close to this one; its costates are then taken as the start of Newton's
+        method, and nothing else is looked for.
+
+    Returns
+    -------
+    Extremal
+        The cheapest found. Without a bound all extremals that the search came upon are among its
+        ``others``; with one, those that could be brought under it.
+
+    Raises
+    ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
+    ValueError
+        If the duration is free and the craft is with the target at the start.
+    Infeasible
+        If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
+        bound: no extremal was reached, and on a family followed the costates grew beyond measure.
+    NotConverged
+        If no extremal was reached otherwise.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> best = solve(leap)
+    >>> round(best.cost, 6), best.certificate.holds(1e-10)
+    (0.023882, True)
+    """
+    if not isinstance(problem, Rendezvous):
+        raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")
+    if problem.free and problem.time_weight == 0:
+        raise Infeasible(
+            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
+            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
+            "fix the duration, or give time_weight a positive value"
+        )
+    scaled = problem.scaled
+    if problem.free:
+        require_apart(scaled)
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    if start is not None:
+        require_extremal("start", start)
+        return Extremal(problem, newton(setting, _unknowns(start, problem)))
+    log = Search()
+    found = [Extremal(problem, root) for root in extremals(setting, log)]
+    best, *others = distinct(found)
+    return replace(best, others=tuple(others), searched=log)
+
+
+def require_extremal(name: str, given: object) -> None:
+    """Raise unless it is a solution by `solve`.
+
+    Raises
+    ------
+    TypeError
+        Naming the argument.
+    """
+    if not isinstance(given, Extremal):
+        raise TypeError(f"{name} must be an Extremal, as solve returns, got {given!r}")
+
+
+def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
+    """The costates of a neighbour's solution in this problem's units, and its duration if one is needed."""
+    scaled = problem.scaled
+    costates = start.initial_costate / scaled.costate_units
+    return np.append(costates, start.duration / scaled.time) if problem.free else costates
+
+
+def distinct(found: Iterable[Extremal]) -> list[Extremal]:
+    """Each extremal once, cheapest first."""
+    kept: list[Extremal] = []
+    for candidate in sorted(found, key=lambda x: x.cost):
+        if not any(_same(candidate, other) for other in kept):
+            kept.append(candidate)
+    return kept
+
+
+def _same(a: Extremal, b: Extremal) -> bool:
+    return bool(
+        np.isclose(a.duration, b.duration, rtol=SAME)
+        and np.isclose(a.cost, b.cost, rtol=SAME)
+        and np.allclose(a.flight.costates, b.flight.costates, rtol=1e-5, atol=1e-6)
+    )

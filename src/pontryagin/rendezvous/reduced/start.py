@@ -1,0 +1,176 @@
+"""A first extremal out of nothing: from coasting, whose costates are zero, to a meeting at a fixed time.
+
+The goal moves from where the craft coasts to where the target will be, and the extremal with it: no thrust
+at first, the whole transfer at last. The turn in the orbit's plane may be taken with whole revolutions more
+or less, which gives one family of extremals for each.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.quaternions import about_third, conjugate, product
+from pontryagin.rendezvous.reduced.flight import (
+    Flight,
+    fly,
+)
+from pontryagin.rendezvous.reduced.homotopy import (
+    Root,
+    newton,
+)
+from pontryagin.rendezvous.reduced.shooting import (
+    I3,
+    Setting,
+    by_goal,
+    goal_of,
+    mismatch,
+)
+
+Array = NDArray[np.float64]
+
+SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
+"""Costates of coasting; nu is not quite zero, so that it has a direction."""
+LEAST_STEP = 1 / 256
+TRIES = 60
+
+
+def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Root:
+    """The unbounded extremal of a fixed time, alpha2 = 1, that coasting leads to.
+
+    Parameters
+    ----------
+    setting : Setting
+        With a duration.
+    revolutions : int
+        How many turns more than the shortest the goal makes on its way.
+    seed : (6,) array
+        Costates whose own end the goal starts from; by default those of coasting.
+
+    Raises
+    ------
+    NotConverged
+        When the goal gets no farther with the extremal behind it.
+    """
+    loose = setting.but(peak=math.inf, ratio=1.0)
+    scaled, duration = loose.scaled, float(loose.duration or 0)
+    costates, done, step = seed, 0.0, 1.0
+    first = fly(scaled, costates, duration, taylor=loose.taylor)
+    path = _path(first, goal_of(loose, float(first.end[3]))[0], revolutions)
+    for _ in range(TRIES):
+        reached = min(1.0, done + step)
+        moved = _chase(loose, costates, done, reached, path)
+        if moved is None:
+            step /= 2
+            if step < LEAST_STEP:
+                break
+            continue
+        costates, done, step = moved, reached, min(1.0, 1.5 * step)
+        if done == 1:
+            return newton(loose, costates)
+    raise NotConverged("the goal could not be led to the target", 1 - done)
+
+
+def twist(relative: Array) -> float:
+    """The angle about i3 of a turn = (a turn about an axis across i3) o (a turn about i3), in (-pi, pi]."""
+    angle = 2 * math.atan2(relative[3], relative[0])
+    return angle - 2 * math.pi * round(angle / (2 * math.pi))
+
+
+def coasting_twist(scaled: Scaled, duration: float) -> float:
+    """The angle in the orbit's plane from where the craft coasts to where the target will be, (-pi, pi]."""
+    flight = fly(scaled, SEED, duration)
+    goal, _ = scaled.target(float(flight.end[3]))
+    return twist(product(conjugate(flight.attitude(flight.end)), goal[3:]))
+
+
+def _path(flight: Flight, goal: Array, revolutions: int):
+    """The goal (7,) and its rate as functions of the share of the way."""
+    place = flight.attitude(flight.end)
+    relative = product(conjugate(place), goal[3:])
+    angle = twist(relative)
+    tilt = product(relative, about_third(-angle))
+    tilt = tilt if tilt[0] >= 0 else -tilt
+    size = np.linalg.norm(tilt[1:])
+    axis = np.concatenate([[0.0], tilt[1:] / size]) if size else np.zeros(4)
+    half, whole = math.atan2(size, tilt[0]), angle + 2 * math.pi * revolutions
+    here = flight.end[:3]
+
+    def goal_at(share: float) -> tuple[Array, Array]:
+        tilted = math.cos(share * half) * np.array([1.0, 0, 0, 0]) + math.sin(share * half) * axis
+        attitude = product(product(place, tilted), about_third(share * whole))
+        rate = product(product(place, product(tilted, half * axis)), about_third(share * whole))
+        rate = rate + whole / 2 * product(attitude, I3)
+        return (
+            np.concatenate([here + share * (goal[:3] - here), attitude]),
+            np.concatenate([goal[:3] - here, rate]),
+        )
+
+    return goal_at
+
+
+def _chase(setting: Setting, costates: Array, done: float, reached: float, path) -> Array | None:
+    """Predict along the path, then Newton; None where it does not settle."""
+    scaled, duration = setting.scaled, float(setting.duration or 0)
+    goal, rate = path(done)
+
+    def evaluate(z: Array, towards: Array) -> tuple[Flight, Array, Array]:
+        flight = fly(scaled, z, duration, taylor=setting.taylor, rough=True)
+        values, by_state, by_start = mismatch(flight, towards)
+        columns = (by_state @ flight.slopes)[:, :6]
+        columns[:, 3:] += by_start
+        return flight, values, columns
+
+    try:
+        flight, _, columns = evaluate(costates, goal)
+        z = costates - np.linalg.solve(columns, by_goal(flight, goal, rate)) * (reached - done)
+        last = np.inf
+        for _ in range(8):
+            _, values, columns = evaluate(z, path(reached)[0])
+            step = np.linalg.solve(columns, -values)
+            size = float(np.linalg.norm(step))
+            if not size < max(last, 1e-9):
+                return None
+            z, last = z + step, size
+            if size < 1e-8 * (1e-6 + np.linalg.norm(z)):
+                return z
+    except (NotConverged, np.linalg.LinAlgError):
+        pass
+    return None
+
+
+def ballistic_lead(scaled: Scaled, duration: float) -> float:
+    """By how much the target turns farther than the coasting craft would, in radians."""
+    turned = []
+    for radius, radial, areal, anomaly in (
+        (*scaled.start, None),
+        (0.0, 0.0, 1.0, scaled.anomaly),
+    ):
+        if anomaly is None:
+            parameter = areal**2
+            vector = (parameter / radius - 1, areal * radial)
+            eccentricity, anomaly = math.hypot(*vector), math.atan2(vector[1], vector[0])
+        else:
+            parameter, eccentricity = 1.0, scaled.eccentricity
+        turned.append(_swept(parameter, eccentricity, anomaly, duration))
+    return turned[1] - turned[0]
+
+
+def _swept(parameter: float, eccentricity: float, anomaly: float, duration: float) -> float:
+    """The true anomaly gained on a Kepler ellipse in a time, fM = 1."""
+    motion = math.sqrt(((1 - eccentricity**2) / parameter) ** 3)
+    squeeze = math.sqrt((1 - eccentricity) / (1 + eccentricity))
+    lap = 2 * math.pi * round(anomaly / (2 * math.pi))
+    begin = 2 * math.atan(squeeze * math.tan((anomaly - lap) / 2))
+    mean = begin - eccentricity * math.sin(begin) + motion * duration
+    eccentric = mean
+    for _ in range(60):
+        gap = eccentric - eccentricity * math.sin(eccentric) - mean
+        step = gap / (1 - eccentricity * math.cos(eccentric))
+        eccentric -= step
+        if abs(step) < 1e-14 * (1 + abs(eccentric)):
+            break
+    turns = 2 * math.pi * round(eccentric / (2 * math.pi))
+    return turns + 2 * math.atan(math.tan((eccentric - turns) / 2) / squeeze) + lap - anomaly

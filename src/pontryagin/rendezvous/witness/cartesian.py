@@ -1,0 +1,94 @@
+"""A second way to the same place: Newton's law in inertial axes, and Kepler's equation for the target.
+
+Nothing here is shared with the solver but the costates at the start and the times of the switches: other
+variables, another integrator (SciPy's DOP853), another formula for where the target is.
+"""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.errors import NotConverged
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.quaternions import rotated
+from pontryagin.rendezvous.reduced.flight import Flight
+
+Array = NDArray[np.float64]
+
+
+def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, times: Array) -> Array:
+    """States (k, n) at ascending times, arc by arc by DOP853; ``rates(mode)`` is a function of the state."""
+    from scipy.integrate import solve_ivp
+
+    ends = [*(piece.begin for piece in flight.pieces[1:]), flight.duration]
+    rows = np.empty((len(times), len(start)))
+    state = np.asarray(start, dtype=float)
+    for piece, end in zip(flight.pieces, ends, strict=True):
+        rate = rates(piece.mode)
+
+        def along(_: float, x: Array, rate: Callable = rate) -> Array:
+            return rate(x)
+
+        inside = (times >= piece.begin) & (times <= end)
+        grid, back = np.unique(np.append(times[inside], end), return_inverse=True)
+        result = solve_ivp(along, (piece.begin, end), state, "DOP853", grid, rtol=3e-14, atol=1e-15)
+        if result.status:
+            raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - result.t[-1])
+        rows[inside], state = result.y.T[back[:-1]], result.y[:, -1]
+    return rows
+
+
+def cartesian_of(states: Array, attitude: Array) -> Array:
+    """R and V (..., 6) of r, v1, c and the attitude."""
+    r, v1, c = np.moveaxis(states[..., :3], -1, 0)
+    return np.stack(kernels.cartesian(r, v1, c, *np.moveaxis(attitude, -1, 0)), axis=-1)
+
+
+def start_of(flight: Flight) -> Array:
+    """R, V, psi_R and psi_V (12,) at t0, in the axes eta of t0."""
+    scaled = flight.scaled
+    place = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
+    return np.concatenate([place, kernels.primer(*scaled.start, *flight.costates)])
+
+
+def fly_cartesian(flight: Flight, times: Array) -> Array:
+    """R, V, psi_R, psi_V and the integral of p^2 (k, 13) at ascending times.
+
+    In the axes eta of t0 and the units of `Scaled`.
+    """
+
+    def rates(mode: str) -> Callable:
+        kernel, scale = getattr(kernels, f"cartesian_{mode}"), flight.peak if mode == "saturated" else 1.0
+
+        def along(x: Array) -> Array:
+            square = flight.peak**2 if mode == "saturated" else x[9:12] @ x[9:12] / 4
+            return np.array([*kernel(*x[:12], 1.0, scale), square])
+
+        return along
+
+    return integrate(rates, flight, np.append(start_of(flight), 0.0), times)
+
+
+def target_by_kepler(scaled: Scaled, time: float) -> Array:
+    """R and V (6,) of the target after a time, from Kepler's equation, in the axes eta of t0."""
+    e = scaled.eccentricity
+    axis = 1 / (1 - e**2)
+    motion = axis**-1.5
+    half = scaled.anomaly / 2
+    begin = 2 * math.atan2(math.sqrt(1 - e) * math.sin(half), math.sqrt(1 + e) * math.cos(half))
+    mean = begin - e * math.sin(begin) + motion * time
+    eccentric = mean
+    for _ in range(60):
+        step = (eccentric - e * math.sin(eccentric) - mean) / (1 - e * math.cos(eccentric))
+        eccentric -= step
+        if abs(step) < 1e-15 * (1 + abs(eccentric)):
+            break
+    minor = axis * math.sqrt(1 - e**2)
+    sin, cos = math.sin(eccentric), math.cos(eccentric)
+    pace = motion / (1 - e * cos)
+    place = np.array([axis * (cos - e), minor * sin, 0.0])
+    velocity = np.array([-axis * sin, minor * cos, 0.0]) * pace
+    return np.concatenate([rotated(place, scaled.orientation), rotated(velocity, scaled.orientation)])

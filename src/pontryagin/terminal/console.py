@@ -1,0 +1,273 @@
+"""What the papers' command lines share: values from text, files, tables, and one word for each mistake.
+
+Every `Refusal` names the option as it was typed; `pontryagin.cli` prints it in one line and exits with 2.
+"""
+
+import csv
+import json
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import typer
+
+from pontryagin.certificate import Certificate
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.io import files
+from pontryagin.io import formula as formulas
+
+Report = Mapping[str, Mapping[str, Any]]
+"""Headings, and under each its quantities: what a table shows and JSON holds."""
+
+FIGURES = (".svg", ".pdf", ".png")
+RECORDINGS = (".rrd",)
+
+ACCEPTED = 1e-8
+"""Largest residual and gap of an answer that is handed out."""
+
+
+class Refusal(typer.TyperException):
+    """What is wrong with an option, in a line that begins with its name."""
+
+    exit_code = 2
+
+    def __init__(self, option: str, message: str) -> None:
+        super().__init__(f"{option}{'' if message.startswith(':') else ' '}{message}")
+
+
+def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:
+    """A finite number such as ``0.5``, ``1e-3`` or ``pi/4``."""
+    value = _number(text)
+    if not value >= at_least:
+        raise Refusal(option, f"takes {takes}, got {text!r}")
+    return value
+
+
+def positive(option: str, text: str) -> float:
+    """A finite number greater than 0."""
+    return number(option, text, "a positive number", at_least=math.nextafter(0.0, 1.0))
+
+
+def vector(option: str, text: str, length: int) -> list[float]:
+    """Numbers between commas."""
+    values = [_number(part) for part in text.split(",")]
+    if len(values) != length or not np.isfinite(values).all():
+        raise Refusal(option, f"takes {length} numbers with commas between, got {text!r}")
+    return values
+
+
+def formula(option: str, text: str, variable: str) -> float | formulas.Formula:
+    """A number, or a function of one variable."""
+    try:
+        return formulas.read(text, variable)
+    except ValueError as reason:
+        raise Refusal(option, f": {reason}") from None
+
+
+def _number(text: str) -> float:
+    """The number that a text stands for, nan if it stands for none."""
+    try:
+        return formulas.number(text)
+    except ValueError:
+        return math.nan
+
+
+def required(given: Mapping[str, object]) -> None:
+    """Refuse the first option that is None."""
+    for option, value in given.items():
+        if value is None:
+            raise Refusal(option, "is missing")
+
+
+def excluded(by: str, given: Mapping[str, object]) -> None:
+    """Refuse the first option that was given beside the one it does not go with."""
+    for option, value in given.items():
+        if value:
+            raise Refusal(option, f"does not go with {by}")
+
+
+def together(given: Mapping[str, object], other: str, there: bool) -> None:
+    """Refuse the first option that was given without the one it needs."""
+    for option, value in given.items():
+        if value and not there:
+            raise Refusal(option, f"goes with {other} only")
+
+
+@contextmanager
+def blaming(options: Mapping[str, str]) -> Iterator[None]:
+    """Give errors that begin with an argument's name to the option that it came from."""
+    try:
+        yield
+    except Infeasible:
+        raise
+    except (TypeError, ValueError) as reason:
+        name = re.split(r"[ :]", str(reason), maxsplit=1)[0]
+        if name not in options:
+            raise
+        raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
+
+
+@contextmanager
+def solving(options: Mapping[str, str]) -> Iterator[None]:
+    """Blame options for what a solver refuses, and call an overflow what it is."""
+    with np.errstate(all="ignore"), blaming(options):
+        try:
+            yield
+        except (ArithmeticError, np.linalg.LinAlgError) as reason:
+            raise NotConverged(f"the numbers overflow: {reason}", math.inf) from reason
+
+
+def file_names(plot: Path | None, record: Path | None, out: str) -> None:
+    """Refuse files of one answer whose endings are not known, and a batch's file without a batch."""
+    together({"--out": out != "-"}, "--batch", False)
+    ending("--plot", plot, FIGURES)
+    ending("--record", record, RECORDINGS)
+
+
+def ending(option: str, path: Path | None, takes: tuple[str, ...]) -> None:
+    """Refuse a file name whose ending is none of `takes`."""
+    if path is not None and path.suffix.lower() not in takes:
+        raise Refusal(option, f"takes a file name ending in {' or '.join(takes)}, got {path}")
+
+
+@contextmanager
+def reading(option: str, path: Path) -> Iterator[None]:
+    """Name the file that cannot be read, or whose content is refused."""
+    try:
+        yield
+    except OSError as reason:
+        raise Refusal(option, f"cannot read {path}: {_cause(reason)}") from reason
+    except (ValueError, csv.Error) as reason:
+        raise Refusal(option, f": {path}, {reason}") from reason
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Name the option where a file cannot be written, and the file where it can."""
+    try:
+        yield
+    except OSError as reason:
+        raise Refusal(option, f"cannot write {path}: {_cause(reason)}") from reason
+    typer.echo(f"wrote {path}", err=True)
+
+
+def _cause(reason: OSError) -> str:
+    return (reason.strerror or str(reason)).lower()
+
+
+def emit(option: str, target: str, text: str) -> None:
+    """Write a text to a file, or for ``-`` to standard output."""
+    if target == "-":
+        typer.echo(text.removesuffix("\n"))
+        return
+    with writing(option, Path(target)):
+        files.write(Path(target), text)
+
+
+def save_figure(option: str, path: Path, figure: Any) -> None:
+    """Write a Matplotlib figure as SVG, PDF or PNG by the ending of its name."""
+    from pontryagin.display.plotting import svg_of
+
+    with writing(option, path):
+        if path.suffix.lower() == ".svg":
+            files.write(path, svg_of(figure))
+            return
+        with files.replacing(path) as draft:
+            figure.savefig(draft, dpi=200)
+
+
+def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> None:
+    """Write a recording by the function that makes it; what is not installed for it is said in one line."""
+    try:
+        with writing(option, path):
+            save(path)
+    except RuntimeError as missing:
+        raise typer.TyperException(str(missing)) from missing
+
+
+def require_proof(proof: Certificate) -> None:
+    """Refuse to end well where a certificate, or one of a stack, is not closed to `ACCEPTED`."""
+    with np.errstate(all="ignore"):
+        left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+    open_ones = ~(left <= ACCEPTED)
+    if open_ones.any():
+        count = (
+            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
+        )
+        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
+
+
+def plain(value: Any) -> Any:
+    """Arrays as lists and numbers as Python's own, for JSON; what is not finite becomes None.
+
+    Examples
+    --------
+    >>> plain({"t": np.array([0.5, np.nan]), "unique": np.True_})
+    {'t': [0.5, None], 'unique': True}
+    """
+    if isinstance(value, Mapping):
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value if isinstance(value, bool | int | float | str | None) else str(value)
+
+
+def to_json(report: Report) -> str:
+    """A JSON object of objects, a quantity a line; numbers with all their digits."""
+    headings = []
+    for heading, quantities in report.items():
+        lines = (f"  {_dumped(name)}: {_dumped(value)}" for name, value in quantities.items())
+        headings.append(f" {_dumped(heading)}: {{\n" + ",\n".join(lines) + "\n }")
+    return "{\n" + ",\n".join(headings) + "\n}"
+
+
+def _dumped(value: Any) -> str:
+    return json.dumps(plain(value), ensure_ascii=False, allow_nan=False)
+
+
+def words(value: Any) -> str:
+    """A value for a table's cell, numbers to twelve digits.
+
+    Examples
+    --------
+    >>> words([0.5, float("nan"), -0.0]), words(True), words(None)
+    ('0.5, none, 0', 'yes', 'none')
+    """
+    value = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+    match value:
+        case list() | tuple():
+            return ", ".join(words(item) for item in value) or "none"
+        case bool():
+            return "yes" if value else "no"
+        case None:
+            return "none"
+        case float():
+            return "none" if math.isnan(value) else f"{value + 0.0:.12g}"
+    return str(value)
+
+
+def show(title: str, report: Report, conclusion: str = "") -> None:
+    """Print a table, quantities under their headings, and a sentence below it."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE, show_header=False, pad_edge=False)
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for heading, quantities in report.items():
+        table.add_section()
+        table.add_row(Text(heading, style="bold"), "")
+        for name, value in quantities.items():
+            table.add_row(Text(f"  {name.replace('_', ' ')}"), Text(words(value)))
+    console = Console(highlight=False)
+    console.print(Text(title, style="bold"), table, Text(conclusion), sep="\n")

@@ -1,0 +1,461 @@
+"""The command line: it prints what the solvers found, and says in one line what it cannot do."""
+
+import csv
+import io
+import json
+import os
+import re
+import resource
+import subprocess
+import sys
+import sysconfig
+from importlib import import_module
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from pontryagin import __version__, ledger
+from pontryagin.cli import COMMANDS, app
+from pontryagin.display.recording import read_back
+from pontryagin.report import build
+from pontryagin.triple_integrator import (
+    Maneuver,
+    minimum_energy,
+    minimum_impulse,
+    minimum_norm,
+    minimum_peak,
+    minimum_time,
+)
+
+ENDS = ["--x0", "-1,0.5,0", "--xf", "pi/4,0,-0.2"]
+X0, XF = [-1.0, 0.5, 0.0], [np.pi / 4, 0.0, -0.2]
+SOLVERS = {
+    "1": minimum_impulse,
+    "2": minimum_energy,
+    "inf": minimum_peak,
+    "3.5": lambda maneuver: minimum_norm(maneuver, 3.5),
+}
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
+
+
+def solve(*arguments):
+    return run("solve", "triple-integrator", *arguments)
+
+
+def answer(*arguments):
+    result = solve(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def as_json(value):
+    """Arrays as lists, and null where there is no finite number."""
+    array = np.asarray(value)
+    if array.dtype.kind != "f":
+        return array.tolist()
+    return np.where(np.isfinite(array), array, None).tolist()
+
+
+class TestSolutions:
+    def test_a_rest_to_rest_turn_has_the_peak_that_the_paper_gives(self):
+        told = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2")
+        assert told["solution"]["norm"] == pytest.approx(32 / 2**3, rel=1e-14)
+        assert told["solution"]["switch_times"] == pytest.approx([0.5, 1.5], rel=1e-14)
+
+    @pytest.mark.parametrize("norm", SOLVERS)
+    def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(self, norm):
+        told = answer("--norm", norm, *ENDS, "--t0", "1", "--duration", "2.5", "--disturbance", "0.3")
+        solution = SOLVERS[norm](Maneuver(X0, XF, 3.5, t0=1.0, disturbance=0.3))
+        for name, value in told["solution"].items():
+            assert value == as_json(getattr(solution, name)), name
+        for name, value in told["certificate"].items():
+            assert value == float(getattr(solution.certificate, name)), name
+        assert told["problem"]["moments"] == solution.maneuver.moments.tolist()
+
+    def test_json_of_a_least_time_holds_the_numbers_of_the_solver(self):
+        told = answer("--peak", "32", *ENDS, "--disturbance", "1/3")
+        solution = minimum_time(X0, XF, 32.0, 1 / 3)
+        for name, value in told["solution"].items():
+            assert value == as_json(getattr(solution, name)), name
+
+    @pytest.mark.parametrize("goal", [["--norm", q, "--duration", "2"] for q in SOLVERS] + [["--peak", "9"]])
+    def test_the_states_told_are_the_ends_asked_for(self, goal):
+        told = answer(*goal, *ENDS)
+        assert told["states"]["start"] == pytest.approx(X0, abs=1e-12)
+        assert told["states"]["end"] == pytest.approx(XF, abs=1e-10)
+        assert abs(told["certificate"]["gap"]) < 1e-10
+
+    def test_the_keys_are_these(self):
+        common = {"solver", "x0", "xf", "disturbance"}
+        found = {
+            "1": {"norm", "regime", "unique", "impulse_times", "impulses", "multipliers"},
+            "2": {"norm", "coefficients", "multipliers"},
+            "inf": {"norm", "switch_times", "first_sign", "switch_condition", "multipliers"},
+            "3.5": {"q", "norm", "peak", "breakpoints", "multipliers"},
+        }
+        for norm, keys in found.items():
+            told = answer("--norm", norm, *ENDS, "--duration", "2")
+            assert set(told) == {"problem", "solution", "states", "certificate"}
+            assert set(told["problem"]) == common | {"t0", "tf", "duration", "moments"}
+            assert set(told["solution"]) == keys
+        told = answer("--peak", "1", *ENDS)
+        assert set(told["problem"]) == common | {"peak"}
+        assert set(told["solution"]) == found["inf"] | {"duration"}
+
+    def test_a_formula_disturbs_as_the_function_that_it_stands_for(self):
+        told = answer("--norm", "2", *ENDS, "--duration", "2", "--disturbance", "0.1*sin(3*t) + t^2")
+        maneuver = Maneuver(X0, XF, 2.0, disturbance=lambda t: 0.1 * np.sin(3 * t) + t * t)
+        assert told["problem"]["moments"] == pytest.approx(maneuver.moments.tolist(), abs=1e-13)
+        assert told["problem"]["disturbance"] == "0.1*sin(3*t) + t^2"
+
+    def test_samples_are_the_solution_at_even_times(self):
+        told = answer("--norm", "2", *ENDS, "--duration", "2", "--samples", "5")["samples"]
+        solution = minimum_energy(Maneuver(X0, XF, 2.0))
+        assert told["t"] == [0.0, 0.5, 1.0, 1.5, 2.0]
+        for name in ("control", "state", "costate"):
+            assert told[name] == getattr(solution, name)(told["t"]).tolist()
+
+    def test_what_does_not_happen_is_null(self):
+        told = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "0,0,0", "--duration", "1")
+        assert told["solution"]["switch_times"] == [None, None]
+        assert told["solution"]["norm"] == 0
+
+    def test_no_time_is_needed_to_stay(self):
+        told = answer("--peak", "1", "--x0", "1,2,3", "--xf", "1,2,3")
+        assert told["solution"]["duration"] == 0
+        assert told["states"]["end"] == [1, 2, 3]
+
+    @pytest.mark.parametrize("norm", SOLVERS)
+    def test_the_table_shows_norm_and_certificate(self, norm):
+        shown = solve("--norm", norm, *ENDS, "--duration", "2").stdout
+        solution = SOLVERS[norm](Maneuver(X0, XF, 2.0))
+        assert re.search(rf"^ +norm +{float(solution.norm):.12g} *$", shown, re.MULTILINE)
+        bound, cost = (float(getattr(solution.certificate, side)) for side in ("dual_value", "primal_value"))
+        assert f"No control does better than {bound:.12g}, and this one costs {cost:.12g}." in shown
+        for quantity in ("primal residual", "dual value", "gap", "start", "end", "multipliers"):
+            assert re.search(rf"^ +{quantity} ", shown, re.MULTILINE), quantity
+
+
+class TestFiles:
+    GOAL = ("--norm", "1", *ENDS, "--duration", "2")
+
+    def test_a_plot_is_drawn_in_the_format_of_its_name(self, tmp_path):
+        starts = {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}
+        for name, start in starts.items():
+            result = solve(*self.GOAL, "--plot", tmp_path / name)
+            assert result.exit_code == 0
+            assert result.stderr == f"wrote {tmp_path / name}\n"
+            assert (tmp_path / name).read_bytes().startswith(start)
+        size = ElementTree.parse(tmp_path / "a.svg").getroot().attrib["viewBox"].split()
+        assert float(size[2]) > 300
+        assert float(size[3]) > 200
+
+    def test_a_recording_holds_the_motion(self, tmp_path):
+        path = tmp_path / "motion.rrd"
+        assert solve("--norm", "2", *ENDS, "--duration", "2", "--record", path).exit_code == 0
+        solution = minimum_energy(Maneuver(X0, XF, 2.0))
+        curves = [parts for parts in read_back(path).values() if "scalars" in parts]
+        angle = solution.state(curves[0]["time"])[:, 0]
+        assert any(
+            curve["scalars"].shape == angle.shape and np.allclose(curve["scalars"], angle, atol=1e-12)
+            for curve in curves
+        )
+
+    def test_nothing_is_drawn_of_what_takes_no_time(self, tmp_path):
+        result = solve("--peak", "1", "--x0", "1,2,3", "--xf", "1,2,3", "--plot", tmp_path / "a.svg")
+        assert_refused(result, "--plot")
+        assert not list(tmp_path.iterdir())
+
+    @pytest.mark.parametrize(("option", "name"), [("--plot", "a.svg"), ("--record", "a.rrd")])
+    def test_a_path_that_cannot_be_written_is_named(self, tmp_path, option, name):
+        (tmp_path / "file").touch()
+        result = solve("--norm", "2", *ENDS, "--duration", "2", option, tmp_path / "file" / name)
+        assert_refused(result, f"{option} cannot write {tmp_path / 'file' / name}")
+
+
+def assert_refused(result, begins, status=2):
+    """One line on standard error that begins with the option, nothing on standard output."""
+    assert result.exit_code == status
+    assert result.stdout == ""
+    assert result.stderr.startswith(f"Error: {begins}"), result.stderr
+    assert result.stderr.count("\n") == 1
+    assert result.stderr.isprintable() or result.stderr.strip().isprintable()
+    assert not set("│╭─┌") & set(result.stderr)
+
+
+GOAL = ["--norm", "2", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2"]
+
+
+def but(**changed):
+    """The options of a good command, some of them changed, dropped (None) or added."""
+    options = dict(zip(GOAL[::2], GOAL[1::2], strict=True))
+    options |= {f"--{name}": value for name, value in changed.items()}
+    return [part for option, value in options.items() if value is not None for part in (option, value)]
+
+
+class TestRefusals:
+    @pytest.mark.parametrize(
+        ("arguments", "begins"),
+        [
+            (but(x0="0,0"), "--x0 takes 3 numbers with commas between, got '0,0'"),
+            (but(x0="0,nan,0"), "--x0 takes"),
+            (but(xf="1,two,3"), "--xf takes"),
+            (but(x0=None), "--x0 is missing"),
+            (but(duration="0"), "--duration takes a positive number, got '0'"),
+            (but(duration="-1"), "--duration takes"),
+            (but(duration="1e999"), "--duration takes"),
+            (but(duration=None), "--duration is missing"),
+            (but(t0="1e30"), "--duration is lost to rounding"),
+            (but(t0="now"), "--t0 takes"),
+            (but(norm="0.5"), "--norm takes 1, 2, inf"),
+            (but(norm="L2"), "--norm takes"),
+            (but(norm="nan"), "--norm takes"),
+            (but(norm=None), "--norm is missing"),
+            (but(peak="1"), "--norm does not go with --peak"),
+            (but(peak="1", norm=None), "--duration does not go with --peak"),
+            (but(peak="0", norm=None, duration=None), "--peak takes a positive number"),
+            (but(peak="1", norm=None, duration=None, disturbance="t"), "--disturbance takes a number"),
+            (but(disturbance="open('x')"), "--disturbance: \"open('x')\" is not a formula"),
+            (but(disturbance="1/(t-1)"), "--disturbance must be finite"),
+            (but(disturbance="sqrt(t-1)"), "--disturbance must be finite"),
+            (but(plot="a.gif"), "--plot takes a file name ending in .svg or .pdf or .png, got a.gif"),
+            (but(record="a.mp4"), "--record takes a file name ending in .rrd"),
+            (but(samples="3"), "--samples goes with --json only"),
+            (but(samples="-3"), "Invalid value for '--samples'"),
+            (but(out="a.csv"), "--out goes with --batch only"),
+            (but(batch="a.csv"), "--duration does not go with --batch"),
+            (but(colour="red"), "No such option: --colour"),
+            ([*but(), "again"], "Got unexpected extra argument"),
+            (["--x0"], "Option '--x0' requires an argument"),
+            (but(xf="1e308,0,0", duration="1e-200"), "--xf must give, with x0 and tf - t0, a control"),
+        ],
+    )
+    def test_what_was_typed_wrong_is_named_in_one_line(self, arguments, begins):
+        assert_refused(solve(*arguments), begins)
+
+    @pytest.mark.parametrize(
+        "arguments",
+        [
+            but(disturbance="1/t"),
+            but(norm="1.0000001"),
+            but(xf="1e308,0,0", duration="1e-200", norm="3"),
+            but(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
+        ],
+    )
+    def test_a_problem_without_an_answer_exits_with_1_and_a_line(self, arguments):
+        assert_refused(solve(*arguments), "", status=1)
+
+    @pytest.mark.parametrize(
+        ("arguments", "begins"),
+        [
+            (["solve", "double-integrator"], "No such command 'double-integrator'"),
+            (["ledgers"], "No such command 'ledgers'"),
+            (["ledger", "--verdict", "wrong"], "--verdict: got 'wrong', takes one of 'holds'"),
+            (["ledger", "--paper", "Newton"], "--paper: got 'Newton'"),
+            (
+                ["report", "everything"],
+                "STAGE takes notebooks, figures, recordings, report, got 'everything'",
+            ),
+        ],
+    )
+    def test_other_commands_refuse_likewise(self, arguments, begins):
+        assert_refused(run(*arguments), begins)
+
+
+class TestBatch:
+    HEADER = ("name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "t0", "tf")
+    ROWS = (
+        ["first", "0", "0", "0", "1", "0", "0", "0", "2"],
+        ["second", "-1", "0.5", "0", "pi/4", "0", "-0.2", "1", "3.5"],
+        ["rest", "0", "0", "0", "0", "0", "0", "0", "1"],
+    )
+
+    def write(self, path, rows=ROWS, header=HEADER):
+        path.write_text("\n".join(",".join(row) for row in [header, *rows]) + "\n")
+        return path
+
+    def read(self, text):
+        return list(csv.DictReader(io.StringIO(text)))
+
+    @pytest.mark.parametrize("norm", SOLVERS)
+    def test_each_row_comes_back_with_its_own_solution(self, tmp_path, norm):
+        problems, results = self.write(tmp_path / "in.csv"), tmp_path / "out.csv"
+        result = solve("--norm", norm, "--batch", problems, "--out", results)
+        assert (result.exit_code, result.stdout) == (0, "")
+        rows = self.read(results.read_text())
+        assert [row["name"] for row in rows] == ["first", "second", "rest"]
+        assert rows[1]["x1f"] == "pi/4"
+        single = SOLVERS[norm](Maneuver(X0, XF, 3.5, t0=1.0))
+        assert float(rows[1]["norm"]) == pytest.approx(float(single.norm), rel=1e-12)
+        assert float(rows[0]["norm"]) > float(rows[2]["norm"]) == 0
+        assert all(abs(float(row["gap"])) < 1e-10 for row in rows)
+
+    def test_vectors_are_taken_apart_and_absent_ones_left_empty(self, tmp_path):
+        rows = self.read(solve("--norm", "1", "--batch", self.write(tmp_path / "in.csv")).stdout)
+        assert [float(rows[0][f"impulses_{i}"]) for i in (1, 2, 3)] == pytest.approx([1, -2, 1])
+        assert [rows[2][f"impulse_times_{i}"] for i in (1, 2, 3)] == ["", "", ""]
+        assert [row["regime"] for row in rows] == ["chebyshev", rows[1]["regime"], "zero"]
+
+    def test_least_times_need_no_times(self, tmp_path):
+        rows = [row[1:7] for row in self.ROWS]
+        problems = self.write(tmp_path / "in.csv", rows, self.HEADER[1:7])
+        found = self.read(solve("--peak", "32", "--batch", problems).stdout)
+        durations = [float(row["duration"]) for row in found]
+        assert durations[0] == pytest.approx(1.0, rel=1e-12)
+        assert durations[1] == pytest.approx(float(minimum_time(X0, XF, 32.0).duration), rel=1e-12)
+        assert durations[2] == 0
+
+    @pytest.mark.parametrize(
+        ("rows", "header", "line"),
+        [
+            (
+                [ROWS[0], [*ROWS[1][:3], "much", *ROWS[1][4:]]],
+                HEADER,
+                "line 3: x30 takes a number, got 'much'",
+            ),
+            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: 5 entries under 9 columns"),
+            ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got 1.0 and 1.0"),
+            ([[*ROWS[1][:8], "nan"]], HEADER, "line 2: tf takes a number"),
+            (ROWS, ["name", "y10", *HEADER[2:]], "line 1: column x10 is missing"),
+            ([], HEADER, "line 2: there is no problem"),
+        ],
+    )
+    def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):
+        problems = self.write(tmp_path / "in.csv", rows, header)
+        assert_refused(solve("--norm", "2", "--batch", problems), f"--batch: {problems}, {line}")
+
+    def test_a_file_that_is_not_there_is_named(self, tmp_path):
+        result = solve("--norm", "2", "--batch", tmp_path / "in.csv")
+        assert_refused(result, f"--batch cannot read {tmp_path / 'in.csv'}")
+
+    def test_a_row_beyond_floating_point_is_named(self, tmp_path):
+        hopeless = ["far", "0", "0", "0", "1e308", "0", "0", "0", "1e-200"]
+        result = solve("--norm", "inf", "--batch", self.write(tmp_path / "in.csv", [*self.ROWS, hopeless]))
+        assert_refused(result, "--xf must give, with x0 and tf - t0, a control")
+        assert "at index [3]" in result.stderr
+
+
+class TestLedger:
+    def test_csv_and_json_are_the_ledger(self, tmp_path):
+        path = tmp_path / "ledger.csv"
+        assert run("ledger", "--verdict", "misprint", "--csv", path).exit_code == 0
+        entries = ledger.entries(verdict="misprint")
+        with path.open(newline="", encoding="utf-8") as file:
+            assert [row["label"] for row in csv.DictReader(file)] == [entry.label for entry in entries]
+        printed = json.loads(run("ledger", "--paper", "gorelov", "--json", "-").stdout)
+        assert printed == [entry.as_dict() for entry in ledger.entries(paper="gorelov")]
+
+    def test_the_table_shows_the_entries_asked_for(self):
+        shown = run("ledger", "--verdict", "misprint").stdout
+        entries = ledger.entries(verdict="misprint")
+        assert f"{len(entries)} entries" in shown
+        assert all(entry.label.split()[0] in shown for entry in entries)
+
+
+class TestReport:
+    def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch):
+        asked = []
+        monkeypatch.setattr(build, "main", lambda arguments: asked.append(arguments) or 1)
+        assert run("report", "figures", "--workers", "1").exit_code == 1
+        assert asked == [["figures", "--workers", "1"]]
+
+    def test_every_stage_is_in_the_help(self):
+        told = run("report", "--help").stdout
+        assert all(stage in told for stage in build.STAGES)
+
+
+class TestHelp:
+    @pytest.mark.parametrize("arguments", [[], ["solve"], ["--help"], ["solve", "--help"]])
+    def test_without_a_command_it_says_what_there_is(self, arguments):
+        result = run(*arguments)
+        assert (result.exit_code, result.stderr) == (0, "")
+        assert "Example" in result.stdout
+
+    @pytest.mark.parametrize("module", COMMANDS)
+    def test_every_registered_problem_is_a_command_with_examples(self, module):
+        name = module.split(".")[-2].replace("_", "-")
+        assert name in run("solve", "--help").stdout
+        assert "Examples:" in run("solve", name, "--help").stdout
+        assert callable(import_module(module).solve)
+
+    def test_every_example_in_the_help_runs(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        TestBatch().write(tmp_path / "problems.csv")
+        helps = [run(*command, "--help").stdout for command in (["solve", "triple-integrator"], ["ledger"])]
+        examples = re.findall(r"^ +pontryagin (.*)$", "\n".join(helps), re.MULTILINE)
+        assert len(examples) >= 5
+        for example in examples:
+            result = CliRunner().invoke(app, example)
+            assert result.exit_code == 0, (example, result.stderr)
+
+
+class TestProcess:
+    """What only a process of its own shows."""
+
+    PROGRAM = str(Path(sysconfig.get_path("scripts")) / "pontryagin")
+    TURN = (
+        "solve",
+        "triple-integrator",
+        "--norm",
+        "inf",
+        "--x0",
+        "0,0,0",
+        "--xf",
+        "1,0,0",
+        "--duration",
+        "2",
+    )
+
+    def process(self, *arguments, **options):
+        return subprocess.run(
+            [self.PROGRAM, *arguments], capture_output=True, text=True, timeout=120, check=False, **options
+        )
+
+    def test_the_version(self):
+        assert self.process("--version").stdout == f"pontryagin {__version__}\n"
+
+    def test_it_answers_from_a_cold_start_within_seconds_of_work(self):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        result = self.process(*self.TURN)
+        spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        assert (result.returncode, result.stderr) == (0, "")
+        assert re.search(r"norm +4 ", result.stdout)
+        assert spent < 2.5
+
+    def test_it_imports_nothing_heavy_for_an_answer(self):
+        script = "import sys; from pontryagin.cli import main; sys.argv[0] = 'pontryagin'\ntry: main()\n"
+        script += "except SystemExit: print(*sorted({name.split('.')[0] for name in sys.modules}))"
+        arguments = [*self.TURN, "--disturbance", "0.1*sin(t)"]
+        shown = subprocess.run(
+            [sys.executable, "-c", script, *arguments],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=True,
+        )
+        loaded = set(shown.stdout.splitlines()[-1].split())
+        assert {"numpy", "typer"} <= loaded
+        assert not loaded & {"sympy", "scipy", "numba", "matplotlib", "rerun", "IPython"}
+
+    def test_a_mistake_is_one_line_and_exit_code_2(self):
+        result = self.process(*self.TURN[:-1], "-2")
+        assert (result.returncode, result.stdout) == (2, "")
+        assert result.stderr == "Error: --duration takes a positive number, got '-2'\n"
+
+    def test_a_terminal_without_unicode_gets_its_answer(self):
+        result = self.process(*self.TURN, env=os.environ | {"PYTHONIOENCODING": "ascii"})
+        assert (result.returncode, result.stderr) == (0, "")
+
+    def test_a_reader_that_leaves_early_is_no_error(self):
+        with subprocess.Popen(
+            [self.PROGRAM, "ledger"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as running:
+            running.stdout.readline()
+            running.stdout.close()
+            assert running.stderr.read() == ""

@@ -1,0 +1,38 @@
+"""Rows of a CSV file: numbers by column, answers beside what was read, mistakes by line."""
+
+import numpy as np
+import pytest
+
+from pontryagin.io import rows
+
+
+def test_rows_come_back_with_their_answers(tmp_path):
+    path = tmp_path / "in.csv"
+    path.write_text("name, E ,free\na,1/4,x\n\nb,-2e-1,y\n")
+    read = rows.read(path, ["E"], ["K"])
+    assert list(read.columns) == ["E"] and read.columns["E"].tolist() == [0.25, -0.2]
+    text = rows.to_csv(read, {"cost": np.array([1 / 3, np.nan]), "count": np.array([1, 2])})
+    assert text == f"name,E,free,cost,count\na,1/4,x,{1 / 3!r},1\nb,-2e-1,y,,2\n"
+
+
+def test_a_possible_column_is_read_where_it_is(tmp_path):
+    path = tmp_path / "in.csv"
+    path.write_text("E,K\n1,2\n")
+    assert rows.read(path, ["E"], ["K"]).columns["K"].tolist() == [2.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "line 1: column E is missing, takes E, K"),
+        ("E\n1\n", "line 1: column K is missing"),
+        ("E,K\n", "line 2: there is no problem"),
+        ("E,K\n1,2\n1\n", "line 3: 1 entries under 2 columns"),
+        ("E,K\n1,much\n", "line 2: K takes a number, got 'much'"),
+    ],
+)
+def test_what_is_wrong_is_said_with_its_line(tmp_path, text, words):
+    path = tmp_path / "in.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=words):
+        rows.read(path, ["E", "K"])

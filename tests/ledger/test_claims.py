@@ -1,0 +1,93 @@
+"""The ledgers of all papers, entry by entry: each verdict is earned, and no altered print earns it."""
+
+import re
+from dataclasses import replace
+from decimal import Decimal
+
+import pytest
+import sympy as sp
+
+from pontryagin import ledger
+from pontryagin.ledger import Unsupported
+from pontryagin.ledger.evidence import (
+    LinearSystem,
+    Misprint,
+)
+
+ENTRIES = ledger.entries()
+JUDGED = [entry for entry in ENTRIES if entry.evidence]
+
+
+def name(entry):
+    return f"{entry.paper}: {entry.label}"
+
+
+def of(entries):
+    return pytest.mark.parametrize("entry", entries, ids=name)
+
+
+@of(ENTRIES)
+def test_the_verdict_is_what_the_evidence_finds(entry):
+    entry.check()
+
+
+def altered(side):
+    """Another print in place of a printed side."""
+    if isinstance(side, str):
+        return str(Decimal(side) + 3 * Decimal(1).scaleb(Decimal(side).as_tuple().exponent))
+    return side + (sp.ones(*side.shape) if isinstance(side, sp.MatrixBase) else 1)
+
+
+def altered_prints(evidence):
+    """The evidence with one printed side altered at a time, and which."""
+    if getattr(evidence, "formula", None):
+        for left, formula in altered_prints(evidence.formula):
+            yield left, replace(evidence, formula=formula)
+    elif isinstance(evidence, LinearSystem):
+        for k, side in enumerate(evidence.printed):
+            others = [*evidence.printed[:k], altered(side), *evidence.printed[k + 1 :]]
+            yield None, replace(evidence, printed=others)
+    else:
+        for left, side in evidence.printed.items():
+            yield left, replace(evidence, printed={**evidence.printed, left: altered(side)})
+
+
+@of([entry for entry in JUDGED if entry.printed is not None])
+def test_any_other_print_changes_the_verdict(entry):
+    others = list(altered_prints(entry.evidence))
+    assert others
+    readable = getattr(entry.evidence, "legible", None)
+    for left, evidence in others:
+        if readable is None or left in readable:
+            with pytest.raises(Unsupported):
+                evidence.finding()
+
+
+@of([entry for entry in JUDGED if isinstance(entry.evidence, Misprint)])
+def test_a_corrected_print_is_no_misprint(entry):
+    corrected = replace(entry.evidence, printed=entry.evidence.derivation())
+    with pytest.raises(Unsupported, match="no misprint"):
+        corrected.finding()
+
+
+@of([entry for entry in JUDGED if hasattr(entry.evidence, "counterexample")])
+def test_a_counterexample_is_needed_and_names_numbers(entry):
+    def nothing():
+        yield from ()
+
+    with pytest.raises(Unsupported):
+        replace(entry.evidence, counterexample=nothing).finding()
+    steps = list(entry.evidence.counterexample())
+    assert len(steps) >= 2
+    assert any(re.search(r"\d", words) for words, _ in steps)
+
+
+@of(ENTRIES)
+def test_an_entry_says_what_is_claimed_and_why_it_fails(entry):
+    assert len(entry.statement) > 9 or entry.printed_latex
+    assert entry.remark or entry.verdict == "holds"
+
+
+def test_a_label_stands_once_in_a_paper():
+    names = [name(entry) for entry in ENTRIES]
+    assert len(set(names)) == len(names)
