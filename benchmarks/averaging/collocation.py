@@ -10,11 +10,11 @@ from functools import lru_cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
 from benchmarks.averaging.enumeration import timed
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
+from pontryagin.arrays import Array
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.extremal import Extremal, Extremals
 from pontryagin.averaging.shooting import Shooting, shooting
@@ -30,8 +30,6 @@ LEAST = {BODY: 0.05, PAID: 0.02, KEPLER: 0.01}
 TOLERANCE, NODES, A_TURN = 1e-6, 20_000, 24
 SAME = 1e-3
 """An extremal is the one found if it ends within this, in radians, and costs the same to a like share."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

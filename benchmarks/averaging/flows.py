@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.integrate import odeint, solve_ivp
 
 from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from benchmarks.clock import Timing, take_turns
+from pontryagin.arrays import Array
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import (
@@ -32,7 +32,6 @@ MANY = 64
 """Trajectories that are carried side by side."""
 STEPS = 1_000_000
 
-Array = NDArray[np.float64]
 OURS, TOGETHER = "heyoka, one trajectory", f"heyoka, of {MANY} trajectories"
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from benchmarks.clock import Timing, repeated, take_turns
 from benchmarks.contest import worst
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, states, thrust
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.thrust import THRUSTS
 
@@ -68,7 +69,7 @@ def table(quick: bool) -> dict[str, list]:
     return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
 
 
-def far_states(name: str) -> NDArray[np.float64]:
+def far_states(name: str) -> Array:
     """States (FAR, 3) for which N_min is `MANY`: halfway between the gauges of `MANY` and one step fewer."""
     directions, counts = states(FAR), np.full(FAR, MANY)
     enough, too_few = (thrust(name).gauges(directions, counts - fewer).upper for fewer in (0, 1))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from benchmarks.orbit_correction.states import Solver, unit_factors
+from pontryagin.arrays import Array
 
 
 def by_linprog(name: str, steps: int) -> Solver:
@@ -50,7 +51,7 @@ def by_highspy(name: str, steps: int) -> Solver:
     return solve
 
 
-def _segments(name: str, steps: int) -> NDArray[np.float64]:
+def _segments(name: str, steps: int) -> Array:
     """What each impulse component does to the state, (3, components)."""
     if name != "box":
         raise ValueError(f"only the box is a linear programme, got {name!r}")

@@ -15,6 +15,7 @@ from scipy.optimize import root
 from benchmarks.clock import take_turns
 from benchmarks.contest import CALL, worst
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, SEED, states, thrust, unit_factors
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import correct
 
 FINDERS: dict[str, dict] = {
@@ -40,12 +41,12 @@ SAME = 1e-4
 class Task:
     """The system (11) of one state, its gauge, and where to start, rows (starts, 4)."""
 
-    factors: NDArray[np.float64]
-    state: NDArray[np.float64]
+    factors: Array
+    state: Array
     gauge: float
-    starts: NDArray[np.float64]
+    starts: Array
 
-    def equations(self, unknowns: NDArray) -> NDArray[np.float64]:
+    def equations(self, unknowns: NDArray) -> Array:
         """What is zero at a root (psi, alpha)."""
         psi, alpha = unknowns[:3], unknowns[3]
         along = np.einsum("kij,i->kj", self.factors, psi)
@@ -53,7 +54,7 @@ class Task:
         point = np.einsum("kij,kj->i", self.factors, unit)
         return np.append(alpha * point + self.state, psi @ psi - 1)
 
-    def with_jacobian(self, unknowns: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def with_jacobian(self, unknowns: NDArray) -> tuple[Array, Array]:
         """The equations and their derivative, (4,) and (4, 4)."""
         psi, alpha = unknowns[:3], unknowns[3]
         along = np.einsum("kij,i->kj", self.factors, psi)

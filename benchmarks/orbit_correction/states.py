@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import random_states
 from pontryagin.orbit_correction.thrust import Thrust
 
@@ -33,7 +33,7 @@ class Peer:
     count: int
 
 
-def states(count: int) -> NDArray[np.float64]:
+def states(count: int) -> Array:
     """Normal deviations of a hundredth of the radius and the speed, (count, 3)."""
     return random_states(count, seed=SEED)
 
@@ -43,6 +43,6 @@ def thrust(name: str) -> Thrust:
     return Thrust(name, INTERVAL, PEAK)
 
 
-def unit_factors(name: str, steps: int) -> NDArray[np.float64]:
+def unit_factors(name: str, steps: int) -> Array:
     """G_k for a peak of 1, (steps, 3, components): numbers of order one, as suits every peer best."""
     return Thrust(name, INTERVAL, 1.0).factors(steps)

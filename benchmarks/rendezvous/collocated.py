@@ -1,14 +1,13 @@
 """SciPy's solve_bvp on the repaired form, given its Jacobians, from the trajectory of a neighbour."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import Extremal, Rendezvous, kernels
 from pontryagin.rendezvous.reduced.flight import chart_of
 from pontryagin.rendezvous.reduced.shooting import SEEN
 
-Array = NDArray[np.float64]
 NODES, MOST = 60, 20_000
 STEP = 1e-30
 

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from time import process_time
 
 import numpy as np
-from numpy.typing import NDArray
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
 from benchmarks.rendezvous import problems
 from benchmarks.rendezvous.systems import PROBLEMS, Problem
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import Extremal
 from pontryagin.rendezvous.reduced.flight import fly
 from pontryagin.rendezvous.reduced.shooting import (
@@ -21,7 +21,6 @@ from pontryagin.rendezvous.reduced.shooting import (
     mismatch,
 )
 
-Array = NDArray[np.float64]
 ITERATIONS, HALVINGS = 30, 6
 EXACT, TRUE = 1e-9, 1e-7
 """Residual at which Newton's method has arrived, and up to which (5) and (6) hold."""

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
+from pontryagin.arrays import Array
 from pontryagin.numerics.flow import (
     TOLERANCE,
     heyoka_system,
@@ -25,7 +25,6 @@ from pontryagin.rendezvous.generate import chart, in_any_chart
 from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.rendezvous.reduced.flight import chart_of
 
-Array = NDArray[np.float64]
 STEPS = 2000
 COMPLEX = 1e-30
 

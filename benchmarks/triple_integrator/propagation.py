@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
+
 
 def miss(
     x0: NDArray,
@@ -11,7 +13,7 @@ def miss(
     levels: NDArray,
     force: ArrayLike = 0.0,
     impulses: NDArray | None = None,
-) -> NDArray[np.float64]:
+) -> Array:
     """Distance from the target over the size of the motion, worst of the three states.
 
     Both are in the units of the angle: rates times T, accelerations times T^2. The size is the sum of the

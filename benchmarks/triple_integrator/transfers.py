@@ -12,6 +12,7 @@ from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
 from benchmarks.peers import absent
 from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import Transfers
+from pontryagin.arrays import Array
 from pontryagin.triple_integrator import minimum_time
 from pontryagin.triple_integrator import time as least_time
 
@@ -30,8 +31,8 @@ class Answers:
     """What one side returned: whether anything, the duration, and its miss by propagation, all (n,)."""
 
     returned: NDArray[np.bool_]
-    duration: NDArray[np.float64]
-    miss: NDArray[np.float64]
+    duration: Array
+    miss: Array
 
     @property
     def solved(self) -> NDArray[np.bool_]:

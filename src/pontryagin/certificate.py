@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,12 @@ class Certificate:
     True
     """
 
-    primal_residual: NDArray[np.float64]
-    primal_value: NDArray[np.float64]
-    dual_value: NDArray[np.float64]
+    primal_residual: Array
+    primal_value: Array
+    dual_value: Array
 
     @cached_property
-    def gap(self) -> NDArray[np.float64]:
+    def gap(self) -> Array:
         """(primal - dual) / max(1, |primal|), elementwise."""
         return (self.primal_value - self.dual_value) / np.maximum(1.0, np.abs(self.primal_value))
 
@@ -66,13 +67,13 @@ class MaximumPrinciple:
     (3e-14, True)
     """
 
-    boundary: NDArray[np.float64]
-    transversality: NDArray[np.float64]
-    hamiltonian: NDArray[np.float64]
-    maximality: NDArray[np.float64]
+    boundary: Array
+    transversality: Array
+    hamiltonian: Array
+    maximality: Array
 
     @cached_property
-    def residual(self) -> NDArray[np.float64]:
+    def residual(self) -> Array:
         """The largest of the four, (...)."""
         parts = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
         return np.max(np.broadcast_arrays(*parts), axis=0)

@@ -6,8 +6,10 @@ from operator import index
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 
-def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
+
+def finite(name: str, value: ArrayLike, takes: str) -> Array:
     """`value` as a new array of finite floats.
 
     Raises
@@ -45,7 +47,7 @@ def finite(name: str, value: ArrayLike, takes: str) -> NDArray[np.float64]:
     return array
 
 
-def _from_objects(name: str, array: NDArray, takes: str) -> NDArray[np.float64]:
+def _from_objects(name: str, array: NDArray, takes: str) -> Array:
     """Numbers that NumPy does not know as such (fractions, SymPy numbers)."""
     try:
         if any(entry is None for entry in array.flat):
@@ -57,7 +59,7 @@ def _from_objects(name: str, array: NDArray, takes: str) -> NDArray[np.float64]:
         raise TypeError(f"{name} must be {takes}, got {array.tolist()!r}") from None
 
 
-def vectors(name: str, value: ArrayLike, length: int) -> NDArray[np.float64]:
+def vectors(name: str, value: ArrayLike, length: int) -> Array:
     """`value` as finite vectors of the given length along the last axis."""
     array = finite(name, value, f"an array (..., {length})")
     if array.ndim == 0 or array.shape[-1] != length:
@@ -81,7 +83,7 @@ def integer(name: str, value: object) -> int:
         raise TypeError(f"{name} must be a whole number, got {value!r}") from None
 
 
-def positive(name: str, value: ArrayLike) -> NDArray[np.float64]:
+def positive(name: str, value: ArrayLike) -> Array:
     """`value` as finite numbers greater than zero."""
     array = finite(name, value, "a positive number or an array of them")
     few = array.size < 4
@@ -90,7 +92,7 @@ def positive(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def times(name: str, value: ArrayLike, start: NDArray, end: NDArray) -> NDArray[np.float64]:
+def times(name: str, value: ArrayLike, start: NDArray, end: NDArray) -> Array:
     """`value` (k,) or (..., k) broadcast against the intervals [start, end] (...), as (..., k).
 
     Times outside by no more than rounding are moved to the end of the interval; others are refused.

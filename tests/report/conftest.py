@@ -6,7 +6,7 @@ import textwrap
 import nbformat
 import pytest
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report.papers import PAPERS
 from pontryagin.report.workspace import Workspace
 

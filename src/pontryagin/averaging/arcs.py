@@ -10,8 +10,9 @@ from functools import lru_cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.modes import Modes
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
@@ -24,8 +25,6 @@ from pontryagin.numerics.flow import (
     heyoka_system,
     with_floats,
 )
-
-Array = NDArray[np.float64]
 
 
 def switched_ends(

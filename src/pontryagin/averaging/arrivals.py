@@ -11,9 +11,9 @@ from functools import lru_cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.shooting import Shooting, Shot
@@ -23,8 +23,6 @@ from pontryagin.numerics.flow import (
     Flow,
     flow,
 )
-
-Array = NDArray[np.float64]
 
 SIGN = sp.Symbol("sign_p", real=True)
 FINE = 64

@@ -5,15 +5,14 @@ from functools import lru_cache
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.derivation import rigid_body
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive, vectors
-
-Array = NDArray[np.float64]
 
 STOPPED = 1e-6
 """Share of the first transverse rate at which the body counts as stopped: the synthesis has no value at 0."""

@@ -5,12 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.collocation import Path, Problem, scales
 from pontryagin.averaging.mesh import derivative, evaluate
 from pontryagin.averaging.quadrature import CHECKING
 from pontryagin.certificate import MaximumPrinciple
-
-Array = NDArray[np.float64]
 
 
 def certify(

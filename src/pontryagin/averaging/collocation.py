@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.jets import Jet
 from pontryagin.averaging.mesh import Mesh, evaluate
 from pontryagin.averaging.model import Model
-
-Array = NDArray[np.float64]
 
 STEPS = 30
 HALVINGS = 12

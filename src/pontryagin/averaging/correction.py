@@ -8,16 +8,15 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import Canonical, canonical, epsilon, y
 from pontryagin.averaging.turn import anomaly_at
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import finite
-
-Array = NDArray[np.float64]
 
 POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
 """Points on a turn."""

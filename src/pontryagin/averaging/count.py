@@ -11,17 +11,15 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.averaging.solution import AveragedSolution, solved
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive
-
-Array = NDArray[np.float64]
 
 POINTS = 2048
 """Anomalies over a turn at which h* is compared with zero."""

@@ -6,8 +6,9 @@ from functools import cached_property, lru_cache
 from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.family import Family
@@ -18,8 +19,6 @@ from pontryagin.numerics.flow import (
     flow,
 )
 from pontryagin.validation import times
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

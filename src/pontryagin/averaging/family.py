@@ -9,13 +9,11 @@ zero. y1 oscillates once a turn about a slowly changing mean, minus kappa of the
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.members import FAR, chord, march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
-
-Array = NDArray[np.float64]
 
 FEWEST, MOST = 8, 64
 """Members a turn."""

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.collocation import Path, Problem
 from pontryagin.averaging.mesh import Mesh, derivative, evaluate
-
-Array = NDArray[np.float64]
 
 GROWTHS = 40
 NEAR = 1e-3

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
+
 Kernel = Callable[..., tuple]
 """Numbers or arrays to a tuple of them, written in arithmetic and NumPy's elementary functions."""
 
@@ -15,9 +17,9 @@ Kernel = Callable[..., tuple]
 class Jet:
     """Value (...), gradient (..., k) and Hessian (..., k, k) of one function."""
 
-    value: NDArray[np.float64]
-    gradient: NDArray[np.float64]
-    hessian: NDArray[np.float64]
+    value: Array
+    gradient: Array
+    hessian: Array
 
     def __getitem__(self, members) -> "Jet":
         return Jet(self.value[members], self.gradient[members], self.hessian[members])
@@ -39,7 +41,7 @@ class Jet:
     def __add__(self, other: "Jet") -> "Jet":
         return Jet(self.value + other.value, self.gradient + other.gradient, self.hessian + other.hessian)
 
-    def times(self, factor: NDArray[np.float64]) -> "Jet":
+    def times(self, factor: Array) -> "Jet":
         """The function times a constant (...)."""
         return Jet(
             factor * self.value, factor[..., None] * self.gradient, factor[..., None, None] * self.hessian
@@ -100,12 +102,12 @@ def _triangle(variables: int) -> NDArray[np.intp]:
     return place + 1 + variables
 
 
-def jet(columns: NDArray[np.float64], variables: int) -> Jet:
+def jet(columns: Array, variables: int) -> Jet:
     """The jet whose columns (..., width) these are."""
     return Jet(columns[..., 0], columns[..., 1 : 1 + variables], columns[..., _triangle(variables)])
 
 
-def evaluate(kernel: Kernel, *arguments: NDArray[np.float64]) -> NDArray[np.float64]:
+def evaluate(kernel: Kernel, *arguments: Array) -> Array:
     """All columns of a kernel at arrays of arguments, (..., columns); nan where it is not defined."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         columns = kernel(*arguments)

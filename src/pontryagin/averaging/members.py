@@ -3,12 +3,10 @@
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.shooting import Shooting, Shot, newton_step
 from pontryagin.errors import NotConverged
-
-Array = NDArray[np.float64]
 
 CLOSE = 1e-7
 """Residual of a member; the roots are polished."""

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.jets import Jet, Kernel, evaluate, jet, width
 from pontryagin.averaging.quadrature import SOLVING, Rule, find_switches, mean
 
-Array = NDArray[np.float64]
 BESIDE = 1e-9
 """How far beside a switch its one-sided derivatives are taken; they enter Newton's matrix only."""
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging import replay, tumble
 from pontryagin.averaging.replay import AVERAGED, EXACT, Pair
 from pontryagin.averaging.tumble import Motion
@@ -102,7 +102,7 @@ def _control(recording: Recording, name: str, motion: Motion, colour: str) -> No
     recording.trail(f"ellipsoid/{name}/way", motion.t, motion.control, colour, 1.0)
 
 
-def _ellipsoid(recording: Recording, semiaxes: NDArray[np.float64]) -> None:
+def _ellipsoid(recording: Recording, semiaxes: Array) -> None:
     upright = [[1.0, 0.0, 0.0, 0.0]]
     recording.ellipsoid("ellipsoid/bound", [0.0], semiaxes[None], np.zeros((1, 3)), upright, GREY)
     for axis, name in zip(np.diag(1.25 * semiaxes), COMPONENTS, strict=True):

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging import replay, spiral
 from pontryagin.averaging.replay import AVERAGED, EXACT, Pair
 from pontryagin.display.plotting import (
@@ -81,6 +81,6 @@ def _scene(recording: Recording, pair: Pair, flight: spiral.Flight, reach: float
     recording.arrow("orbit/thrust", t, arrows, RED, places, "thrust")
 
 
-def _in_space(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _in_space(points: Array) -> Array:
     """Points of the plane (..., 2) as (..., 3)."""
     return np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1)

@@ -8,17 +8,15 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arcs import switched_flow
 from pontryagin.averaging.canonical import Canonical, y
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-
-Array = NDArray[np.float64]
 
 SAMPLES = 200
 """Points a trajectory at which the Hamiltonian and its maximum are looked at."""

@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Density = Callable[[NDArray[np.float64], NDArray[np.intp]], NDArray[np.float64]]
+from pontryagin.arrays import Array
+
+Density = Callable[[Array, NDArray[np.intp]], Array]
 """Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
 
 Judged = NDArray[np.intp] | slice
@@ -34,9 +36,7 @@ LOOK = 128
 """How finely a turn is searched for switches."""
 
 
-def mean(
-    density: Density, switches: NDArray[np.float64], rule: Rule, judged: Judged = EVERY
-) -> NDArray[np.float64]:
+def mean(density: Density, switches: Array, rule: Rule, judged: Judged = EVERY) -> Array:
     """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
 
     Only the `judged` columns say when a rule is fine enough: the others are their derivatives.
@@ -54,9 +54,7 @@ def mean(
     return result
 
 
-def smooth_mean(
-    density: Density, points: int, rule: Rule = SOLVING, judged: Judged = EVERY
-) -> NDArray[np.float64]:
+def smooth_mean(density: Density, points: int, rule: Rule = SOLVING, judged: Judged = EVERY) -> Array:
     """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
 
     The first three rules, of which the third is the earliest to be believed, share one call of the density.
@@ -85,7 +83,7 @@ def smooth_mean(
 
 
 @functools.cache
-def _nested(size: int) -> NDArray[np.float64]:
+def _nested(size: int) -> Array:
     """Weights of the trapezoid on every fourth node, on every other and on all, (3, size)."""
     weights = np.zeros((3, size))
     for row, step in zip(weights, (4, 2, 1), strict=True):
@@ -93,7 +91,7 @@ def _nested(size: int) -> NDArray[np.float64]:
     return weights
 
 
-def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArray[np.float64]:
+def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> Array:
     """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns).
 
     Where intervals become so short that the density is known to fewer digits, fewer are asked for.
@@ -136,8 +134,8 @@ def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> NDArra
 
 
 def split_mean(
-    density: Density, switches: NDArray[np.float64], first: int = SOLVING.gauss, judged: Judged = EVERY
-) -> NDArray[np.float64]:
+    density: Density, switches: Array, first: int = SOLVING.gauss, judged: Judged = EVERY
+) -> Array:
     """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
     size = first
 
@@ -159,7 +157,7 @@ def split_mean(
     return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
 
 
-def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> NDArray[np.float64]:
+def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> Array:
     """Double a rule at the points where it has not settled, after those that `begin` has already.
 
     The error of a rule that converges geometrically is squared by each doubling: a change below half of all
@@ -188,7 +186,7 @@ def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> NDA
     return result
 
 
-def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArray]:
+def split_rule(switches: Array, size: int) -> tuple[NDArray, NDArray]:
     """Nodes and weights (points, panels * size) of Gauss's rule from switch to switch over one turn."""
     nodes, weights = _gauss(size)
     last = switches[:, :1] + 2 * np.pi
@@ -201,12 +199,12 @@ def split_rule(switches: NDArray[np.float64], size: int) -> tuple[NDArray, NDArr
 
 
 @functools.cache
-def _gauss(size: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _gauss(size: int) -> tuple[Array, Array]:
     nodes, weights = np.polynomial.legendre.leggauss(size)
     return (nodes + 1) / 2, weights / 2
 
 
-def find_switches(switching: Density, points: int) -> NDArray[np.float64]:
+def find_switches(switching: Density, points: int) -> Array:
     """Where the switching functions change sign over a turn, (points, s), ascending, filled up by nan.
 
     `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
@@ -265,7 +263,7 @@ def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[N
 
 def _refine(
     switching: Density, low: NDArray, high: NDArray, point: NDArray, which: NDArray, falling: NDArray
-) -> NDArray[np.float64]:
+) -> Array:
     """Newton's method, bisecting wherever it leaves the bracket."""
     x = (low + high) / 2
     rows = np.arange(len(point))

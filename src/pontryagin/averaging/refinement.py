@@ -3,12 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.family import VALUES, Family, local_range
 from pontryagin.averaging.members import march, members
 from pontryagin.averaging.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
-
-Array = NDArray[np.float64]
 
 NEAR = 0.2
 """How near to zero, in shares of y1's range, a turn of y1 is looked at more closely."""

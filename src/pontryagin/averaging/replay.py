@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.display.plotting import (
@@ -24,8 +24,6 @@ from pontryagin.display.recording import (
     Recording,
     View,
 )
-
-Array = NDArray[np.float64]
 
 AVERAGED, EXACT = ORANGE, BLUE
 SECONDS = 40.0

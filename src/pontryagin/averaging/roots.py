@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arrivals import arrivals, fixed_ending
 from pontryagin.averaging.extremal import Extremal, Extremals
 from pontryagin.averaging.family import Family, family
@@ -16,8 +17,6 @@ from pontryagin.averaging.shooting import Shooting, Shot, newton_step, shooting
 from pontryagin.averaging.turn import anomaly_at, phase_at
 from pontryagin.errors import NotConverged
 from pontryagin.validation import finite, positive
-
-Array = NDArray[np.float64]
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""

@@ -11,14 +11,13 @@ from functools import cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.control_sets import Ellipsoid
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.averaging.system import PhaseSystem
-
-Array = NDArray[np.float64]
 
 SENSE = sp.Symbol("sense", real=True)
 AT_REST = 1e-9

@@ -11,8 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arcs import switched_ends
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
@@ -22,8 +22,6 @@ from pontryagin.numerics.flow import (
     Ends,
     ends,
 )
-
-Array = NDArray[np.float64]
 
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which direct Newton's method; residuals come from the other."""

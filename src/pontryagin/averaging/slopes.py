@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.arrivals import fixed_ending
 from pontryagin.averaging.canonical import canonical
 from pontryagin.averaging.correction import parts
@@ -17,8 +17,6 @@ from pontryagin.averaging.rotor_example import rotor
 from pontryagin.averaging.smooth import smooth_example
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.averaging.spin_down_example import spin_down
-
-Array = NDArray[np.float64]
 
 EPSILONS = (0.04, 0.028, 0.02, 0.014, 0.01, 0.007)
 X = sp.Symbol("x", real=True)

@@ -6,8 +6,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.jets import evaluate
 from pontryagin.averaging.mesh import evaluate as evaluate_series
 from pontryagin.averaging.model import Model
@@ -18,8 +19,6 @@ from pontryagin.validation import finite, times, vectors
 
 if TYPE_CHECKING:
     from pontryagin.averaging.extremal import Extremals
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

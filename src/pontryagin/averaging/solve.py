@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.certify import certify
 from pontryagin.averaging.collocation import CLOSE, Path, Problem, newton
 from pontryagin.averaging.guess import Guess, shot, straight
@@ -13,8 +14,6 @@ from pontryagin.averaging.mesh import Mesh
 from pontryagin.averaging.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import Infeasible, NotConverged
-
-Array = NDArray[np.float64]
 
 COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
 GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)

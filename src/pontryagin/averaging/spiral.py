@@ -10,15 +10,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.derivation import kepler as elements
 from pontryagin.averaging.derivation import kepler_orbit as orbit
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.numerics import compile as compiler
-
-Array = NDArray[np.float64]
 
 A_TURN = 80
 """Samples a turn."""

@@ -11,18 +11,16 @@ from functools import lru_cache
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import OdeSolution, solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.braking import fly, synthesis
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.replay import Pair
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-
-Array = NDArray[np.float64]
 
 A_TURN, FEWEST = 70, 400
 """Samples a turn of the body, and at least."""

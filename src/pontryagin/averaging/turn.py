@@ -3,11 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.jets import evaluate
 from pontryagin.averaging.model import Model
 from pontryagin.errors import NotConverged
-
-Array = NDArray[np.float64]
 
 FIRST, LAST = 64, 2**14
 

@@ -21,6 +21,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.views import TIMELINE, blueprint
 from pontryagin.display.views import Events as Events
 from pontryagin.display.views import Plot as Plot
@@ -145,12 +146,12 @@ class Recording:
         )
         self._stream.log(entity, look, static=True)
 
-    def _send(self, entity: str, times: NDArray[np.float64], columns: Any) -> None:
+    def _send(self, entity: str, times: Array, columns: Any) -> None:
         self._stream.send_columns(
             entity, indexes=[self._rr.TimeColumn(TIMELINE, duration=times)], columns=columns
         )
 
-    def _box(self, size: NDArray[np.float64], colour: str) -> Any:
+    def _box(self, size: Array, colour: str) -> Any:
         base = np.array(_rgb(colour), dtype=float)
         vertices = np.concatenate([_CORNERS[list(face)] for face in _FACES]) * size / 2
         halves = np.array([(0, 1, 2), (0, 2, 3)])
@@ -248,14 +249,14 @@ def _rerun() -> ModuleType:
     return rerun
 
 
-def _times(t: ArrayLike) -> NDArray[np.float64]:
+def _times(t: ArrayLike) -> Array:
     times = np.asarray(t, dtype=float)
     if times.ndim != 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) < 0):
         raise ValueError(f"t: got shape {times.shape}; takes finite times (k,) in increasing order")
     return times
 
 
-def _array(argument: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:
+def _array(argument: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
     array = np.asarray(values, dtype=float)
     if array.shape != shape or not np.all(np.isfinite(array)):
         raise ValueError(f"{argument}: got shape {array.shape}; takes finite numbers of shape {shape}")
@@ -274,7 +275,7 @@ def _joined(parts: dict[str, list[NDArray[Any]]]) -> dict[str, NDArray[Any]]:
     return {c: values[order] if len(values) == order.size else values for c, values in whole.items()}
 
 
-def _seconds(column: Any) -> NDArray[np.float64]:
+def _seconds(column: Any) -> Array:
     return np.asarray(column.cast("int64"), dtype=np.int64) / 1e9
 
 

@@ -13,7 +13,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -56,7 +58,7 @@ class Formula:
     variable: str
     tree: ast.expr = field(repr=False, compare=False)
 
-    def __call__(self, values: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, values: ArrayLike) -> Array:
         """The formula at values (...) of the variable, (...); nan or infinite where it has no value."""
         with np.errstate(all="ignore"):
             return np.asarray(_value(self.tree, {self.variable: np.asarray(values, dtype=float)}))
@@ -209,7 +211,7 @@ def _check(node: ast.expr, variables: Sequence[str]) -> None:
         _check(part, variables)
 
 
-def _value(node: ast.expr, variables: dict[str, NDArray[np.float64]]) -> Any:
+def _value(node: ast.expr, variables: dict[str, Array]) -> Any:
     """Value of a checked tree; in floating point throughout, where no tower of powers runs for ever."""
     match node:
         case ast.Constant(value=constant):

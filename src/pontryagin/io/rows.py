@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.io import formula
 
 
@@ -18,7 +18,7 @@ class Rows(NamedTuple):
 
     header: list[str]
     rows: list[list[str]]
-    columns: dict[str, NDArray[np.float64]]
+    columns: dict[str, Array]
 
 
 def read(path: Path, required: Sequence[str], possible: Sequence[str] = ()) -> Rows:

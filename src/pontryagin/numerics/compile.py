@@ -9,7 +9,9 @@ import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
 
 
 def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> Callable[..., tuple]:
@@ -50,7 +52,7 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     _require_known_symbols(name, arguments, flat)
     evaluate = sp.lambdify(list(arguments), flat, modules="numpy", cse=True)
 
-    def call(*values: ArrayLike) -> tuple[NDArray[np.float64], ...]:
+    def call(*values: ArrayLike) -> tuple[Array, ...]:
         arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
         shape = arrays[0].shape if arrays else ()
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -103,7 +105,7 @@ def _as_pieces(extreme):
     return extreme.rewrite(sp.Piecewise)
 
 
-def _real(name: str, value: object) -> NDArray[np.float64]:
+def _real(name: str, value: object) -> Array:
     array = np.asarray(value)
     if np.iscomplexobj(array):
         raise TypeError(f"{name}: an expression takes complex values")

@@ -13,11 +13,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 
-Flow = Callable[..., NDArray[np.float64]]
-Ends = Callable[..., tuple[NDArray[np.float64], NDArray[np.float64]]]
+Flow = Callable[..., Array]
+Ends = Callable[..., tuple[Array, Array]]
 
 TOLERANCE = 1e-15
 ROUGH = 1e-10
@@ -206,7 +207,7 @@ def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Fl
         compact_mode=compact(rates),
     )
 
-    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> NDArray[np.float64]:
+    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
         grid = np.asarray(times, dtype=float)
         integrator.time = grid[0]
         integrator.state[:] = start
@@ -269,7 +270,7 @@ def _runge_kutta(states: tuple, rates: tuple, parameters: tuple, clock: object) 
     time = clock if clock is not None else _unused()
     evaluate = compiler.function("rates", [time, *states, *parameters], _named(rates))
 
-    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> NDArray[np.float64]:
+    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
         grid = np.asarray(times, dtype=float)
         constants = list(np.asarray(values, dtype=float))
         result = solve_ivp(

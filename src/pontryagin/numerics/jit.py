@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
 
 COMPILE_FROM = 512
 """Stacks at least this large are worth the half second that Numba takes to load."""
@@ -39,7 +40,7 @@ class Batched:
     kernel: Callable[..., tuple]
     outputs: int
 
-    def __call__(self, *columns: NDArray[np.float64]) -> NDArray[np.float64]:
+    def __call__(self, *columns: Array) -> Array:
         """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
         count = len(columns[0])
         result = np.empty((count, self.outputs))
@@ -57,7 +58,7 @@ class Batched:
         except ArithmeticError:
             return (math.nan,) * self.outputs
 
-    def one(self, *values: float) -> NDArray[np.float64]:
+    def one(self, *values: float) -> Array:
         """Solve one problem, as (outputs,); compiled only if a large stack was solved before."""
         if self.kernel not in _LOADED:
             return np.array(self._plain(*values))

@@ -5,9 +5,10 @@ about phi. Angular rates w are in body axes. Every function takes stacks, (..., 
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import zetac
 
+from pontryagin.arrays import Array
 from pontryagin.validation import vectors
 
 FULL_TURN = 2 * np.pi
@@ -16,7 +17,7 @@ _ORDERS = np.arange(1, 28)
 _SERIES = 2 * zetac(2 * _ORDERS)
 
 
-def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def cross(a: Array, b: Array) -> Array:
     """a x b, several times faster than `numpy.cross` on single vectors."""
     result = np.empty(np.broadcast_shapes(a.shape, b.shape))
     result[..., 0] = a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1]
@@ -25,14 +26,14 @@ def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]
     return result
 
 
-def attitude_rate(q: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+def attitude_rate(q: Array, w: Array) -> Array:
     """q' = q w / 2."""
     scalar, vector = q[..., :1], q[..., 1:]
     real = -(vector * w).sum(axis=-1, keepdims=True)
     return np.concatenate([real, scalar * w + cross(vector, w)], axis=-1) / 2
 
 
-def quaternion(phi: ArrayLike) -> NDArray[np.float64]:
+def quaternion(phi: ArrayLike) -> Array:
     """Unit quaternion of the turn by |phi| about phi, (..., 3) -> (..., 4).
 
     Examples
@@ -45,7 +46,7 @@ def quaternion(phi: ArrayLike) -> NDArray[np.float64]:
     return np.concatenate([np.cos(half), np.sinc(half / np.pi) * phi / 2], axis=-1)
 
 
-def rotation_vector(attitude: ArrayLike) -> NDArray[np.float64]:
+def rotation_vector(attitude: ArrayLike) -> Array:
     """Rotation vector of a quaternion, (..., 4) -> (..., 3), with 0 <= |phi| <= 2 pi.
 
     A quaternion and its negative are one attitude reached by two turns: phi tells which. Along a motion
@@ -63,7 +64,7 @@ def rotation_vector(attitude: ArrayLike) -> NDArray[np.float64]:
     return stretch * q[..., 1:]
 
 
-def between(attitude: ArrayLike, other: ArrayLike) -> NDArray[np.float64]:
+def between(attitude: ArrayLike, other: ArrayLike) -> Array:
     """Quaternion of the shorter turn from one attitude to the other, in body axes, (..., 4)."""
     p, q = vectors("attitude", attitude, 4), vectors("other", other, 4)
     scalar = (p * q).sum(axis=-1, keepdims=True)
@@ -71,7 +72,7 @@ def between(attitude: ArrayLike, other: ArrayLike) -> NDArray[np.float64]:
     return np.where(scalar < 0, -1.0, 1.0) * np.concatenate([scalar, vector], axis=-1)
 
 
-def vector_rate_matrix(phi: NDArray[np.float64]) -> NDArray[np.float64]:
+def vector_rate_matrix(phi: Array) -> Array:
     """B^-1 with phi' = B^-1 w, (..., 3) -> (..., 3, 3): 1 + [phi]/2 + g [phi]^2."""
     g, _ = _curvature(phi)
     outer = phi[..., :, None] * phi[..., None, :]
@@ -79,7 +80,7 @@ def vector_rate_matrix(phi: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.eye(3) + _skew(phi) / 2 + g[..., None] * square
 
 
-def vector_acceleration_drift(phi: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+def vector_acceleration_drift(phi: Array, w: Array) -> Array:
     """(B^-1)' w: what phi'' = B^-1 w' + (B^-1)' w has beside the angular acceleration, (..., 3)."""
     g, slope = _curvature(phi)
     inner = cross(phi, w)
@@ -92,7 +93,7 @@ def vector_acceleration_drift(phi: NDArray[np.float64], w: NDArray[np.float64]) 
     )
 
 
-def _curvature(phi: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _curvature(phi: Array) -> tuple[Array, Array]:
     """g = (1 - (t/2) cot(t/2))/t^2 and (dg/dt)/t at t = |phi|, (..., 1) each.
 
     From g = sum over k of 2/((2 pi k)^2 - t^2): the first term keeps the pole at a full turn, the others are
@@ -105,7 +106,7 @@ def _curvature(phi: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
     return g / FULL_TURN**2, 2 * slope / FULL_TURN**4
 
 
-def _skew(phi: NDArray[np.float64]) -> NDArray[np.float64]:
+def _skew(phi: Array) -> Array:
     x, y, z = np.moveaxis(phi, -1, 0)
     zero = np.zeros_like(x)
     rows = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.orbit_correction.columns import Columns, mixture, whitened
@@ -40,11 +41,11 @@ class Alternative:
 
     plan: Plan
     least: str
-    step_controls: NDArray[np.float64]
+    step_controls: Array
     certificate: Certificate
 
     @property
-    def impulses(self) -> NDArray[np.float64]:
+    def impulses(self) -> Array:
         """Radial and transverse impulse at the start of each interval, (M, 2)."""
         flat = self.step_controls.ravel()
         return np.append(flat, np.zeros(flat.size % 2)).reshape(-1, 2)
@@ -65,7 +66,7 @@ class Alternative:
         return _fuel(self.plan, self._relative)
 
     @property
-    def _relative(self) -> NDArray[np.float64]:
+    def _relative(self) -> Array:
         return self.step_controls / self.plan.thrust.peak
 
 
@@ -165,7 +166,7 @@ def _whitened(plan: Plan) -> tuple[NDArray, NDArray]:
     return whitened(plan.thrust.factors(int(plan.steps)), -plan.z0)
 
 
-def _sizes(plan: Plan, controls: NDArray) -> NDArray[np.float64]:
+def _sizes(plan: Plan, controls: NDArray) -> Array:
     return np.abs(controls) if plan.thrust.name == "box" else np.linalg.norm(controls, axis=1)
 
 
@@ -238,11 +239,11 @@ def _generate(factors: NDArray, target: NDArray, start: NDArray, turning: bool) 
     raise NotConverged("the least fuel was not found", value - bound)
 
 
-def _length(points: NDArray) -> NDArray[np.float64]:
+def _length(points: NDArray) -> Array:
     return np.asarray(np.linalg.norm(points, axis=1))
 
 
-def _total(points: NDArray) -> NDArray[np.float64]:
+def _total(points: NDArray) -> Array:
     return np.asarray(np.abs(points).sum(axis=1))
 
 

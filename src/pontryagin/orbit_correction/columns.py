@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 
 PRECISIONS = (1e-10, 1e-9, 1e-8)
@@ -20,8 +21,8 @@ class Columns:
     """Points of the steps' sets: whose they are (n,), which (n, m), and what each costs (n,)."""
 
     owners: NDArray[np.int64]
-    points: NDArray[np.float64]
-    costs: NDArray[np.float64]
+    points: Array
+    costs: Array
 
     def joined(self, owners: NDArray, points: NDArray, costs: NDArray) -> "Columns":
         """These and more."""
@@ -32,9 +33,7 @@ class Columns:
         )
 
 
-def mixture(
-    factors: NDArray[np.float64], target: NDArray[np.float64], columns: Columns, shared: bool
-) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tuple[float, Array, Array]:
     """The cheapest mixture of columns that reaches the target: its cost, psi, and the controls.
 
     Parameters
@@ -82,7 +81,7 @@ def mixture(
     return float(found.fun), found.eqlin.marginals, controls + np.einsum("kij,i->kj", factors, miss)
 
 
-def whitened(factors: NDArray[np.float64], target: NDArray[np.float64]) -> tuple[NDArray, NDArray]:
+def whitened(factors: Array, target: Array) -> tuple[NDArray, NDArray]:
     """G_k and b in the coordinates in which the sum of G G' is the identity."""
     root = np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
     return np.linalg.solve(root, factors), np.linalg.solve(root, target)

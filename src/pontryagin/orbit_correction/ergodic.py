@@ -13,8 +13,9 @@ psi pairs with the motion that stays, and the amplitude of what it pairs with th
 from math import lcm
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.plan import correct
 from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
@@ -26,7 +27,7 @@ MODES = np.array([[-1.0, 0.0, -2.0], [0.0, 1.0, 0.0], [2.0, 0.0, 2.0]])
 """Rows: two components that turn under e^{At}, and one that stays."""
 
 
-def modes(z0: ArrayLike) -> NDArray[np.float64]:
+def modes(z0: ArrayLike) -> Array:
     """Deviations (..., 3) as the amplitude of the oscillation and what stays, (..., 2).
 
     In the rows of `MODES` the motion is a rotation of the first two components; the third is twice the
@@ -43,7 +44,7 @@ def modes(z0: ArrayLike) -> NDArray[np.float64]:
 
 def mean_support(
     amplitude: ArrayLike, constant: ArrayLike, interval: float, peak: float, thrust: str
-) -> NDArray[np.float64]:
+) -> Array:
     """Mean of |G(phi)'psi| over the phase, for psi with given parts in the dual of `modes`, (...).
 
     Parameters
@@ -142,7 +143,7 @@ def _period(interval: float) -> int:
 
 def approach(
     z0: ArrayLike, counts: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: str = "ball"
-) -> NDArray[np.float64]:
+) -> Array:
     """alpha(N) N for whole numbers of steps (k,), (k,)."""
     steps = np.asarray(counts, dtype=np.int64)
     correct(z0, interval, peak, thrust)

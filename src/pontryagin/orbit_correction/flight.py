@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.flow import (
     Flow,
@@ -50,10 +51,10 @@ class Flight:
         Place theta on the orbit at the same instants, rad.
     """
 
-    impulses: NDArray[np.float64]
+    impulses: Array
     interval: float
-    states: NDArray[np.float64]
-    angles: NDArray[np.float64]
+    states: Array
+    angles: Array
 
     @property
     def residual(self) -> float:
@@ -146,7 +147,7 @@ class ClosedLoop:
     flights: tuple[Flight, ...]
 
     @property
-    def residuals(self) -> NDArray[np.float64]:
+    def residuals(self) -> Array:
         """Length of the deviation at the start and after each flight, (rounds + 1,)."""
         sizes = [float(np.linalg.norm(flight.states[0])) for flight in self.flights[:1]]
         return np.array(sizes + [flight.residual for flight in self.flights])

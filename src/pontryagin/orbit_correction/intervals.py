@@ -7,15 +7,16 @@ all radial impulses are parallel, so that H(k) of the paper does not exist; the 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
 from pontryagin.orbit_correction.plan import correct
 from pontryagin.orbit_correction.satellite import impulse_columns, step_factors
 from pontryagin.validation import positive, vectors
 
 
-def singular_values(intervals: ArrayLike, impulses: int) -> NDArray[np.float64]:
+def singular_values(intervals: ArrayLike, impulses: int) -> Array:
     """Singular values of the controllability matrix of so many impulses, (..., 3), the largest first.
 
     Its columns are what unit impulses do to the initial state.
@@ -39,7 +40,7 @@ def singular_values(intervals: ArrayLike, impulses: int) -> NDArray[np.float64]:
     return np.linalg.svd(np.array(stacked), compute_uv=False).reshape(*spacings.shape, 3)
 
 
-def step_condition(intervals: ArrayLike) -> NDArray[np.float64]:
+def step_condition(intervals: ArrayLike) -> Array:
     """Condition numbers of the paper's B for an even and an odd step, (..., 2); infinite where H is not.
 
     Examples
@@ -66,12 +67,12 @@ class Sweep:
         alpha of the plan; nan likewise.
     """
 
-    intervals: NDArray[np.float64]
-    impulses: NDArray[np.float64]
-    gauge: NDArray[np.float64]
+    intervals: Array
+    impulses: Array
+    gauge: Array
 
     @property
-    def duration(self) -> NDArray[np.float64]:
+    def duration(self) -> Array:
         """Time from the first impulse to the end of the last interval."""
         return self.impulses * self.intervals
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction.plan import correct
 from pontryagin.orbit_correction.thrust import THRUSTS
 from pontryagin.validation import finite
@@ -24,7 +25,7 @@ class Distribution:
         Fewest impulses by the name of the set, "ball", "disc", "box".
     """
 
-    z0: NDArray[np.float64]
+    z0: Array
     counts: dict[str, NDArray[np.int64]]
 
     def mean(self, thrust: str) -> float:
@@ -36,7 +37,7 @@ class Distribution:
         return int(np.quantile(self.counts[thrust], share, method="inverted_cdf"))
 
 
-def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> NDArray[np.float64]:
+def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Array:
     """Normal deviations with mean zero and a given covariance, (samples, 3), seeded.
 
     Raises

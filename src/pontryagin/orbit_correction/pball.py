@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.orbit_correction.columns import Columns, mixture, whitened
@@ -43,8 +44,8 @@ class PowerGauge:
 
     p: float
     steps: int
-    costate: NDArray[np.float64]
-    step_controls: NDArray[np.float64]
+    costate: Array
+    step_controls: Array
     certificate: Certificate
 
     @property
@@ -152,7 +153,7 @@ def fewest_power_steps(
     return best, proof
 
 
-def _root(factors: NDArray) -> NDArray[np.float64]:
+def _root(factors: NDArray) -> Array:
     return np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
 
 

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.orbit_correction.proof import CLOSED, require_closed, unit
@@ -42,15 +43,15 @@ class Plan:
     """
 
     thrust: Thrust
-    z0: NDArray[np.float64]
+    z0: Array
     steps: NDArray[np.int64]
-    shorter_gauge: NDArray[np.float64]
-    initial_costate: NDArray[np.float64]
-    step_controls: NDArray[np.float64]
+    shorter_gauge: Array
+    initial_costate: Array
+    step_controls: Array
     certificate: Certificate
 
     @property
-    def gauge(self) -> NDArray[np.float64]:
+    def gauge(self) -> Array:
         """alpha(N_min), the share of the peak that the plan uses, (...)."""
         return self.certificate.primal_value
 
@@ -60,7 +61,7 @@ class Plan:
         return -(-3 * self.steps // 2) if self.thrust.name == "ball" else self.steps
 
     @cached_property
-    def impulses(self) -> NDArray[np.float64]:
+    def impulses(self) -> Array:
         """Radial and transverse impulse at the start of each interval, (..., M, 2)."""
         count = self.step_controls.shape[-2] * self.step_controls.shape[-1]
         components = self.step_controls.reshape(*self.steps.shape, count)
@@ -68,7 +69,7 @@ class Plan:
         return padded.reshape(*self.steps.shape, -(-count // 2), 2)
 
     @cached_property
-    def controls(self) -> NDArray[np.float64]:
+    def controls(self) -> Array:
         """u(k) of x(k+1) = A(k) x(k) + u(k), (..., N, 3)."""
         inputs = np.zeros((self.step_controls.shape[-2], 3, self.step_controls.shape[-1]))
         for k in range(len(inputs)):
@@ -76,7 +77,7 @@ class Plan:
         return np.einsum("kij,...kj->...ki", inputs, self.step_controls)
 
     @cached_property
-    def states(self) -> NDArray[np.float64]:
+    def states(self) -> Array:
         """x(k) from z0 to the end, (..., N + 1, 3)."""
         states = [self.z0]
         for k in range(self.controls.shape[-2]):
@@ -84,7 +85,7 @@ class Plan:
         return np.stack(states, axis=-2)
 
     @cached_property
-    def costates(self) -> NDArray[np.float64]:
+    def costates(self) -> Array:
         """psi(k), with psi(k+1) = A(k)^-T psi(k), (..., N, 3)."""
         costates = np.empty_like(self.controls)
         current = self.initial_costate
@@ -157,7 +158,7 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     return plan
 
 
-def fewest_steps(thrust: Thrust, rows: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]:
     """N_min of the states (rows, 3), and what proves that one step fewer does not do.
 
     alpha(N) falls strictly and N alpha(N) tends to a constant, so that N alpha(N) is a good next guess; it
@@ -192,9 +193,7 @@ def fewest_steps(thrust: Thrust, rows: NDArray[np.float64]) -> tuple[NDArray[np.
     return enough, proof
 
 
-def _between(
-    low: NDArray, above: NDArray, high: NDArray, below: NDArray, middle: bool
-) -> NDArray[np.float64]:
+def _between(low: NDArray, above: NDArray, high: NDArray, below: NDArray, middle: bool) -> Array:
     """Where log alpha, linear in log N, is 0 between alpha(low) > 1 and alpha(high) <= 1; or the middle."""
     with np.errstate(all="ignore"):
         share = np.log(above) / np.log(above / below)

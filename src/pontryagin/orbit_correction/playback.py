@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -162,7 +163,7 @@ def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
         recording.curve(f"impulse/{name}", dense[dense <= t[-1]], values[dense <= t[-1]], name, colour)
 
 
-def _flash(plan: Plan, t: NDArray) -> NDArray[np.float64]:
+def _flash(plan: Plan, t: NDArray) -> Array:
     """Impulses over their bound at the times (k,), each shown while it is held, (k, 2)."""
     since = t[:, None] - PACE * plan.thrust.interval * np.arange(len(plan.impulses))
     shown = (since > 0) & (since < HOLD + BLINK / 2)
@@ -181,10 +182,10 @@ class Remaining:
         Of the components still to come in the step that has begun, within what they have left of its ball.
     """
 
-    factors: NDArray[np.float64]
-    rest: NDArray[np.float64]
+    factors: Array
+    rest: Array
 
-    def boundary(self, normals: NDArray[np.float64], square: bool) -> NDArray[np.float64]:
+    def boundary(self, normals: Array, square: bool) -> Array:
         """Support points for outward normals (..., 3)."""
         whole = sets.support_points(self.factors, normals, square)
         return whole + sets.support_points(self.rest[None], normals, False)

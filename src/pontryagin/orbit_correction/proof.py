@@ -1,8 +1,8 @@
 """What makes a gauge handed out a proved one."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 
@@ -10,7 +10,7 @@ CLOSED = 1e-7
 """Largest residual, and gap relative to the gauge, of an answer that is handed out."""
 
 
-def unit(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def unit(rows: Array) -> Array:
     """Vectors (rows, n) of length 1 along those given, however long; zeros stay.
 
     Examples

@@ -3,12 +3,14 @@
 from math import atan2, cos, pi, sin
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
 
 LINEAR = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, -1.0, 0.0]])
 
 
-def transition(time: ArrayLike) -> NDArray[np.float64]:
+def transition(time: ArrayLike) -> Array:
     """e^{A t} for times (...), as (..., 3, 3): I + sin t A + (1 - cos t) A^2.
 
     Examples
@@ -35,7 +37,7 @@ def phase(interval: float) -> float:
     return interval if interval <= pi else atan2(sin(interval), cos(interval))
 
 
-def impulse_columns(intervals: int, interval: float) -> NDArray[np.float64]:
+def impulse_columns(intervals: int, interval: float) -> Array:
     """What unit impulses at the starts of the intervals do to the initial state, (intervals, 3, 2).
 
     Column 0 is a radial and column 1 a transverse impulse, e^{-A j interval} e.
@@ -43,19 +45,19 @@ def impulse_columns(intervals: int, interval: float) -> NDArray[np.float64]:
     return transition(-np.arange(intervals) * interval)[:, :, 1:]
 
 
-def step_factors(steps: int, interval: float) -> NDArray[np.float64]:
+def step_factors(steps: int, interval: float) -> Array:
     """G_k of the paper's regrouped steps, three impulse components each, (steps, 3, 3), for peak 1."""
     intervals = -(-3 * steps // 2)
     columns = np.moveaxis(impulse_columns(intervals, interval), 1, 2).reshape(-1, 3)
     return np.moveaxis(columns[: 3 * steps].reshape(steps, 3, 3), 1, 2)
 
 
-def step_transition(k: int, interval: float) -> NDArray[np.float64]:
+def step_transition(k: int, interval: float) -> Array:
     """A(k): two intervals for even k, one for odd."""
     return transition((2 if k % 2 == 0 else 1) * interval)
 
 
-def step_input(k: int, interval: float) -> NDArray[np.float64]:
+def step_input(k: int, interval: float) -> Array:
     """B(k): the three impulse components of step k carried to its end."""
     once = transition(interval)
     radial, transverse = once[:, 1], once[:, 2]

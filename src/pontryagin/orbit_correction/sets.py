@@ -9,10 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.thrust import Thrust
-
-Array = NDArray[np.float64]
 
 
 def support_points(factors: Array, normals: Array, square: bool) -> Array:

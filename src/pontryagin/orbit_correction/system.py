@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible
 from pontryagin.numerics.jit import compiled
@@ -55,7 +56,7 @@ class DiscreteSystem:
     _known: list[tuple[NDArray, NDArray]] = field(default_factory=list, init=False, repr=False)
     _stacks: dict[str, NDArray] = field(default_factory=dict, init=False, repr=False)
 
-    def step(self, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def step(self, k: int) -> tuple[Array, Array]:
         """A(k) and the factor L(k) of the ellipsoid, L L' = H(k)^-1, both (n, n)."""
         while len(self._known) <= k:
             index = len(self._known)
@@ -74,7 +75,7 @@ class DiscreteSystem:
             self._known.append((dynamics, _ellipsoid_factor(shape, index)))
         return self._known[k]
 
-    def _matrix(self, name: str, k: int) -> NDArray[np.float64]:
+    def _matrix(self, name: str, k: int) -> Array:
         """A(k) or H(k), checked to be square and finite."""
         given = getattr(self, name)
         if callable(given):
@@ -90,7 +91,7 @@ class DiscreteSystem:
             raise ValueError(f"{name} must hold a matrix for step {k}, got {len(stack)} matrices")
         return _square(f"{name}({k})", stack if stack.ndim == 2 else stack[k])
 
-    def factors(self, steps: int) -> NDArray[np.float64]:
+    def factors(self, steps: int) -> Array:
         """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) = sum of G_k B, Lemma 1."""
         inverse, result = None, []
         for k in range(steps):
@@ -103,13 +104,13 @@ class DiscreteSystem:
         return np.array(result)
 
 
-def _square(name: str, matrix: NDArray) -> NDArray[np.float64]:
+def _square(name: str, matrix: NDArray) -> Array:
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.size:
         raise ValueError(f"{name} must be an (n, n) matrix, got shape {matrix.shape}")
     return matrix
 
 
-def _ellipsoid_factor(shape: NDArray, k: int) -> NDArray[np.float64]:
+def _ellipsoid_factor(shape: NDArray, k: int) -> Array:
     if not np.allclose(shape, shape.T, rtol=1e-12, atol=0):
         raise ValueError(
             f"H({k}) must be symmetric, it differs from its transpose by {np.abs(shape - shape.T).max():.3g}"
@@ -136,8 +137,8 @@ class Gauge:
         alpha of controls that reach the origin exactly, and the bound that psi_0 proves.
     """
 
-    alpha: NDArray[np.float64]
-    costate: NDArray[np.float64]
+    alpha: Array
+    costate: Array
     certificate: Certificate
 
 
@@ -168,7 +169,7 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
     return gauge_of_factors(system.factors(int(steps)), vectors("x0", x0, n))
 
 
-def gauge_of_factors(factors: NDArray[np.float64], x0: NDArray[np.float64]) -> Gauge:
+def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
 
     A flat sum is taken as a set of the plane that it spans: states there have a gauge, others none.
@@ -207,7 +208,7 @@ def gauge_of_factors(factors: NDArray[np.float64], x0: NDArray[np.float64]) -> G
     return Gauge(lower, unit(costates @ whitening / reach).reshape(*shape, n), proof)
 
 
-def _require_reachable(left: NDArray[np.float64], x0: NDArray[np.float64]) -> None:
+def _require_reachable(left: Array, x0: Array) -> None:
     outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
     if outside.any():
         state = x0.reshape(left.shape)[int(np.argmax(outside))]

@@ -12,6 +12,7 @@ from math import fabs
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
 from pontryagin.numerics.jit import compiled
 from pontryagin.orbit_correction import satellite
@@ -96,10 +97,10 @@ def misses_of(transitions, inputs, counts, states, controls, results):
 class Gauges:
     """Gauges of states, each for its own number of steps: bounds, costates and controls."""
 
-    lower: NDArray[np.float64]
-    upper: NDArray[np.float64]
-    costates: NDArray[np.float64]
-    controls: NDArray[np.float64]
+    lower: Array
+    upper: Array
+    costates: Array
+    controls: Array
 
 
 @dataclass(frozen=True)
@@ -115,9 +116,9 @@ class Scaled:
         Cholesky factors of the Gramians after each step, zero where they are singular.
     """
 
-    reach: NDArray[np.float64]
-    factors: NDArray[np.float64]
-    gram_factors: NDArray[np.float64]
+    reach: Array
+    factors: Array
+    gram_factors: Array
 
     def first(self, steps: int) -> "Scaled":
         """The same for fewer steps."""
@@ -158,28 +159,28 @@ class Thrust:
         """Steps below which the impulses span less than the space."""
         return 1 if self.name == "ball" or self.whole_revolutions else 2
 
-    def factors(self, steps: int) -> NDArray[np.float64]:
+    def factors(self, steps: int) -> Array:
         """G_k, (steps, 3, components)."""
         return self.peak * self.unit_factors(steps)
 
-    def unit_factors(self, steps: int) -> NDArray[np.float64]:
+    def unit_factors(self, steps: int) -> Array:
         """G_k for a peak of 1."""
         make = satellite.step_factors if self.name == "ball" else satellite.impulse_columns
         return make(steps, self.phase)
 
-    def step_transition(self, k: int) -> NDArray[np.float64]:
+    def step_transition(self, k: int) -> Array:
         """A(k), (3, 3)."""
         if self.name == "ball":
             return satellite.step_transition(k, self.phase)
         return satellite.transition(self.phase)
 
-    def step_input(self, k: int) -> NDArray[np.float64]:
+    def step_input(self, k: int) -> Array:
         """B(k), (3, components)."""
         if self.name == "ball":
             return satellite.step_input(k, self.phase)
         return satellite.transition(self.phase)[:, 1:]
 
-    def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> NDArray[np.float64]:
+    def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> Array:
         """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
         transitions, inputs = _motion(self)
         results = np.empty(len(z0))
@@ -187,7 +188,7 @@ class Thrust:
         run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
         return results
 
-    def bounds(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+    def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
         """Lower and upper bounds on the gauges, as `gauges` gives them, whatever the size of the stack."""
         lower, upper = np.empty(len(z0)), np.empty(len(z0))
         order = np.argsort(counts, kind="stable")
@@ -199,7 +200,7 @@ class Thrust:
             lower[now], upper[now] = found.lower, found.upper
         return lower, upper
 
-    def gauges(self, z0: NDArray[np.float64], counts: NDArray[np.int64]) -> Gauges:
+    def gauges(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
         """Gauges of the states (rows, 3) for their numbers of steps (rows,)."""
         with np.errstate(all="ignore"):
             if self.whole_revolutions:
@@ -253,7 +254,7 @@ class Thrust:
         return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)
 
 
-def scaled(factors: NDArray[np.float64], fewest: int) -> Scaled:
+def scaled(factors: Array, fewest: int) -> Scaled:
     """What the gauges need of the factors (steps, n, components), with Gramians from `fewest` steps on."""
     reach = np.maximum(np.abs(factors[:FIRST]).max(axis=(0, 2)), 1e-300)
     units = np.ascontiguousarray(factors / reach[:, None])
@@ -269,7 +270,7 @@ def _kept(thrust: Thrust, steps: int) -> Scaled:
 
 
 @lru_cache(maxsize=32)
-def _motion(thrust: Thrust) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _motion(thrust: Thrust) -> tuple[Array, Array]:
     """A(k) and B(k) of an even and an odd step, in units of the peak."""
     transitions = np.stack([thrust.step_transition(k) for k in range(2)])
     return transitions, thrust.peak * np.stack([thrust.step_input(k) for k in range(2)])

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.io import formula
 from pontryagin.orbit_correction import satellite
 from pontryagin.orbit_correction.plan import Plan
@@ -54,7 +54,7 @@ def transcript(plan: Plan) -> Report:
     }
 
 
-def samples(plan: Plan, count: int) -> dict[str, NDArray[np.float64]]:
+def samples(plan: Plan, count: int) -> dict[str, Array]:
     """Linear motion and costate at evenly spaced times: ``t`` (k,), ``state`` and ``costate`` (k, 3).
 
     At the instant of an impulse the state is that after it.
@@ -99,7 +99,7 @@ class States(NamedTuple):
 
     header: list[str]
     rows: list[list[str]]
-    z0: NDArray[np.float64]
+    z0: Array
 
 
 def read(path: Path) -> States:

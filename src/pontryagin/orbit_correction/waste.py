@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction.plan import correct
 from pontryagin.orbit_correction.thrust import THRUSTS
 from pontryagin.validation import positive, vectors
@@ -22,7 +23,7 @@ class Waste:
         Impulses by the name of the set, "ball", "disc", "box".
     """
 
-    z0: NDArray[np.float64]
+    z0: Array
     counts: dict[str, NDArray[np.int64]]
 
     def wasted(self, thrust: str = "box") -> NDArray[np.int64]:
@@ -58,7 +59,7 @@ def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) 
     return Waste(states, {name: correct(states, interval, peak, name).impulse_count for name in THRUSTS})
 
 
-def random_states(count: int, size: float = 0.01, seed: int = 2017) -> NDArray[np.float64]:
+def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
     """Normal deviations with the same standard deviation in every component, (count, 3), seeded.
 
     Examples

@@ -1,9 +1,9 @@
 """Quaternions in numbers, scalar part first, along the last axis."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from pontryagin.arrays import Array
 
 
 def product(a: ArrayLike, b: ArrayLike) -> Array:

@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import schema as asked
 from pontryagin.rendezvous.reduced.solution import Extremal
 
@@ -75,7 +75,7 @@ def transcript(extremal: Extremal) -> Report:
     return told
 
 
-def samples(extremal: Extremal, count: int) -> dict[str, NDArray[np.float64]]:
+def samples(extremal: Extremal, count: int) -> dict[str, Array]:
     """The solution at evenly spaced times.
 
     ``t`` (k,); ``state`` (k, 8): r, v1, c, phi* and lambda; ``costate`` (k, 6): rho, s1, e, nu1, nu2, nu3;

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.numerics.compile import function
 from pontryagin.numerics.rotation import (
     between,
@@ -33,13 +34,13 @@ class Programme(Protocol):
         """What was asked."""
 
     @property
-    def breakpoints(self) -> NDArray[np.float64]:
+    def breakpoints(self) -> Array:
         """Times between which the control is smooth, (j,)."""
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (k,)."""
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (k, 3)."""
 
 
@@ -61,50 +62,50 @@ class Turn:
     """
 
     body: RigidBody
-    axis: NDArray[np.float64]
+    axis: Array
     programme: Programme
     feedforward: bool
     motion: Motion
 
-    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+    def attitude(self, t: ArrayLike) -> Array:
         """Quaternion, scalar first, from body to inertial axes, (k, 4)."""
         return self.motion.attitude(t)
 
-    def planned_attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+    def planned_attitude(self, t: ArrayLike) -> Array:
         """Quaternion of the turn by x1 about the axis, (k, 4)."""
         return quaternion(self.motion.commands(t)[:, :1] * self.axis)
 
-    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def rate(self, t: ArrayLike) -> Array:
         """Angular rate in body axes, (k, 3)."""
         return self.motion.rate(t)
 
-    def error(self, t: ArrayLike) -> NDArray[np.float64]:
+    def error(self, t: ArrayLike) -> Array:
         """Rotation vector from the planned to the true attitude, rad, (k, 3)."""
         return rotation_vector(between(self.planned_attitude(t), self.attitude(t)))
 
-    def rate_error(self, t: ArrayLike) -> NDArray[np.float64]:
+    def rate_error(self, t: ArrayLike) -> Array:
         """True less planned angular rate, (k, 3)."""
         return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
 
-    def angle(self, t: ArrayLike) -> NDArray[np.float64]:
+    def angle(self, t: ArrayLike) -> Array:
         """Angle turned about the axis, rad, (k,): the share of the true attitude that is a turn about it."""
         turn = between(self.planned_attitude(t), self.attitude(t))
         return self.motion.commands(t)[:, 0] + 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
 
-    def channel_torque(self, t: ArrayLike) -> NDArray[np.float64]:
+    def channel_torque(self, t: ArrayLike) -> Array:
         """J e x3: what the programme commands, (k, 3)."""
         return self.motion.commands(t)[:, 2:] * (self.body.inertia @ self.axis)
 
-    def gyroscopic_torque(self, t: ArrayLike) -> NDArray[np.float64]:
+    def gyroscopic_torque(self, t: ArrayLike) -> Array:
         """x2^2 e x (J e): what else the planned turn needs, (k, 3)."""
         return self.motion.commands(t)[:, 1:2] ** 2 * self.gyroscopic_inertia
 
-    def torque(self, t: ArrayLike) -> NDArray[np.float64]:
+    def torque(self, t: ArrayLike) -> Array:
         """What the actuators give, (k, 3)."""
         channel = self.channel_torque(t)
         return channel + self.gyroscopic_torque(t) if self.feedforward else channel
 
-    def torque_rate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def torque_rate(self, t: ArrayLike) -> Array:
         """Rate of change of `torque`, (k, 3); between impulses, which make the torque jump by J e du."""
         x2, x3 = self.motion.commands(t)[:, 1:].T
         control = self.programme.control(t)
@@ -116,7 +117,7 @@ class Turn:
         return channel + (2 * x2 * acceleration)[:, None] * self.gyroscopic_inertia
 
     @property
-    def gyroscopic_inertia(self) -> NDArray[np.float64]:
+    def gyroscopic_inertia(self) -> Array:
         """e x (J e), (3,): zero about a principal axis."""
         return cross(self.axis, self.body.inertia @ self.axis)
 
@@ -183,7 +184,7 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     gyroscopic = cross(e, inertia) if feedforward else np.zeros(3)
     f = disturbance_of(maneuver)
 
-    def torque(t: float, q: NDArray, w: NDArray, planned: NDArray) -> NDArray[np.float64]:
+    def torque(t: float, q: NDArray, w: NDArray, planned: NDArray) -> Array:
         return (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
 
     interval = float(maneuver.t0), float(maneuver.tf)
@@ -207,7 +208,7 @@ def impulses(programme: Any) -> list[tuple[float, float]]:
     return [(time, jump) for time, jump in pairs if jump != 0.0]
 
 
-def _unit(axis: ArrayLike) -> NDArray[np.float64]:
+def _unit(axis: ArrayLike) -> Array:
     direction = vectors("axis", axis, 3)
     size = np.linalg.norm(direction)
     if direction.shape != (3,) or not size > 0:

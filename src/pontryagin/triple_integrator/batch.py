@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.io import formula
 from pontryagin.triple_integrator.transcript import account, certificate_of
 
@@ -22,9 +22,9 @@ class Problems(NamedTuple):
 
     header: list[str]
     rows: list[list[str]]
-    columns: dict[str, NDArray[np.float64]]
+    columns: dict[str, Array]
 
-    def stack(self, names: Sequence[str]) -> NDArray[np.float64]:
+    def stack(self, names: Sequence[str]) -> Array:
         """Columns side by side, (n, len(names))."""
         return np.stack([self.columns[name] for name in names], axis=-1)
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.rotation import (
     FULL_TURN,
@@ -40,10 +41,10 @@ class Coupling:
         Chebyshev coefficients on each.
     """
 
-    edges: NDArray[np.float64]
-    series: NDArray[np.float64]
+    edges: Array
+    series: Array
 
-    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, t: ArrayLike) -> Array:
         """f at the times t, (...) -> (...)."""
         time = np.asarray(t, dtype=float)
         index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.series) - 1)
@@ -75,7 +76,7 @@ class Channels:
         return [i for i in range(3) if i not in self.programmed]
 
     @property
-    def ends(self) -> NDArray[np.float64]:
+    def ends(self) -> Array:
         """Both ends of the channels, (2, 3, 3)."""
         maneuvers = [programme.maneuver for programme in self.programmes]
         return np.array([[m.x0 for m in maneuvers], [m.xf for m in maneuvers]])
@@ -168,6 +169,6 @@ class Channels:
         return [Coupling(motion.edges, series[i]) if i in self.programmed else None for i in range(3)]
 
 
-def body_rate(ends: NDArray[np.float64]) -> NDArray[np.float64]:
+def body_rate(ends: Array) -> Array:
     """w = B phi' of channels with states (3, 3)."""
     return np.asarray(np.linalg.solve(vector_rate_matrix(ends[:, 0]), ends[:, 1]), dtype=float)

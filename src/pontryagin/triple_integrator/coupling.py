@@ -18,8 +18,9 @@ from functools import cached_property
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.rotation import (
     FULL_TURN,
@@ -62,7 +63,7 @@ class CoupledManeuver:
     body: RigidBody
     programmes: tuple[Programme, ...]
     programmed: tuple[int, ...]
-    misses: NDArray[np.float64]
+    misses: Array
     motion: Motion
 
     @property
@@ -74,31 +75,31 @@ class CoupledManeuver:
         telling = self.misses[self.misses > NOISE][-4:]
         return float((telling[-1] / telling[0]) ** (1 / (telling.size - 1))) if telling.size > 1 else 0.0
 
-    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+    def attitude(self, t: ArrayLike) -> Array:
         """Quaternion, scalar first, from body to inertial axes, (k,) -> (k, 4)."""
         return self.motion.attitude(t)
 
-    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def rate(self, t: ArrayLike) -> Array:
         """Angular rate in body axes, (k,) -> (k, 3)."""
         return self.motion.rate(t)
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """Angle, its rate and control acceleration (phi, phi', m) of each channel, (k,) -> (3, k, 3)."""
         phi, rate = rotation_vector(self.attitude(t)), self.rate(t)
         phi_rate = np.einsum("kij,kj->ki", vector_rate_matrix(phi), rate)
         return np.moveaxis(np.stack([phi, phi_rate, self._control_acceleration(t)], axis=-1), 1, 0)
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u of the programmed channels, (k,) -> (channels, k)."""
         return np.stack([self.programmes[i].control(t) for i in self.programmed])
 
-    def coupling(self, t: ArrayLike) -> NDArray[np.float64]:
+    def coupling(self, t: ArrayLike) -> Array:
         """f = phi'' - m of each channel along the motion, (k,) -> (3, k)."""
         return self._channels.coupling(
             rotation_vector(self.attitude(t)), self.rate(t), self._control_acceleration(t)
         ).T
 
-    def torque(self, t: ArrayLike) -> NDArray[np.float64]:
+    def torque(self, t: ArrayLike) -> Array:
         """J m, (k,) -> (k, 3)."""
         return self._control_acceleration(t) @ self.body.inertia
 
@@ -106,7 +107,7 @@ class CoupledManeuver:
     def _channels(self) -> "Channels":
         return Channels(self.body, self.programmes, self.programmed)
 
-    def _control_acceleration(self, t: ArrayLike) -> NDArray[np.float64]:
+    def _control_acceleration(self, t: ArrayLike) -> Array:
         phi = rotation_vector(self.attitude(t))
         return self._channels.control_acceleration(
             np.atleast_1d(t), phi, self.rate(t), self.motion.commands(t)
@@ -178,7 +179,7 @@ def couple(
     raise NotConverged(f"the cross-coupling did not settle in {iterations} iterations", misses[-1])
 
 
-def spherical_factor(angle: ArrayLike) -> NDArray[np.float64]:
+def spherical_factor(angle: ArrayLike) -> Array:
     """Factor by which an iteration multiplies the miss of a spherical body's turn from rest to rest.
 
     |1 - x cot x + i x| with x = angle/2: the eigenvalues of 1 - B^-1. It is 1 at an angle of 1.895 rad

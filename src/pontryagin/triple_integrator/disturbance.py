@@ -9,6 +9,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.validation import finite
 
@@ -116,7 +117,7 @@ def _antiderivatives(expression) -> tuple | None:
     return first, second
 
 
-def _real(value: object) -> NDArray[np.float64]:
+def _real(value: object) -> Array:
     array = np.asarray(value)
     if array.dtype.kind in "cUS":
         raise TypeError(f"got {value!r}")

@@ -5,8 +5,9 @@ from functools import cached_property
 from math import fabs, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels, trajectory
@@ -52,21 +53,21 @@ class EnergySolution:
     """
 
     maneuver: Maneuver
-    coefficients: NDArray[np.float64]
+    coefficients: Array
     certificate: Certificate
 
     @property
-    def norm(self) -> NDArray[np.float64]:
+    def norm(self) -> Array:
         """The least L2 norm of u, the root of the generalised energy (1.18), (...)."""
         return self.certificate.primal_value
 
     @property
-    def breakpoints(self) -> NDArray[np.float64]:
+    def breakpoints(self) -> Array:
         """None: the control is smooth, (0,)."""
         return trajectory.breakpoints(np.empty((*self.maneuver.shape, 0)))
 
     @cached_property
-    def multipliers(self) -> NDArray[np.float64]:
+    def multipliers(self) -> Array:
         """l0 = D^-1 c / (c'D^-1 c), (..., 3); zeros where c = 0."""
         c = self.maneuver.moments
         powers = self.maneuver.duration[..., None] ** np.array([3.0, 2.0, 1.0])
@@ -76,13 +77,13 @@ class EnergySolution:
         parts = kernels.energy_multipliers(k1, k2, k3, 1.0)  # type: ignore[call-arg]
         return trajectory.normalised(np.stack(parts, axis=-1) / powers, c)
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
         s = self.maneuver.tf[..., None] - self.maneuver.times(t)
         u0, u1, u2 = (self.coefficients[..., None, i] for i in range(3))
         return u0 + s * (u1 + s * u2)
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
         m = self.maneuver
         T = m.duration
@@ -95,7 +96,7 @@ class EnergySolution:
         )
         return m.drift(time) + sum(parts)
 
-    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def costate(self, t: ArrayLike) -> Array:
         """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); u is psi_3 / rho0^2."""
         return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 

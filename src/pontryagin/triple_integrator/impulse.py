@@ -10,6 +10,7 @@ from math import fabs
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import trajectory
@@ -118,14 +119,14 @@ class ImpulseSolution:
     """
 
     maneuver: Maneuver
-    inner: NDArray[np.float64]
-    amplitudes: NDArray[np.float64]
+    inner: Array
+    amplitudes: Array
     regime_index: NDArray[np.int8]
     unique: NDArray[np.bool_]
     certificate: Certificate
 
     @property
-    def norm(self) -> NDArray[np.float64]:
+    def norm(self) -> Array:
         """The least total impulse, (...)."""
         return self.certificate.primal_value
 
@@ -140,7 +141,7 @@ class ImpulseSolution:
         return np.argsort(self.amplitudes == 0, axis=-1, kind="stable")
 
     @cached_property
-    def impulse_times(self) -> NDArray[np.float64]:
+    def impulse_times(self) -> Array:
         """Times of the impulses in order, then nan for absent ones, (..., 3)."""
         m = self.maneuver
         times = np.stack([m.t0, m.tf - self.inner * m.duration, m.tf], axis=-1)
@@ -148,12 +149,12 @@ class ImpulseSolution:
         return np.take_along_axis(times, self._order, axis=-1)
 
     @cached_property
-    def impulses(self) -> NDArray[np.float64]:
+    def impulses(self) -> Array:
         """Amplitudes at `impulse_times`, 0 for absent ones, (..., 3)."""
         return np.take_along_axis(self.amplitudes, self._order, axis=-1)
 
     @property
-    def breakpoints(self) -> NDArray[np.float64]:
+    def breakpoints(self) -> Array:
         """Times strictly within one manoeuvre at which an impulse acts, (j,)."""
         inside = np.where(
             (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
@@ -161,7 +162,7 @@ class ImpulseSolution:
         return trajectory.breakpoints(self.impulse_times * inside)
 
     @cached_property
-    def multipliers(self) -> NDArray[np.float64]:
+    def multipliers(self) -> Array:
         """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
         T, regime = self.maneuver.duration, self.regime_index
         inside = np.where(regime == START, 1.0 - self.inner, self.inner)
@@ -172,13 +173,13 @@ class ImpulseSolution:
         shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
         return trajectory.normalised(shape, self.maneuver.moments)
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""
         hits = self.maneuver.times(t)[..., :, None] == self.impulse_times[..., None, :]
         signs = (hits * np.sign(self.impulses[..., None, :])).sum(axis=-1)
         return np.where(signs == 0, 0.0, np.inf * np.where(signs == 0, 1.0, signs))
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3).
 
         At the instant of an impulse x3 is the value after it, except at the start, where x(t0) = x0.
@@ -188,7 +189,7 @@ class ImpulseSolution:
         driven = trajectory.response(time, self.impulse_times, self.impulses, order=0)
         return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
 
-    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def costate(self, t: ArrayLike) -> Array:
         """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); impulses act where |psi_3| is largest."""
         return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import disturbance as disturbances
 from pontryagin.triple_integrator import kernels
@@ -45,10 +46,10 @@ class Maneuver:
     array([ -7., -12.,   0.])
     """
 
-    x0: NDArray[np.float64]
-    xf: NDArray[np.float64]
-    tf: NDArray[np.float64]
-    t0: NDArray[np.float64] = 0.0  # type: ignore[assignment]
+    x0: Array
+    xf: Array
+    tf: Array
+    t0: Array = 0.0  # type: ignore[assignment]
     disturbance: ArrayLike | Callable | object | None = None
 
     def __post_init__(self) -> None:
@@ -80,7 +81,7 @@ class Maneuver:
         return self.x0.shape[:-1]
 
     @property
-    def duration(self) -> NDArray[np.float64]:
+    def duration(self) -> Array:
         """T = tf - t0, (...)."""
         return self.tf - self.t0
 
@@ -89,7 +90,7 @@ class Maneuver:
         return disturbances.integrals(self.disturbance, self.t0, self.tf)
 
     @cached_property
-    def moments(self) -> NDArray[np.float64]:
+    def moments(self) -> Array:
         """c of (1.10), (..., 3): what the integrals of (s^2/2, s, 1) u must be, s = tf - t."""
         if not self.shape and self.disturbance is None:
             ends = [*self.x0.tolist(), *self.xf.tolist()]
@@ -100,11 +101,11 @@ class Maneuver:
         rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g1, g2)]
         return moments_of_stack(*ends, *rest).reshape(*self.shape, 3)
 
-    def times(self, t: ArrayLike) -> NDArray[np.float64]:
+    def times(self, t: ArrayLike) -> Array:
         """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""
         return times("t", t, self.t0, self.tf)
 
-    def drift(self, t: ArrayLike) -> NDArray[np.float64]:
+    def drift(self, t: ArrayLike) -> Array:
         """The motion without control, Phi(t, t0) x0 + g(t) of (1.3): (k,) -> (..., k, 3)."""
         time = self.times(t)
         start = self.t0[..., None]

@@ -11,6 +11,7 @@ from numbers import Real
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.triple_integrator import trajectory
@@ -23,8 +24,6 @@ from pontryagin.triple_integrator.quadrature import (
     moments_beyond,
     orthonormal,
 )
-
-Array = NDArray[np.float64]
 
 CONVERGED = 1e-10
 """Largest residual of the moments and largest relative gap that are handed out."""

@@ -9,8 +9,9 @@ from functools import cached_property
 from math import copysign, fabs, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import trajectory
@@ -148,38 +149,38 @@ class PeakSolution:
     """
 
     maneuver: Maneuver
-    levels: NDArray[np.float64]
-    shares: NDArray[np.float64]
+    levels: Array
+    shares: Array
     certificate: Certificate
 
     @property
-    def norm(self) -> NDArray[np.float64]:
+    def norm(self) -> Array:
         """The least peak u0 of |u|, (...)."""
         return np.abs(self.levels)
 
     @cached_property
-    def switch_times(self) -> NDArray[np.float64]:
+    def switch_times(self) -> Array:
         """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
         return trajectory.switch_times(self.maneuver.tf, self.maneuver.duration, self.shares)
 
     @cached_property
-    def first_sign(self) -> NDArray[np.float64]:
+    def first_sign(self) -> Array:
         """Sign of u at the start, (...); 0 where u is 0."""
         return trajectory.first_sign(self.levels, self.shares)
 
     @property
-    def breakpoints(self) -> NDArray[np.float64]:
+    def breakpoints(self) -> Array:
         """Times within one manoeuvre at which the control is not smooth, (j,)."""
         return trajectory.breakpoints(self.switch_times)
 
     @cached_property
-    def multipliers(self) -> NDArray[np.float64]:
+    def multipliers(self) -> Array:
         """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
         shape = trajectory.switching_quadratic(self.shares, self.maneuver.duration)
         return trajectory.normalised(shape, self.maneuver.moments)
 
     @cached_property
-    def switch_condition(self) -> NDArray[np.float64]:
+    def switch_condition(self) -> Array:
         """Condition of the switches, (..., 2): how far one moves (share of T) for a relative change of c.
 
         Large where the control is constant but for a narrow flip: its place is then not determined by
@@ -187,18 +188,18 @@ class PeakSolution:
         """
         return trajectory.switch_condition(self.shares)
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
         return trajectory.bang_bang(self.maneuver.times(t), self.switch_times, self.first_sign * self.norm)
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
         m = self.maneuver
         return m.drift(t) + trajectory.bang_bang_response(
             m.times(t), m.t0, self.switch_times, self.first_sign * self.norm
         )
 
-    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def costate(self, t: ArrayLike) -> Array:
         """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); psi_3 = h0, whose sign u has."""
         return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 

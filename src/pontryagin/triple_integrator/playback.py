@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -138,7 +139,7 @@ def record_solution(solution: Programme, path: Path) -> None:
     _record_channels(path, "one channel", {"programme": solution})
 
 
-def sample_times(programmes: Sequence[Programme]) -> NDArray[np.float64]:
+def sample_times(programmes: Sequence[Programme]) -> Array:
     """Evenly spaced times of the manoeuvre and both sides of every switch and impulse, (k,)."""
     maneuver = programmes[0].maneuver
     first, last = float(maneuver.t0), float(maneuver.tf)
@@ -201,7 +202,7 @@ def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: NDArray)
     return dense, np.interp(dense, once, heights[order][place])
 
 
-def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> NDArray[np.float64]:
+def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> Array:
     """Length of the arrow that marks impulses: 3 for the largest, drawn within 3 % of T of its instant."""
     largest = max(abs(jump) for _, jump in told)
     marks = [np.where(np.abs(t - time) <= 0.03 * duration, 3 * jump / largest, 0.0) for time, jump in told]
@@ -297,14 +298,14 @@ def record_coupled(path: Path, coupled: CoupledManeuver) -> None:
             recording.event("events", t[0], f"iterate {k}: misses the target by {miss:.2e}")
 
 
-def angle_between(attitude: ArrayLike, target: ArrayLike) -> NDArray[np.float64]:
+def angle_between(attitude: ArrayLike, target: ArrayLike) -> Array:
     """Angle of the turn from attitudes (k, 4) to a target (4,), rad, (k,)."""
     stack = np.asarray(attitude, dtype=float)
     left = rotation_vector(between(stack, np.broadcast_to(target, stack.shape)))
     return np.asarray(np.linalg.norm(left, axis=1))
 
 
-def _to_inertial(attitude: NDArray, vectors: NDArray) -> NDArray[np.float64]:
+def _to_inertial(attitude: NDArray, vectors: NDArray) -> Array:
     scalar, axis = attitude[:, :1], attitude[:, 1:]
     turned = 2 * np.cross(axis, vectors)
     return vectors + scalar * turned + np.cross(axis, turned)

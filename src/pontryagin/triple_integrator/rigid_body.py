@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import OdeSolution, solve_ivp
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.rotation import (
     attitude_rate,
@@ -27,8 +28,8 @@ TOLERANCE = 1e-13
 INSET = 1e-13
 """Share of a smooth stretch by which the control is read off its ends, so that it is read inside."""
 
-CommandRate = Callable[[float, NDArray[np.float64]], ArrayLike]
-Torque = Callable[[float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+CommandRate = Callable[[float, Array], ArrayLike]
+Torque = Callable[[float, Array, Array, Array], Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class RigidBody:
     array([2., 3., 4.])
     """
 
-    inertia: NDArray[np.float64]
+    inertia: Array
 
     def __post_init__(self) -> None:
         inertia = finite("inertia", self.inertia, "an array (3, 3)")
@@ -74,16 +75,16 @@ class RigidBody:
         object.__setattr__(self, "inertia", inertia)
 
     @cached_property
-    def inverse(self) -> NDArray[np.float64]:
+    def inverse(self) -> Array:
         """J^-1, (3, 3)."""
         return np.asarray(np.linalg.inv(self.inertia), dtype=float)
 
     @cached_property
-    def principal_moments(self) -> NDArray[np.float64]:
+    def principal_moments(self) -> Array:
         """Eigenvalues of J in increasing order, (3,)."""
         return np.asarray(np.linalg.eigvalsh(self.inertia), dtype=float)
 
-    def acceleration(self, rate: NDArray[np.float64], torque: NDArray[np.float64]) -> NDArray[np.float64]:
+    def acceleration(self, rate: Array, torque: Array) -> Array:
         """w' = J^-1 (M - w x J w), for rates and torques (..., 3)."""
         return (torque - cross(rate, rate @ self.inertia)) @ self.inverse
 
@@ -102,12 +103,12 @@ class Motion:
         Attitude, rate and commands before the first instant's impulse, and after the last one's.
     """
 
-    edges: NDArray[np.float64]
+    edges: Array
     stretches: Sequence[OdeSolution]
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
+    start: Array
+    end: Array
 
-    def at(self, t: ArrayLike) -> NDArray[np.float64]:
+    def at(self, t: ArrayLike) -> Array:
         """Attitude (4), rate (3) and commands (n) at the times t, (k,) -> (k, 7+n)."""
         time = np.atleast_1d(finite("t", t, "a number or an array (k,) of times"))
         first, last = self.edges[0], self.edges[-1]
@@ -123,15 +124,15 @@ class Motion:
         result[time == last] = self.end
         return result
 
-    def attitude(self, t: ArrayLike) -> NDArray[np.float64]:
+    def attitude(self, t: ArrayLike) -> Array:
         """Quaternion at the times t, (k,) -> (k, 4)."""
         return self.at(t)[:, :4]
 
-    def rate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def rate(self, t: ArrayLike) -> Array:
         """Angular rate w in body axes, (k,) -> (k, 3)."""
         return self.at(t)[:, 4:7]
 
-    def commands(self, t: ArrayLike) -> NDArray[np.float64]:
+    def commands(self, t: ArrayLike) -> Array:
         """What the actuators were told, (k,) -> (k, n)."""
         return self.at(t)[:, 7:]
 
@@ -153,11 +154,11 @@ class Commands:
         Jumps of z.
     """
 
-    start: NDArray[np.float64]
+    start: Array
     rate: CommandRate
-    scales: NDArray[np.float64]
+    scales: Array
     breakpoints: Sequence[float] = ()
-    impulses: Sequence[tuple[float, NDArray[np.float64]]] = ()
+    impulses: Sequence[tuple[float, Array]] = ()
 
 
 def simulate(

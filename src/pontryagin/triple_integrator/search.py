@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import Bounds, LinearConstraint, minimize, minimize_scalar
 
+from pontryagin.arrays import Array
 from pontryagin.triple_integrator.maneuver import Maneuver
 from pontryagin.triple_integrator.peak import minimum_peak
 
@@ -62,7 +63,7 @@ class SearchResult:
 
     route: str
     peak: float
-    switch_times: NDArray[np.float64]
+    switch_times: Array
     curvature: float
     curvature_by_multiplier: float
     evaluations: int
@@ -86,7 +87,7 @@ class Survey:
         By route, one for each direction.
     """
 
-    directions: NDArray[np.float64]
+    directions: Array
     results: dict[str, tuple[SearchResult, ...]]
 
     def share_right(self, route: str) -> float:

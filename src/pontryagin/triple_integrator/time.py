@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.triple_integrator import trajectory
@@ -36,13 +37,13 @@ class TimeSolution:
         earlier still rests on the quartics having no smaller admissible root.
     """
 
-    x0: NDArray[np.float64]
-    xf: NDArray[np.float64]
-    peak: NDArray[np.float64]
-    disturbance: NDArray[np.float64]
-    duration: NDArray[np.float64]
-    levels: NDArray[np.float64]
-    shares: NDArray[np.float64]
+    x0: Array
+    xf: Array
+    peak: Array
+    disturbance: Array
+    duration: Array
+    levels: Array
+    shares: Array
     certificate: Certificate
 
     @cached_property
@@ -62,53 +63,53 @@ class TimeSolution:
         longer = np.where(self.duration > 0, self.duration, 1.0)
         return Maneuver(self.x0, self.xf, longer, disturbance=self.disturbance)
 
-    def _times(self, t: ArrayLike) -> NDArray[np.float64]:
+    def _times(self, t: ArrayLike) -> Array:
         return times("t", t, np.zeros_like(self.duration), self.duration)
 
     @property
-    def norm(self) -> NDArray[np.float64]:
+    def norm(self) -> Array:
         """The peak of |u|, (...): the bound, or 0 where the ends agree."""
         return np.abs(self.levels)
 
     @cached_property
-    def switch_times(self) -> NDArray[np.float64]:
+    def switch_times(self) -> Array:
         """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
         return trajectory.switch_times(self.duration, self.duration, self.shares)
 
     @cached_property
-    def first_sign(self) -> NDArray[np.float64]:
+    def first_sign(self) -> Array:
         """Sign of u at the start, (...)."""
         return trajectory.first_sign(self.levels, self.shares)
 
     @property
-    def breakpoints(self) -> NDArray[np.float64]:
+    def breakpoints(self) -> Array:
         """Switches of one transfer, (j,)."""
         return trajectory.breakpoints(self.switch_times)
 
     @cached_property
-    def multipliers(self) -> NDArray[np.float64]:
+    def multipliers(self) -> Array:
         """l0 of the minimal element at this duration, l0'c = 1, (..., 3)."""
         shape = trajectory.switching_quadratic(self.shares, self.duration)
         moving = (self.duration > 0)[..., None]
         return trajectory.normalised(shape, np.where(moving, self._motion.moments, 0.0))
 
     @property
-    def switch_condition(self) -> NDArray[np.float64]:
+    def switch_condition(self) -> Array:
         """As for `PeakSolution`, at this duration."""
         return trajectory.switch_condition(self.shares)
 
-    def control(self, t: ArrayLike) -> NDArray[np.float64]:
+    def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
         return trajectory.bang_bang(self._times(t), self.switch_times, self.first_sign * self.norm)
 
-    def state(self, t: ArrayLike) -> NDArray[np.float64]:
+    def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
         time, start = self._times(t), np.zeros_like(self.duration)
         return self._motion.drift(time) + trajectory.bang_bang_response(
             time, start, self.switch_times, self.first_sign * self.norm
         )
 
-    def costate(self, t: ArrayLike) -> NDArray[np.float64]:
+    def costate(self, t: ArrayLike) -> Array:
         """psi at the times t, (k,) -> (..., k, 3)."""
         return trajectory.costate(self.duration, self._times(t), self.multipliers)
 

@@ -5,12 +5,13 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.maneuver import Maneuver
 
 
-def over_stack(solver: Batched, maneuver: Maneuver) -> NDArray[np.float64]:
+def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
     """Run a scalar solver (c1, c2, c3, T) -> numbers over a manoeuvre or a stack, as (..., numbers)."""
     c = _within_range(maneuver.moments)
     if c.ndim == 1:
@@ -22,7 +23,7 @@ def over_stack(solver: Batched, maneuver: Maneuver) -> NDArray[np.float64]:
     return _within_range(result)
 
 
-def _within_range(numbers: NDArray) -> NDArray[np.float64]:
+def _within_range(numbers: NDArray) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
         where = f"; not so at index {lost}" if lost else ""
@@ -32,7 +33,7 @@ def _within_range(numbers: NDArray) -> NDArray[np.float64]:
     return numbers
 
 
-def truncated_power(t: NDArray, knots: NDArray, order: int) -> NDArray[np.float64]:
+def truncated_power(t: NDArray, knots: NDArray, order: int) -> Array:
     """(t - knot)_+^n / n! for times (..., k) and knots (..., j), as (..., k, j); a knot of nan gives 0."""
     elapsed = t[..., :, None] - knots[..., None, :]
     if order == 0:
@@ -41,7 +42,7 @@ def truncated_power(t: NDArray, knots: NDArray, order: int) -> NDArray[np.float6
     return past**order / (1, 1, 2, 6, 24, 120)[order]
 
 
-def response(t: NDArray, knots: NDArray, amplitudes: NDArray, order: int) -> NDArray[np.float64]:
+def response(t: NDArray, knots: NDArray, amplitudes: NDArray, order: int) -> Array:
     """State reached from rest under sums of amplitude (t - knot)_+^n / n! in u, (..., k, 3).
 
     ``order`` is n + 1, what x3 receives: 0 for impulses, 1 for steps, 2 for ramps.
@@ -51,20 +52,20 @@ def response(t: NDArray, knots: NDArray, amplitudes: NDArray, order: int) -> NDA
     return np.stack(parts, axis=-1)
 
 
-def bang_bang(t: NDArray, switches: NDArray, first: NDArray) -> NDArray[np.float64]:
+def bang_bang(t: NDArray, switches: NDArray, first: NDArray) -> Array:
     """u = first, changing sign at each switch; at a switch the later value."""
     count = truncated_power(t, switches, 0).sum(axis=-1)
     return first[..., None] * np.where(count % 2 == 0, 1.0, -1.0)
 
 
-def bang_bang_response(t: NDArray, t0: NDArray, switches: NDArray, first: NDArray) -> NDArray[np.float64]:
+def bang_bang_response(t: NDArray, t0: NDArray, switches: NDArray, first: NDArray) -> Array:
     """State reached from rest under `bang_bang`."""
     start = np.broadcast_to(t0[..., None], (*switches.shape[:-1], 1))
     knots = np.concatenate([start, switches], axis=-1)
     return response(t, knots, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
 
 
-def switch_times(tf: NDArray, duration: NDArray, shares: NDArray) -> NDArray[np.float64]:
+def switch_times(tf: NDArray, duration: NDArray, shares: NDArray) -> Array:
     """Times of the switches that happen, in order, then nan, (..., 2)."""
     a, b = shares[..., 0], shares[..., 1]
     first = np.where((a < 1) & (a > b), tf - duration * a, np.nan)
@@ -73,32 +74,32 @@ def switch_times(tf: NDArray, duration: NDArray, shares: NDArray) -> NDArray[np.
     return np.stack([np.where(missing, second, first), np.where(missing, np.nan, second)], axis=-1)
 
 
-def first_sign(levels: NDArray, shares: NDArray) -> NDArray[np.float64]:
+def first_sign(levels: NDArray, shares: NDArray) -> Array:
     """Sign of the control at the start: that of the level unless the inner piece reaches the start."""
     a, b = shares[..., 0], shares[..., 1]
     return np.where((a == 1) & (a > b), -1.0, 1.0) * np.sign(levels)
 
 
-def breakpoints(events: NDArray) -> NDArray[np.float64]:
+def breakpoints(events: NDArray) -> Array:
     """The events of one problem that happen, sorted."""
     if events.ndim != 1:
         raise ValueError(f"breakpoints are those of one manoeuvre, got a stack of shape {events.shape[:-1]}")
     return np.sort(events[np.isfinite(events)])
 
 
-def switching_quadratic(shares: NDArray, duration: NDArray) -> NDArray[np.float64]:
+def switching_quadratic(shares: NDArray, duration: NDArray) -> Array:
     """Multipliers of (s - aT)(s - bT), whose sign the control has, (..., 3)."""
     a, b = shares[..., 0], shares[..., 1]
     return np.stack([np.full(a.shape, 2.0), -duration * (a + b), duration * duration * a * b], axis=-1)
 
 
-def normalised(multipliers: NDArray, moments: NDArray) -> NDArray[np.float64]:
+def normalised(multipliers: NDArray, moments: NDArray) -> Array:
     """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0 and no scaling does it."""
     pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
     return np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
 
 
-def costate(tf: NDArray, t: NDArray, multipliers: NDArray) -> NDArray[np.float64]:
+def costate(tf: NDArray, t: NDArray, multipliers: NDArray) -> Array:
     """psi(t) = Phi(tf, t)' l, solution of (1.15), (..., k, 3)."""
     s = tf[..., None] - t
     l1, l2, l3 = (multipliers[..., None, i] for i in range(3))
@@ -106,7 +107,7 @@ def costate(tf: NDArray, t: NDArray, multipliers: NDArray) -> NDArray[np.float64
     return np.stack(np.broadcast_arrays(l1, l1 * s + l2, third), axis=-1)
 
 
-def switch_condition(shares: NDArray) -> NDArray[np.float64]:
+def switch_condition(shares: NDArray) -> Array:
     """Displacement of each switch of `switch_times` per relative change of the scaled moments, (..., 2).
 
     From the derivative of the moments by (v, a, b): 1 outside and -1 inside, -2 v (3a^2, 2a, 1) and

@@ -10,13 +10,12 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
+from pontryagin.arrays import Array
 from pontryagin.averaging import smooth_example
 from pontryagin.averaging.derivation import ripple
-
-Array = NDArray[np.float64]
 
 START, END, PAY, RIPPLE = 1.0, 2.0, 1.0, 0.5
 EPSILONS = (0.1, 0.05, 0.02)

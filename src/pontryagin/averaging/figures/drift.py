@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.extremal import Extremal
 from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.display.plotting import (
@@ -66,9 +66,7 @@ def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
     return figure
 
 
-def _averaged(
-    solution: AveragedSolution, grid: NDArray[np.float64], slow: list[Axes], controls: list[Axes]
-) -> None:
+def _averaged(solution: AveragedSolution, grid: Array, slow: list[Axes], controls: list[Axes]) -> None:
     for ax, values in zip(slow, solution.slow(grid).T, strict=True):
         ax.plot(grid, values, color=ORANGE, linewidth=2.2, label="averaged")
     over_a_turn = np.stack([solution.control(grid, np.full(len(grid), x)) for x in TURN])

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.averaging.solution import AveragedSolution, solve_averaged
@@ -15,8 +15,6 @@ from pontryagin.display.plotting import (
     subplots,
 )
 from pontryagin.errors import Infeasible, NotConverged
-
-Array = NDArray[np.float64]
 
 PER_TURN = 60
 

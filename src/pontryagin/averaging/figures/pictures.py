@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.averaging.smooth import smooth_example
@@ -21,8 +21,6 @@ from pontryagin.display.plotting import (
     styled,
     subplots,
 )
-
-Array = NDArray[np.float64]
 
 V0, V1, K, RIPPLE = 1.0, 2.0, 1.0, 0.5
 PER_TURN = 60

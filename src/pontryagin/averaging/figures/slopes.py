@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.averaging import slopes
 from pontryagin.averaging.figures.labels import EXACT, MEAN
 from pontryagin.display.plotting import (
@@ -42,7 +42,7 @@ def error_slopes() -> Figure:
     return figure
 
 
-def _lines(ax, epsilon: NDArray[np.float64]) -> None:
+def _lines(ax, epsilon: Array) -> None:
     ends = np.array([epsilon.min(), epsilon.max()])
     ax.plot(ends, 0.5 * ends, "-", color=INK, linewidth=0.7, label="slope 1")
     ax.plot(ends, 0.5 * ends**2, "--", color=INK, linewidth=0.7, label="slope 2")

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.ledger import Entry, Page
 from pontryagin.ledger.decimals import (
     Decimals,
@@ -61,7 +62,7 @@ def example(
     return np.array(states), np.array(costates), np.array(controls)
 
 
-def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0) -> NDArray[np.float64]:
+def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0) -> Array:
     """How far the 36 numbers other than 0 are from the printed ones, in units of their last digits."""
     states, costates, controls = example(inputs, z0)
     computed = np.concatenate([states[:4].ravel(), costates.ravel(), controls.ravel()])

@@ -8,6 +8,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
+from pontryagin.arrays import Array
 from pontryagin.ledger import Unsupported
 from pontryagin.ledger.evidence import Steps
 from pontryagin.orbit_correction import derivation
@@ -24,30 +25,30 @@ ROUNDING = 1e-12
 Inputs = Callable[[int], sp.Matrix]
 
 
-def numbers(matrix: sp.Matrix) -> NDArray[np.float64]:
+def numbers(matrix: sp.Matrix) -> Array:
     """A derived matrix at the example's interval."""
     return np.array(sp.Matrix(matrix).subs(EXACT).evalf(20).tolist(), dtype=float)
 
 
 @functools.cache
-def step_matrix(k: int) -> NDArray[np.float64]:
+def step_matrix(k: int) -> Array:
     """A(k)."""
     return numbers(derivation.step_matrix(k % 2))
 
 
 @functools.cache
-def step_inputs(k: int) -> NDArray[np.float64]:
+def step_inputs(k: int) -> Array:
     """B(k)."""
     return numbers(derivation.step_inputs(k % 2))
 
 
-def interval_matrix() -> NDArray[np.float64]:
+def interval_matrix() -> Array:
     """A~."""
     return step_matrix(1)
 
 
 @functools.cache
-def columns(j: int) -> NDArray[np.float64]:
+def columns(j: int) -> Array:
     """What the two impulses at the start of interval j do to the initial state."""
     return numbers(sp.Matrix(derivation.transition(-j * derivation.interval)))[:, 1:]
 
@@ -62,7 +63,7 @@ def box_plan() -> Plan:
     return correct(Z0, INTERVAL, PEAK, "box")
 
 
-def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0) -> NDArray[np.float64]:
+def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0) -> Array:
     """G_k = (A(k) ... A(0))^-1 B(k + shift) alpha_max for k < steps."""
     back, result = np.eye(3), []
     for k in range(steps):
@@ -81,7 +82,7 @@ def gauge_with(
     return found
 
 
-def bound(G: NDArray[np.float64], psi: NDArray[np.float64]) -> float:
+def bound(G: Array, psi: Array) -> float:
     """What psi proves: no smaller share of the balls than (-z0, psi) / sum |G_k'psi| reaches z0."""
     return float(-Z0 @ psi / np.linalg.norm(np.einsum("kij,i->kj", G, psi), axis=1).sum())
 
@@ -101,7 +102,7 @@ def ball_certificate() -> Steps:
     yield f"three steps would need {shorter:.3f} α_max", shorter > 1.26
 
 
-def impulses_to_rest(impulses: dict[int, NDArray[np.float64]]) -> float:
+def impulses_to_rest(impulses: dict[int, Array]) -> float:
     """The largest deviation left of z0 when the impulses are fired at the starts of their intervals."""
     state = Z0
     for j in range(max(impulses) + 1):
@@ -123,7 +124,7 @@ def box_certificate() -> Steps:
     yield "the ball's four steps fire six impulses", int(ball_plan().impulse_count) == 6
 
 
-def shortest_box_costate(columns: NDArray[np.float64]) -> NDArray[np.float64]:
+def shortest_box_costate(columns: Array) -> Array:
     """psi that proves most for impulses in the square: least sum |g.psi| where (-z0, psi) = 1, by HiGHS."""
     g = np.moveaxis(columns, 1, 2).reshape(-1, 3)
     cost = np.concatenate([np.zeros(3), np.ones(len(g))])
@@ -136,7 +137,7 @@ def shortest_box_costate(columns: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(scaled.x[:3])
 
 
-def sparse_impulses() -> dict[int, NDArray[np.float64]]:
+def sparse_impulses() -> dict[int, Array]:
     """Impulses of least peak at the starts of the intervals `SPARSE`, by HiGHS."""
     g = PEAK * np.hstack([columns(j) for j in SPARSE])
     count = g.shape[1]

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -123,7 +124,7 @@ def remaining_sets(plan: Plan) -> Figure:
     return figure
 
 
-def edge_on(factors: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+def edge_on(factors: Array, normal: Array) -> Array:
     """Two unit vectors (2, 3): along the normal, and across it where the sum of G_k U is widest.
 
     Examples
@@ -137,7 +138,7 @@ def edge_on(factors: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArra
     return np.stack([along, across * np.sign(across[np.abs(across).argmax()])])
 
 
-def _outline(factors: NDArray, plane: NDArray, square: bool) -> NDArray[np.float64]:
+def _outline(factors: NDArray, plane: NDArray, square: bool) -> Array:
     """Support points (361, 3) with normals in a plane: where a set, seen across the plane, ends."""
     turn = np.linspace(0, 2 * np.pi, 361)
     return sets.support_points(factors, np.column_stack([np.cos(turn), np.sin(turn)]) @ plane, square)
@@ -152,7 +153,7 @@ def _plane(ax: Axes, path: NDArray, towards: NDArray) -> None:
     ax.set(aspect="equal", xlim=(-1.15, 1.25), ylim=(-1.15, 1.15), xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
-def _at_step(plan: Plan, steps: int, k: int) -> NDArray[np.float64]:
+def _at_step(plan: Plan, steps: int, k: int) -> Array:
     """Factors whose sum is X(N - k, k) as the paper counts its steps."""
     carried = np.eye(3)
     for before in range(k):

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.ledger.evidence import Steps
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import flow
@@ -132,12 +132,12 @@ NODE = sp.Rational(3, 10)
 
 
 @functools.cache
-def _follow() -> Callable[..., NDArray[np.float64]]:
+def _follow() -> Callable[..., Array]:
     form = forms.with_attitude("unsaturated")
     return flow(form.states, form.rates, form.parameters)
 
 
-def flown(meeting: Meeting, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def flown(meeting: Meeting, times: Array) -> Array:
     """r, v1, c, phi*, rho, s1, e, nu, lambda at the times, (k, 14)."""
     start = [*LEFT, ANOMALY, *meeting.costates, 1.0, 0.0, 0.0, 0.0]
     return _follow()(start, times, [GRAVITY, PARAMETER, ECCENTRICITY, np.sqrt(PARAMETER), ENERGY_WEIGHT])
@@ -164,7 +164,7 @@ def target_attitude(inclination: int) -> sp.Matrix:
 
 
 @functools.cache
-def evaluation(inclination: int) -> Callable[..., dict[str, NDArray[np.float64]]]:
+def evaluation(inclination: int) -> Callable[..., dict[str, Array]]:
     """The paper's conditions at the end, and the places, as a function of a flown row and of C_phi."""
     there = target_attitude(inclination)
     place, velocity = model.cartesian()
@@ -185,7 +185,7 @@ def evaluation(inclination: int) -> Callable[..., dict[str, NDArray[np.float64]]
         "conditions", states, {key: value.subs(values()) for key, value in outputs.items()}
     )
 
-    def conditions(row: NDArray[np.float64], constant: float) -> dict[str, NDArray[np.float64]]:
+    def conditions(row: Array, constant: float) -> dict[str, Array]:
         return {key: np.ravel(part) for key, part in zip(outputs, evaluate(*row, constant), strict=True)}
 
     return conditions
@@ -235,7 +235,7 @@ def left_in_16(meeting: Meeting, constant: float) -> float:
     return float(evaluation(meeting.inclination)(end, constant)["transversality"][0])
 
 
-def singular_values(meeting: Meeting, repaired: bool) -> NDArray[np.float64]:
+def singular_values(meeting: Meeting, repaired: bool) -> Array:
     """Of the conditions' Jacobian at a meeting, by central differences.
 
     As printed: (5), (15), (16), (17) by six costates, t_k and C_phi, 8 x 8. Repaired: (5), (6) and the law
@@ -243,7 +243,7 @@ def singular_values(meeting: Meeting, repaired: bool) -> NDArray[np.float64]:
     """
     conditions = evaluation(meeting.inclination)
 
-    def residual(unknowns: NDArray[np.float64]) -> NDArray[np.float64]:
+    def residual(unknowns: Array) -> Array:
         costates, duration, constant = unknowns[:6], unknowns[6], unknowns[7] if not repaired else 0.0
         moved = Meeting(meeting.name, tuple(costates), duration, meeting.inclination)
         end = conditions(flown(moved, np.array([0.0, duration]))[-1], constant)

@@ -17,8 +17,8 @@ from collections.abc import Callable
 from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.flow import (
     ROUGH,
@@ -27,7 +27,6 @@ from pontryagin.numerics.flow import (
 )
 from pontryagin.rendezvous import kernels
 
-Array = NDArray[np.float64]
 Mode = Literal["unsaturated", "saturated", "coast", "smoothed"]
 
 ELEMENTS, COSTATES, TIME, SPENT = slice(0, 8), slice(8, 16), 16, 17

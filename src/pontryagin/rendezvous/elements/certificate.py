@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
@@ -36,7 +36,6 @@ from pontryagin.rendezvous.witness.cartesian import (
     target_by_kepler,
 )
 
-Array = NDArray[np.float64]
 SAMPLES = 201
 
 
@@ -80,14 +79,14 @@ class ElementsCertificate(MaximumPrinciple):
     (True, True)
     """
 
-    cartesian: NDArray[np.float64]
-    agreement: NDArray[np.float64]
-    relation: NDArray[np.float64]
-    switching: NDArray[np.float64]
-    condition: NDArray[np.float64]
+    cartesian: Array
+    agreement: Array
+    relation: Array
+    switching: Array
+    condition: Array
 
     @cached_property
-    def residual(self) -> NDArray[np.float64]:
+    def residual(self) -> Array:
         """The largest of all but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
         return np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)

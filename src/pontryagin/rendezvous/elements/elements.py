@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.validation import common_shape, finite, positive, vectors
-
-Array = NDArray[np.float64]
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
 RELATED = 1e-6

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.elements.arcs import (
@@ -36,7 +36,6 @@ from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
 
-Array = NDArray[np.float64]
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 GRAZING = 1e-7

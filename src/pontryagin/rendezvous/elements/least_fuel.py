@@ -10,8 +10,8 @@ as events.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.elements.elements.flight import switching
 from pontryagin.rendezvous.elements.elements.law import Law
@@ -35,8 +35,6 @@ from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.reduced.first_extremal import first_duration
 from pontryagin.validation import integer
-
-Array = NDArray[np.float64]
 
 WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
 """Of the smoothed jump; from the fourth on, sharpening is tried."""

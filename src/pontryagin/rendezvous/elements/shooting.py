@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.elements.arcs import TIME
@@ -35,7 +35,6 @@ from pontryagin.rendezvous.reduced.homotopy import (
 from pontryagin.rendezvous.reduced.homotopy import follow as arcs
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
-Array = NDArray[np.float64]
 Goal = Callable[[float], tuple[Array, Array]]
 """Time to R and V (6,) and their rates (6,)."""
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.elements.elements.certificate import (
     ElementsCertificate,
@@ -48,8 +49,6 @@ from pontryagin.rendezvous.reduced.solution import (
 )
 from pontryagin.rendezvous.witness.cartesian import start_of as cartesian_start
 from pontryagin.validation import integer, times
-
-Array = NDArray[np.float64]
 
 DOUBLINGS = 12
 """Of alpha1/alpha2 on the way to least time."""

@@ -7,8 +7,8 @@ is a straight line of A and B, and more or fewer revolutions are multiples of pi
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.elements.elements.elements import (
     I1,
@@ -30,8 +30,6 @@ from pontryagin.rendezvous.elements.elements.shooting import (
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
-
-Array = NDArray[np.float64]
 
 UNBOUNDED = Law("square", 1.0, np.inf)
 SHARES = (1.0, 0.6, 0.4, 0.25)

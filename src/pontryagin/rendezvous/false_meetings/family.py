@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.false_meetings.printed_conditions import (
     hamiltonian,
@@ -44,7 +45,6 @@ from pontryagin.rendezvous.witness.cartesian import (
 )
 from pontryagin.validation import finite
 
-Array = NDArray[np.float64]
 LARGEST = 0.6
 """Longest step along the curve."""
 

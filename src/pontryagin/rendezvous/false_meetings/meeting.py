@@ -9,7 +9,6 @@ the family is followed to it.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.false_meetings.rotated_target import (
@@ -32,8 +31,6 @@ from pontryagin.rendezvous.reduced.solution import (
     require_extremal,
     solve,
 )
-
-Array = NDArray[np.float64]
 
 STEPS = 200
 

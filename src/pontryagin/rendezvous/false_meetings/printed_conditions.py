@@ -8,13 +8,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.reduced.certificate import anomaly_constant
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.shooting import end_rates
 
-Array = NDArray[np.float64]
 STEP = 1e-30
 
 

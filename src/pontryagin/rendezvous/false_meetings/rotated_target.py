@@ -9,8 +9,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.reduced.homotopy import (
@@ -31,7 +31,6 @@ from pontryagin.rendezvous.reduced.shooting import (
 )
 from pontryagin.rendezvous.reduced.solution import Extremal
 
-Array = NDArray[np.float64]
 CHI = 10
 """Place of chi among the twelve states."""
 ITERATIONS = 12

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -39,7 +39,6 @@ from pontryagin.rendezvous.problem.rendezvous.cases import (
 )
 from pontryagin.rendezvous.reduced.solution import Extremal
 
-Array = NDArray[np.float64]
 TIME = r"time $t$"
 SAMPLES = 601
 

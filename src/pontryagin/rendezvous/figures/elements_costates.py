@@ -2,8 +2,8 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     PALETTE,
@@ -16,7 +16,6 @@ from pontryagin.rendezvous.elements.elements.certificate import running_cost
 from pontryagin.rendezvous.elements.elements.flight import switching
 from pontryagin.rendezvous.elements.elements.solution import ElementsExtremal
 
-Array = NDArray[np.float64]
 SAMPLES = 601
 
 

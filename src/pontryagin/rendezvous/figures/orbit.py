@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     INK,
     WIDTH,
@@ -14,7 +14,6 @@ from pontryagin.rendezvous.figures.labels import CRAFT, START, TARGET, THRUST, u
 from pontryagin.rendezvous.figures.paths import first_orbit, flown, target_orbit
 from pontryagin.rendezvous.reduced.solution import Extremal
 
-Array = NDArray[np.float64]
 VIEW = {"elev": 28, "azim": -60}
 
 

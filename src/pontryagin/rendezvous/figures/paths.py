@@ -1,14 +1,13 @@
 """Where the craft and the target are, in inertial axes and the user's units."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
-Array = NDArray[np.float64]
 EX = np.array([1.0, 0.0, 0.0])
 
 

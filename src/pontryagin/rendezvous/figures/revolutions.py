@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     styled,
     subplots,
@@ -22,7 +22,6 @@ from pontryagin.rendezvous.reduced.shooting import (
 )
 from pontryagin.rendezvous.reduced.solution import Extremal
 
-Array = NDArray[np.float64]
 MARGIN, DEAR = 1.25, 1.6
 """Curves go so far beyond the shortest and the longest extremal, and to this many best costs."""
 

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     INK,
@@ -20,7 +20,6 @@ from pontryagin.rendezvous.reduced.certificate import (
 from pontryagin.rendezvous.reduced.flight import switching
 from pontryagin.rendezvous.reduced.solution import Extremal
 
-Array = NDArray[np.float64]
 COUNT = 601
 
 

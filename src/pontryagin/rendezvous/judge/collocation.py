@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
@@ -22,7 +22,6 @@ from pontryagin.rendezvous.witness.cartesian import (
     target_by_kepler,
 )
 
-Array = NDArray[np.float64]
 DEGREE = 3
 
 

@@ -10,16 +10,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous.quaternions import about_third, conjugate, product, rotated
 from pontryagin.rendezvous.reduced import certificate as certify
 from pontryagin.rendezvous.reduced.flight import switching
 from pontryagin.rendezvous.reduced.flight import thrust as thrust_of
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
-
-Array = NDArray[np.float64]
 
 EVEN = 401
 """Samples evenly spaced."""

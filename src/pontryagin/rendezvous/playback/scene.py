@@ -4,8 +4,8 @@ import math
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -27,8 +27,6 @@ from pontryagin.display.recording import (
 from pontryagin.rendezvous.false_meetings.meeting import paper_residual
 from pontryagin.rendezvous.playback.motion import Passage
 from pontryagin.rendezvous.quaternions import product, rotated
-
-Array = NDArray[np.float64]
 
 SECONDS = 30.0
 """How long a replay takes."""

@@ -5,13 +5,12 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.validation import finite, vectors
-
-Array = NDArray[np.float64]
 
 UNIT_WITHIN = 1e-6
 """A quaternion this close to the unit length, as single precision is, is normalised; others are refused."""

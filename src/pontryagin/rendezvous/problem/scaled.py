@@ -4,15 +4,13 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.quaternions import conjugate, product
 
 if TYPE_CHECKING:
     from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
-
-Array = NDArray[np.float64]
 
 
 class Scaled:

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.flow import (
     ROUGH,
@@ -22,7 +22,6 @@ from pontryagin.numerics.flow import (
 )
 from pontryagin.rendezvous import kernels
 
-Array = NDArray[np.float64]
 Mode = Literal["unsaturated", "saturated"]
 
 STATES = ("r", "v1", "c", "phi", "rho", "s1", "e", "nu1", "nu2", "nu3", "chi", "p_max")

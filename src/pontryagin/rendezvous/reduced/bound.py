@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.homotopy import (
@@ -19,8 +19,6 @@ from pontryagin.rendezvous.reduced.shooting import (
     Setting,
     equations,
 )
-
-Array = NDArray[np.float64]
 
 RUNAWAY = 1e4
 """Growth of the costates at which a bound is taken to be the least for the duration."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
@@ -30,7 +30,6 @@ from pontryagin.rendezvous.witness.cartesian import (
     target_by_kepler,
 )
 
-Array = NDArray[np.float64]
 SAMPLES = 201
 FAINT = 1e-3
 """Share of the largest costate below which a running cost is no measure of H."""
@@ -77,14 +76,14 @@ class RendezvousCertificate(MaximumPrinciple):
     (True, True)
     """
 
-    attitude: NDArray[np.float64]
-    agreement: NDArray[np.float64]
-    cartesian: NDArray[np.float64]
-    cost: NDArray[np.float64]
-    condition: NDArray[np.float64]
+    attitude: Array
+    agreement: Array
+    cartesian: Array
+    cost: Array
+    condition: Array
 
     @cached_property
-    def residual(self) -> NDArray[np.float64]:
+    def residual(self) -> Array:
         """The largest of all but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
         return np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0)

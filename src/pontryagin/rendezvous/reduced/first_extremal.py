@@ -8,8 +8,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.reduced.homotopy import (
@@ -34,8 +34,6 @@ from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,
 )
-
-Array = NDArray[np.float64]
 
 TAU = 2 * math.pi
 SHORT = 0.5

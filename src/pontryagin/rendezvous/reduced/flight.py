@@ -6,8 +6,8 @@ A flight starts in the mode that |n| says and changes it at every switch. It kno
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
@@ -18,7 +18,6 @@ from pontryagin.rendezvous.reduced.arcs import (
     identity,
 )
 
-Array = NDArray[np.float64]
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 

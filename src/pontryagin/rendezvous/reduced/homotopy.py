@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.shooting import (
@@ -19,7 +19,6 @@ from pontryagin.rendezvous.reduced.shooting import (
     equations,
 )
 
-Array = NDArray[np.float64]
 Family = Callable[[Array, float], tuple[Equations, Array]]
 """Unknowns and the parameter to the equations and their derivative in the parameter."""
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.flow import (
     TOLERANCE,
@@ -37,8 +38,6 @@ from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

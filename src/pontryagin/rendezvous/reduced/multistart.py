@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
@@ -27,7 +28,6 @@ from pontryagin.rendezvous.reduced.solution import (
 )
 from pontryagin.validation import positive, vectors
 
-Array = NDArray[np.float64]
 ITERATIONS, HALVINGS = 30, 6
 FAINT = 1e-8
 """In the place of nu = 0, which has no direction; the slopes change by as much."""

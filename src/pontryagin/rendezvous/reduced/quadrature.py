@@ -6,11 +6,10 @@ Near the centre of attraction everything is fast, so that even panels in time wo
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous.reduced.flight import Flight
-
-Array = NDArray[np.float64]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 AGREED = 1e-14

@@ -8,9 +8,7 @@ p_max, and alpha1/alpha2 upwards until the thrust is saturated throughout.
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.reduced.bound import bounded
 from pontryagin.rendezvous.reduced.first_extremal import first
@@ -28,8 +26,6 @@ from pontryagin.rendezvous.reduced.shooting import (
     Setting,
     equations,
 )
-
-Array = NDArray[np.float64]
 
 TAU = 2 * math.pi
 WALK = 100

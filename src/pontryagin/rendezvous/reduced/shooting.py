@@ -9,8 +9,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import about_third, product
@@ -19,8 +19,6 @@ from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
-
-Array = NDArray[np.float64]
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
 """r, v1, c, nu and chi among the twelve states."""

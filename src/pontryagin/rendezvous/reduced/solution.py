@@ -6,8 +6,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
 from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import product
@@ -33,7 +34,6 @@ from pontryagin.rendezvous.reduced.search_log import Search
 from pontryagin.rendezvous.reduced.shooting import Setting
 from pontryagin.validation import times
 
-Array = NDArray[np.float64]
 SAME = 1e-7
 """Extremals whose durations and costs agree to this are one."""
 

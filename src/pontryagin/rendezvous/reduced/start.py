@@ -8,8 +8,8 @@ or less, which gives one family of extremals for each.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import about_third, conjugate, product
@@ -28,8 +28,6 @@ from pontryagin.rendezvous.reduced.shooting import (
     goal_of,
     mismatch,
 )
-
-Array = NDArray[np.float64]
 
 SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
 """Costates of coasting; nu is not quite zero, so that it has a direction."""

@@ -8,15 +8,13 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.reduced.flight import Flight
-
-Array = NDArray[np.float64]
 
 
 def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, times: Array) -> Array:

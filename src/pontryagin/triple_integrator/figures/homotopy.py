@@ -6,8 +6,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -59,7 +59,7 @@ def norm_family(maneuver: Maneuver, exponents: Sequence[float] = EXPONENTS) -> F
     return figure
 
 
-def mean_norms(maneuver: Maneuver, exponents: Iterable[float]) -> NDArray[np.float64]:
+def mean_norms(maneuver: Maneuver, exponents: Iterable[float]) -> Array:
     """Least values of (mean of |u|^q)^(1/q) over one manoeuvre, rad/s^3, (len(exponents),)."""
     T = float(maneuver.duration)
     return np.array([float(minimum_norm(maneuver, q).norm) * T ** (-1 / q) for q in exponents])

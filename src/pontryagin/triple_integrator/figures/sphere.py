@@ -9,12 +9,10 @@ from functools import cache
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.display.plotting import INK
 from pontryagin.triple_integrator.maneuver import Maneuver
-
-Array = NDArray[np.float64]
 
 SCALES = np.array([6.0, 2.0, 1.0])
 
