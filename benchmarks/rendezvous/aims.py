@@ -2,16 +2,15 @@
 
 from time import process_time
 
-from pontryagin.rendezvous.problem.rendezvous.cases import (
-    Case,
-    cases,
-)
-
 from benchmarks.clock import repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Rendezvous, solve
+from pontryagin.rendezvous.problem.cases import (
+    Case,
+    cases,
+)
 from pontryagin.rendezvous.reduced.bound import bounded
 from pontryagin.rendezvous.reduced.first_extremal import first
 from pontryagin.rendezvous.reduced.homotopy import Root
@@ -91,7 +90,7 @@ def _direct(case: Case, best: float) -> tuple[float, float]:
     """Seconds of the direct method from its cold start, and its cost over ours; nan where there is none."""
     if absent("casadi"):
         return float("nan"), float("nan")
-    from pontryagin.rendezvous.judge.table.collocation import direct
+    from pontryagin.rendezvous.judge.collocation import direct
 
     begun = process_time()
     try:

@@ -6,9 +6,9 @@ from functools import cache
 from time import process_time
 
 import numpy as np
-from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
+from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.shooting import Setting
 
 SEED = 2014

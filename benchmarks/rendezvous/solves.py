@@ -2,13 +2,12 @@
 
 from collections.abc import Callable
 
-from pontryagin.rendezvous.problem.rendezvous.cases import cases
-
 from benchmarks.clock import Timing, repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import elsewhere, problems
 from benchmarks.rendezvous.collocated import collocated, cost
 from pontryagin.rendezvous import solve
+from pontryagin.rendezvous.problem.cases import cases
 
 OURS = "pontryagin"
 WARM = (*problems.FIXED, "inclined-10")
@@ -74,7 +73,7 @@ def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[s
         errors[label] = abs(cost(problem, collocated(problem, start, tolerance)) / best - 1)
     if absent("casadi"):
         return runs, errors
-    from pontryagin.rendezvous.judge.table.collocation import direct
+    from pontryagin.rendezvous.judge.collocation import direct
 
     case = cases()[name]
     for intervals in MESHES:

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from time import process_time
 
 import numpy as np
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
 from benchmarks.rendezvous import problems
 from benchmarks.rendezvous.systems import PROBLEMS, Problem
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import Extremal
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import fly
 from pontryagin.rendezvous.reduced.shooting import (
     goal_of,

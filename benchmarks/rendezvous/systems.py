@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.flow import (
@@ -22,6 +21,7 @@ from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form
 from pontryagin.rendezvous.derivation.principle import Mode
 from pontryagin.rendezvous.generate import chart, in_any_chart
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.rendezvous.reduced.flight import chart_of
 

@@ -19,9 +19,9 @@ from benchmarks.rendezvous import (
 from benchmarks.rendezvous.collocated import collocated, cost
 from benchmarks.rendezvous.systems import EIGHT, PROBLEMS, REDUCED
 from matplotlib.container import BarContainer
-from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
 from pontryagin.rendezvous import Extremal, solve
+from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.start import cold_start
 
 LABELS = [problem.name for problem in PROBLEMS]

@@ -7,10 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pontryagin.rendezvous.problem.rendezvous.cases import (
-    cases,
-    chaser_on,
-)
 from typer.testing import CliRunner
 
 from pontryagin.cli import app
@@ -25,6 +21,10 @@ from pontryagin.rendezvous import (
 )
 from pontryagin.rendezvous import (
     schema as asked,
+)
+from pontryagin.rendezvous.problem.cases import (
+    cases,
+    chaser_on,
 )
 from pontryagin.rendezvous.reduced.homotopy import Root
 from pontryagin.rendezvous.reduced.search_log import Search

@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
-from pontryagin.rendezvous.problem.rendezvous.cases import cases
 
 from pontryagin import Infeasible, NotConverged
 from pontryagin.rendezvous import (
@@ -24,6 +23,7 @@ from pontryagin.rendezvous import (
     solve,
     solve_in_elements,
 )
+from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced import first_extremal as first_extremals
 from pontryagin.rendezvous.reduced.quadrature import energy
 from pontryagin.rendezvous.reduced.search import KEPT

@@ -9,17 +9,6 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from pontryagin.rendezvous.elements.elements.certificate import certify
-from pontryagin.rendezvous.elements.elements.flight import (
-    fly_elements,
-    switching,
-)
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.elements.elements.shooting import (
-    Root,
-    Setting,
-    equations,
-)
 
 import pontryagin
 from pontryagin.rendezvous import (
@@ -34,7 +23,18 @@ from pontryagin.rendezvous import (
 )
 from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation import sapunkov_principle as principle
-from pontryagin.rendezvous.elements.elements import shooting as elements_shooting
+from pontryagin.rendezvous.elements import shooting as elements_shooting
+from pontryagin.rendezvous.elements.certificate import certify
+from pontryagin.rendezvous.elements.flight import (
+    fly_elements,
+    switching,
+)
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.elements.shooting import (
+    Root,
+    Setting,
+    equations,
+)
 from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.start import cold_start
@@ -367,7 +367,7 @@ def test_a_singular_end_is_no_meeting(bent):
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):
     pytest.importorskip("casadi")
-    from pontryagin.rendezvous.judge.table.collocation import direct
+    from pontryagin.rendezvous.judge.collocation import direct
 
     errors = [abs(direct(LEAP, 6.0, 0.6, n, fuel=True).cost / fuel.cost - 1) for n in (20, 80)]
     assert errors[1] < 1e-4 and errors[1] < errors[0]

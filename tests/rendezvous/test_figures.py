@@ -7,20 +7,20 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from pontryagin.rendezvous.elements.elements.arcs import TIME
-from pontryagin.rendezvous.problem.rendezvous.cases import (
-    DAY,
-    case,
-    cases,
-)
 
 from pontryagin.display.plotting import svg_of
 from pontryagin.io.files import figures_folder
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, figures
+from pontryagin.rendezvous.elements.arcs import TIME
 from pontryagin.rendezvous.false_meetings.family import false_family
 from pontryagin.rendezvous.figures import elements, elements_costates, labels, paths, tables
 from pontryagin.rendezvous.figures.revolutions import branch
 from pontryagin.rendezvous.figures.series import drift
+from pontryagin.rendezvous.problem.cases import (
+    DAY,
+    case,
+    cases,
+)
 
 solved = figures.solved
 

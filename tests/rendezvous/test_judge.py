@@ -5,12 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pontryagin.rendezvous.problem.rendezvous.cases import (
-    FuelCase,
-    case,
-    cases,
-    fuel_cases,
-)
 
 from pontryagin.io.files import figures_folder
 from pontryagin.rendezvous import (
@@ -19,7 +13,13 @@ from pontryagin.rendezvous import (
 )
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.figures.tables import excess, nearest
-from pontryagin.rendezvous.judge.table import table as judge
+from pontryagin.rendezvous.judge import table as judge
+from pontryagin.rendezvous.problem.cases import (
+    FuelCase,
+    case,
+    cases,
+    fuel_cases,
+)
 
 KEPT = judge.verdicts()
 SQUARE = {name: KEPT[name] for name in cases()}

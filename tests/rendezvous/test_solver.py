@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pontryagin.rendezvous.problem.rendezvous.cases import chaser_on
 
 import pontryagin
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, solve
+from pontryagin.rendezvous.problem.cases import chaser_on
 from pontryagin.rendezvous.reduced.bound import bounded
 from pontryagin.rendezvous.reduced.certificate import certify
 from pontryagin.rendezvous.reduced.flight import fly
@@ -207,7 +207,7 @@ def test_a_neighbours_solution_is_a_start():
 
 def test_the_judge_agrees_and_its_error_shrinks():
     pytest.importorskip("casadi")
-    from pontryagin.rendezvous.judge.table.collocation import direct
+    from pontryagin.rendezvous.judge.collocation import direct
 
     given = problem(20, duration=8.0)
     best = solve(given)

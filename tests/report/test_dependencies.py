@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from pontryagin import files
+from pontryagin.io import files
 from pontryagin.report.dependencies import Source, closure, digest, literals
 
 REAL = Source(files.repository() / "src" / "pontryagin")

@@ -70,7 +70,7 @@ def solve(
 
 
 def _list(json: bool) -> None:
-    from pontryagin.rendezvous.problem.rendezvous.cases import cases
+    from pontryagin.rendezvous.problem.cases import cases
 
     titles = {name: one.title for name, one in cases().items()}
     if json:
@@ -81,7 +81,7 @@ def _list(json: bool) -> None:
 
 def _problem(case: Text, file: File) -> Any:
     from pontryagin.rendezvous import schema as asked
-    from pontryagin.rendezvous.problem.rendezvous.cases import cases
+    from pontryagin.rendezvous.problem.cases import cases
 
     if file is None:
         if case is None:
@@ -113,7 +113,7 @@ def _solved(problem: Any, option: str) -> Any:
 
 def _title(problem: Any, case: Text) -> str:
     if case is not None:
-        from pontryagin.rendezvous.problem.rendezvous.cases import cases
+        from pontryagin.rendezvous.problem.cases import cases
 
         return f"Rendezvous {case!r}: {cases()[case].title}"
     if not problem.energy_weight:

@@ -27,8 +27,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from pontryagin.io import formula
-from pontryagin.rendezvous.problem.rendezvous.cases import chaser_on
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import (
+from pontryagin.rendezvous.problem.cases import chaser_on
+from pontryagin.rendezvous.problem.rendezvous import (
     Chaser,
     Orbit,
     Rendezvous,

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pontryagin.display.tables import csv_table
-from pontryagin.rendezvous.problem.rendezvous.cases import case
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.cases import case
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.solution import (
     Extremal,
     solve,

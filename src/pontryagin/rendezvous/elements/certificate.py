@@ -13,23 +13,23 @@ from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.elements.elements.arcs import (
+from pontryagin.rendezvous.elements.arcs import (
     COSTATES,
     TIME,
 )
-from pontryagin.rendezvous.elements.elements.elements import (
+from pontryagin.rendezvous.elements.elements import (
     I1,
     Elements,
     place,
     place_gradient,
     relation_gradient,
 )
-from pontryagin.rendezvous.elements.elements.flight import (
+from pontryagin.rendezvous.elements.flight import (
     ElementFlight,
     start_of,
     switching,
 )
-from pontryagin.rendezvous.elements.elements.shooting import Root
+from pontryagin.rendezvous.elements.shooting import Root
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,

@@ -13,7 +13,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.elements.elements.arcs import (
+from pontryagin.rendezvous.elements.arcs import (
     COLUMNS,
     COSTATES,
     COUNT,
@@ -26,13 +26,13 @@ from pontryagin.rendezvous.elements.elements.arcs import (
     rates_of,
     steered,
 )
-from pontryagin.rendezvous.elements.elements.elements import (
+from pontryagin.rendezvous.elements.elements import (
     I1,
     Elements,
     relation_gradient,
 )
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
 

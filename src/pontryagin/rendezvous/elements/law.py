@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from pontryagin.rendezvous.elements.elements.arcs import (
+from pontryagin.rendezvous.elements.arcs import (
     RISING,
     Constants,
     Mode,

@@ -13,26 +13,26 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements.elements.flight import switching
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.elements.elements.shooting import (
+from pontryagin.rendezvous.elements.flight import switching
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.elements.shooting import (
     Root,
     Setting,
     follow_round,
     newton,
 )
-from pontryagin.rendezvous.elements.elements.solution import (
+from pontryagin.rendezvous.elements.solution import (
     ElementsExtremal,
     largest_thrust,
     require,
 )
-from pontryagin.rendezvous.elements.elements.start import (
+from pontryagin.rendezvous.elements.start import (
     energy,
     led,
     marched,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.first_extremal import first_duration
 from pontryagin.validation import integer
 

@@ -13,16 +13,16 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.elements.elements.arcs import TIME
-from pontryagin.rendezvous.elements.elements.flight import (
+from pontryagin.rendezvous.elements.arcs import TIME
+from pontryagin.rendezvous.elements.flight import (
     ElementFlight,
     end_rates,
     fly_elements,
     switching,
     switching_gradient,
 )
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.homotopy import (
     EXACT,
     NEAR,

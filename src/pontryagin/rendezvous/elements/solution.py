@@ -9,33 +9,33 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.rendezvous.elements.elements.certificate import (
+from pontryagin.rendezvous.elements.certificate import (
     ElementsCertificate,
     certify,
 )
-from pontryagin.rendezvous.elements.elements.elements import (
+from pontryagin.rendezvous.elements.elements import (
     Elements,
     place_gradient,
 )
-from pontryagin.rendezvous.elements.elements.flight import (
+from pontryagin.rendezvous.elements.flight import (
     ElementFlight,
     basis,
     start_of,
     switching,
 )
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.elements.elements.shooting import (
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.elements.shooting import (
     Root,
     Setting,
     follow,
     newton,
 )
-from pontryagin.rendezvous.elements.elements.start import (
+from pontryagin.rendezvous.elements.start import (
     energy,
     marched,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.reduced.first_extremal import (
     first_duration,

@@ -10,24 +10,24 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements.elements.elements import (
+from pontryagin.rendezvous.elements.elements import (
     I1,
     Elements,
     place,
 )
-from pontryagin.rendezvous.elements.elements.flight import (
+from pontryagin.rendezvous.elements.flight import (
     fly_elements,
     start_of,
 )
-from pontryagin.rendezvous.elements.elements.law import Law
-from pontryagin.rendezvous.elements.elements.shooting import (
+from pontryagin.rendezvous.elements.law import Law
+from pontryagin.rendezvous.elements.shooting import (
     Root,
     Setting,
     equations,
     follow,
     newton,
 )
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 

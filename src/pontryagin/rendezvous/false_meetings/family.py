@@ -27,7 +27,7 @@ from pontryagin.rendezvous.false_meetings.rotated_target import (
     refined,
     towards_turned,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.rendezvous.reduced.certificate import fly_full
 from pontryagin.rendezvous.reduced.flight import Flight

@@ -15,7 +15,7 @@ from pontryagin.rendezvous.false_meetings.rotated_target import (
     refined,
     towards_turned,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import (
+from pontryagin.rendezvous.problem.rendezvous import (
     Rendezvous,
     number,
 )

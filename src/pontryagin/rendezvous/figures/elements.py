@@ -22,18 +22,18 @@ from pontryagin.display.plotting import (
     subplots,
 )
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements.elements.flight import switching
-from pontryagin.rendezvous.elements.elements.least_fuel import least_fuel
-from pontryagin.rendezvous.elements.elements.solution import (
+from pontryagin.rendezvous.elements.flight import switching
+from pontryagin.rendezvous.elements.least_fuel import least_fuel
+from pontryagin.rendezvous.elements.solution import (
     ElementsExtremal,
     solve_in_elements,
 )
 from pontryagin.rendezvous.figures.solved import solved
-from pontryagin.rendezvous.judge.table.table import (
+from pontryagin.rendezvous.judge.table import (
     MESHES,
     verdicts,
 )
-from pontryagin.rendezvous.problem.rendezvous.cases import (
+from pontryagin.rendezvous.problem.cases import (
     cases,
     fuel_cases,
 )

@@ -11,10 +11,10 @@ from pontryagin.display.plotting import (
     subplots,
 )
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.elements.elements.arcs import COSTATES
-from pontryagin.rendezvous.elements.elements.certificate import running_cost
-from pontryagin.rendezvous.elements.elements.flight import switching
-from pontryagin.rendezvous.elements.elements.solution import ElementsExtremal
+from pontryagin.rendezvous.elements.arcs import COSTATES
+from pontryagin.rendezvous.elements.certificate import running_cost
+from pontryagin.rendezvous.elements.flight import switching
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
 
 SAMPLES = 601
 

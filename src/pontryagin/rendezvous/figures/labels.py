@@ -10,12 +10,12 @@ from pontryagin.display.plotting import (
     PURPLE,
     RED,
 )
-from pontryagin.rendezvous.problem.rendezvous.cases import (
+from pontryagin.rendezvous.problem.cases import (
     ASTRONOMICAL_UNIT,
     DAY,
     SUN,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 COMPONENTS = (BLUE, GREEN, ORANGE)
 CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, "#888888", RED, INK, PURPLE

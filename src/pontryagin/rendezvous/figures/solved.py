@@ -2,7 +2,7 @@
 
 import functools
 
-from pontryagin.rendezvous.problem.rendezvous.cases import (
+from pontryagin.rendezvous.problem.cases import (
     case,
     cases,
 )

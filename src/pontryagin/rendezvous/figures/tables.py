@@ -8,11 +8,11 @@ import numpy as np
 from pontryagin.rendezvous import small_weight
 from pontryagin.rendezvous.false_meetings.family import FalseFamily
 from pontryagin.rendezvous.figures.labels import Units, units
-from pontryagin.rendezvous.judge.table.table import (
+from pontryagin.rendezvous.judge.table import (
     MESHES,
     verdicts,
 )
-from pontryagin.rendezvous.problem.rendezvous.cases import cases
+from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 Columns = dict[str, list[Any]]

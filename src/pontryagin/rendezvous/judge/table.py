@@ -16,13 +16,13 @@ import numpy as np
 
 from pontryagin.display.tables import csv_table
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.problem.rendezvous.cases import (
+from pontryagin.rendezvous.problem.cases import (
     Case,
     FuelCase,
     cases,
     fuel_cases,
 )
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 FILE = Path(__file__).with_name("judge.csv")
 MESHES = (40, 96)
@@ -85,7 +85,7 @@ def judged(case: Case) -> Verdict:
     NotConverged
         If Ipopt does not converge.
     """
-    from pontryagin.rendezvous.judge.table.collocation import direct
+    from pontryagin.rendezvous.judge.collocation import direct
 
     fuel = isinstance(case, FuelCase)
     coarse, fine = (direct(case.problem, case.guess, case.revolutions, mesh, fuel) for mesh in MESHES)

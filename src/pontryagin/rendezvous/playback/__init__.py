@@ -13,7 +13,7 @@ from pathlib import Path
 from pontryagin.rendezvous.false_meetings.meeting import false_meeting
 from pontryagin.rendezvous.playback.motion import passage
 from pontryagin.rendezvous.playback.scene import record_passage
-from pontryagin.rendezvous.problem.rendezvous.cases import case
+from pontryagin.rendezvous.problem.cases import case
 from pontryagin.rendezvous.reduced.solution import (
     Extremal,
     solve,

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import (
+from pontryagin.rendezvous.problem.rendezvous import (
     Chaser,
     Orbit,
     Rendezvous,

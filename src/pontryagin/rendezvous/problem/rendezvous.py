@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.validation import finite, vectors
 

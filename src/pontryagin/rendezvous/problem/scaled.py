@@ -10,7 +10,7 @@ from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.quaternions import conjugate, product
 
 if TYPE_CHECKING:
-    from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+    from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 
 class Scaled:

@@ -11,7 +11,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.homotopy import (
     Point,
     Root,

@@ -10,7 +10,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.arcs import (
     COUNT,
     Mode,

@@ -19,7 +19,7 @@ from pontryagin.numerics.flow import (
     TOLERANCE,
     has_heyoka,
 )
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.arcs import (
     BOUND,
     COLUMNS,

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.reduced.homotopy import newton
 from pontryagin.rendezvous.reduced.lanes import (

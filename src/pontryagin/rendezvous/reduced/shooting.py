@@ -12,7 +12,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.problem.rendezvous.scaled import Scaled
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.quaternions import about_third, product
 from pontryagin.rendezvous.reduced.flight import (
     Flight,

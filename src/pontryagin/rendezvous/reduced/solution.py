@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
-from pontryagin.rendezvous.problem.rendezvous.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.reduced.certificate import (
     RendezvousCertificate,
