@@ -66,12 +66,30 @@ judge: $(EXTRA) ## solve the rendezvous directly, from cold starts, for comparis
 	@$(PY) -m pontryagin.rendezvous.judge.table
 
 .PHONY: lint
-lint: $(READY) ## style and types
+lint: $(READY) ## style, contracts between imports, and types
 	@echo "== ruff"
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@echo "== contracts"
+	@$(PY) -m tests.house.contracts
 	@echo "== mypy"
 	@$(BIN)/mypy
+
+.PHONY: types
+types: $(READY) ## types on every interpreter from 3.11 to 3.13 that can be had
+	@$(PY) -m tests.house.interpreters
+
+.PHONY: check
+check: lint ## lint and the quick tests of the core, or of one paper: make check PAPER=rendezvous
+	@echo "== quick tests of $(or $(PAPER),the core)"
+	@folders=$$($(PY) -m tests.house.selection $(PAPER)); \
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest -m "not slow" \
+	  $(if $(filter-out 1,$(CORES)),-n $(CORES)) $$folders
+
+.PHONY: coverage
+coverage: $(READY) ## which statements the tests reach, into build/coverage
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest $(if $(filter-out 1,$(CORES)),-n $(CORES)) \
+	  --cov=pontryagin --cov-report=term:skip-covered --cov-report=html:build/coverage
 
 .PHONY: play
 play: $(READY) ## replay the recordings in the browser

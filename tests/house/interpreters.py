@@ -1,0 +1,54 @@
+"""``python -m tests.house.interpreters``: mypy on every supported interpreter that can be had, the others named.
+
+An interpreter other than the one that runs this gets an environment of its own in ``build/types-VERSION``, with
+mypy and the packages that have types, at the versions of requirements.lock.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SUPPORTED = ("3.11", "3.12", "3.13")
+TYPED = ("lazy-loader", "matplotlib", "mypy", "numba", "numpy", "rich", "scipy", "scipy-stubs", "sympy", "typer")
+"""The packages whose types mypy reads."""
+UV = str(Path(sys.executable).with_name("uv"))
+
+
+def environment(version: str) -> Path | None:
+    """The Python of an environment with mypy for a version; None where it cannot be had."""
+    folder = ROOT / "build" / f"types-{version}"
+    python = folder / "bin" / "python"
+    if (folder / "complete").exists():
+        return python
+    make = [UV, "venv", "-q", "--clear", "--no-python-downloads", "--python", version, str(folder)]
+    lock = str(ROOT / "requirements.lock")
+    install = [UV, "pip", "install", "-q", "--python", str(python), "-c", lock, *TYPED]
+    for command in (make, install):
+        try:
+            done = subprocess.run(command, capture_output=True, text=True)
+        except OSError:
+            return None
+        if done.returncode:
+            print("   " + (done.stderr.strip().splitlines() or ["uv failed"])[0])
+            return None
+    (folder / "complete").touch()
+    return python
+
+
+def main() -> int:
+    """Run mypy on each interpreter; 1 if one of them finds an error."""
+    own = f"{sys.version_info.major}.{sys.version_info.minor}"
+    failed = False
+    for version in SUPPORTED:
+        python = Path(sys.executable) if version == own else environment(version)
+        if python is None:
+            print(f"== mypy on Python {version}: skipped, no environment for it can be had here", flush=True)
+            continue
+        print(f"== mypy on Python {version}", flush=True)
+        failed |= bool(subprocess.run([python, "-m", "mypy"], cwd=ROOT).returncode)
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
