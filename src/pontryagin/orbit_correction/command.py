@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from pontryagin.io import json_io
 from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
 
@@ -75,7 +76,7 @@ def solve(
     if samples:
         told["samples"] = transcript.samples(plan, samples)
     if json:
-        typer.echo(console.to_json(told))
+        typer.echo(json_io.to_json(told))
     else:
         console.show(transcript.TITLES[thrust], told, transcript.conclusion(plan))
 
