@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import about_third, product, rotated
 from pontryagin.rendezvous.false_meetings.rotated_target import (
     refined,
     towards_turned,
@@ -19,7 +20,6 @@ from pontryagin.rendezvous.problem.rendezvous import (
     Rendezvous,
     number,
 )
-from pontryagin.rendezvous.quaternions import about_third, product, rotated
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.homotopy import (
     Point,

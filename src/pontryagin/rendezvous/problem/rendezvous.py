@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.validation import finite, vectors
 
 UNIT_WITHIN = 1e-6

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.quaternions import conjugate, product
 
 if TYPE_CHECKING:
     from pontryagin.rendezvous.problem.rendezvous import Rendezvous
@@ -70,8 +71,8 @@ class Scaled:
     def target(self, anomaly: float, orientation: Array | None = None) -> tuple[Array, Array]:
         """r*, v1*, c* and lambda0~ o lambda* (7,), and their rates (7,), at an anomaly."""
         place = self.orientation if orientation is None else orientation
-        step = 1e-30j
-        values = np.array(kernels.target(anomaly + step, 1.0, self.eccentricity, 1.0, *place))
-        rate = values[3].real
-        goal = np.delete(values, 3)
-        return goal.real, goal.imag / step.imag * rate
+        values, slopes = derivative(
+            lambda phi: np.array(kernels.target(phi, 1.0, self.eccentricity, 1.0, *place)), anomaly
+        )
+        rate = values[3]
+        return np.delete(values, 3), np.delete(slopes, 3) * rate
