@@ -168,7 +168,7 @@ def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
     goal = np.delete(np.array([np.broadcast_to(value, count) for value in values]), 3, axis=0)
     inputs = np.vstack([flights.ends.T[SEEN], flights.costates.T[3:]])
     with np.errstate(all="ignore"):  # at a chart's singular direction
-        values, missed = jacobian(lambda x: kernels.mismatch(*x, flights.charts, *goal), inputs)
+        values, missed = jacobian(lambda x: kernels.mismatch(*[*x, flights.charts, *goal]), inputs)
     by_input = np.moveaxis(missed, -1, 0)
     slopes = by_input[..., :7] @ flights.slopes[:, SEEN, :6]
     slopes[..., 3:] += by_input[..., 7:]

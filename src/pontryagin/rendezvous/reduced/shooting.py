@@ -120,7 +120,7 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
     """(5) and (6) towards a goal r, v1, c, lambda0~ o lambda (7,): values (6,), slopes (6, 12) in the end
     states, (6, 3) in nu at the start."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    values, slopes = jacobian(lambda x: kernels.mismatch(*x, flight.chart, *goal), inputs)
+    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x, flight.chart, *goal]), inputs)
     by_state = np.zeros((6, 12))
     by_state[:, SEEN] = slopes[:, :7]
     return values, by_state, slopes[:, 7:]
@@ -129,7 +129,7 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
 def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
     """Derivative of `mismatch` when the goal moves in a direction."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    return derivative(lambda x: kernels.mismatch(*inputs, flight.chart, *x), goal, direction)[1]
+    return derivative(lambda x: kernels.mismatch(*[*inputs, flight.chart, *x]), goal, direction)[1]
 
 
 def end_rates(flight: Flight) -> Array:
