@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from pontryagin import Infeasible
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
-from pontryagin.orbit_correction.satellite import LINEAR, step_input, step_transition
-from pontryagin.orbit_correction.thrust import Thrust
+from pontryagin.orbit_correction.plan.thrust import Thrust
+from pontryagin.orbit_correction.system.satellite import LINEAR, step_input, step_transition
 
 Z0 = np.array([-0.37787e-2, -0.39109e-2, 1.41512e-2])
 STATES = 1e-2 * np.array(
@@ -155,7 +155,7 @@ def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
     rows = np.random.default_rng(4).normal(size=(50, 3)) * 0.01
     engine, counts = Thrust("ball", 0.25, 0.0035), np.random.default_rng(4).integers(1, 20, 50)
     whole = engine.bounds(rows, counts)
-    monkeypatch.setattr("pontryagin.orbit_correction.thrust.CHUNK", 60)
+    monkeypatch.setattr("pontryagin.orbit_correction.plan.thrust.CHUNK", 60)
     assert_allclose(engine.bounds(rows, counts), whole, rtol=1e-12)
 
 

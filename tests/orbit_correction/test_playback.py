@@ -9,14 +9,10 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm
 from scipy.optimize import linprog
 
-from pontryagin.display.recording import (
-    Scene,
-    read_back,
-    record,
-)
+from pontryagin.display.recording import Scene, read_back, record
 from pontryagin.orbit_correction import correct, playback, sets
 from pontryagin.orbit_correction.flight import fly_plan
-from pontryagin.orbit_correction.satellite import LINEAR
+from pontryagin.orbit_correction.system.satellite import LINEAR
 
 Z0 = [-0.0037787, -0.0039109, 0.0141512]
 PLANS = {"orbit-correction": correct(Z0), "orbit-correction-square": correct(Z0, thrust="box")}
