@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.flow import Flow, flow
-from pontryagin.orbit_correction.plan.correction import Plan, correct
+from pontryagin.orbit_correction.plan.correction import Plan, correct, single
 from pontryagin.validation import positive, vectors
 
 CIRCLE = np.array([1.0, 0.0, 1.0])

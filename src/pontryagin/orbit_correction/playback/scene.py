@@ -1,4 +1,4 @@
-"""What a recording of one plan shows: the orbit, the impulses, and the sets of states that can still come home.
+"""What a recording of one plan shows: the orbit, the impulses, and the sets of states still within reach.
 
 The orbit's radius and speed are units; a radian of the orbit takes `PACE` seconds.
 """
@@ -128,7 +128,7 @@ def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
         recording.curve(f"impulse/{name}", dense[dense <= t[-1]], values[dense <= t[-1]], name, colour)
 
 
-def _flash(plan: Plan, t: NDArray) -> Array:
+def _flash(plan: Plan, t: Array) -> Array:
     """Impulses over their bound at the times (k,), each shown while it is held, (k, 2)."""
     since = t[:, None] - PACE * plan.thrust.interval * np.arange(len(plan.impulses))
     shown = (since > 0) & (since < HOLD + BLINK / 2)
@@ -163,7 +163,7 @@ def _sets(recording: Recording, plan: Plan) -> None:
     recording.curve("gauge/alpha", times[: len(gauges)] + home, [*gauges, 0.0, 0.0], "alpha", BLUE)
 
 
-def _proved(plan: Plan, held: NDArray, left: Remaining, square: bool) -> float:
+def _proved(plan: Plan, held: Array, left: Remaining, square: bool) -> float:
     """The gauge that the plan's costate proves of a state carried back to the start."""
     psi = -plan.initial_costate
     return float(held @ psi) / float(left.boundary(psi, square) @ psi)
