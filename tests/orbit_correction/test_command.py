@@ -13,11 +13,11 @@ from typer.testing import CliRunner
 
 from pontryagin.cli import app
 from pontryagin.display.recording import read_back
-from pontryagin.orbit_correction import correct
+from pontryagin.orbit_correction import correct, printed
 from pontryagin.orbit_correction.system.satellite import LINEAR
 
-Z0 = "-0.0037787,-0.0039109,0.0141512"
-STATE = [-0.0037787, -0.0039109, 0.0141512]
+STATE = list(printed.Z0)
+Z0 = ",".join(map(str, STATE))
 
 
 def solve(*arguments):

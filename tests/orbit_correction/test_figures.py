@@ -9,9 +9,9 @@ from pontryagin.orbit_correction import close_loop, correct, figures, sets
 from pontryagin.orbit_correction.figures import flight, growth, impulses, tables
 from pontryagin.orbit_correction.montecarlo import impulse_distribution
 from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.printed import Z0
 from pontryagin.orbit_correction.waste import count_impulses, random_states
 
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
 PLAN = correct(Z0)
 
 
