@@ -13,8 +13,8 @@ from functools import cache, cached_property
 from pathlib import Path
 
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
-_LAZY = "lazy"
-"""The module whose computed imports lie below the package that calls its `attach`."""
+_LAZY = {"attach", "attach_stub"}
+"""Functions of `lazy_loader` that import modules below the package that calls them."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
 _FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
@@ -70,8 +70,6 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
         if module in known:
             continue
         known.add(module)
-        if module == f"{source.folder.name}.{_LAZY}":
-            continue
         text = source.modules[module].read_text(encoding="utf-8")
         open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
     files = {source.modules[module] for module in known}
@@ -127,7 +125,7 @@ def _needed(source: Source, text: str, package: str) -> set[str]:
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     function = call.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    if name == "attach":
+    if name in _LAZY:
         return source.below(package)
     if name not in _COMPUTED | _COMMANDS:
         return set()
