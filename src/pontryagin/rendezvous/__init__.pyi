@@ -5,7 +5,7 @@ from .elements.least_fuel import least_fuel as least_fuel
 from .elements.solution import ElementsExtremal as ElementsExtremal
 from .elements.solution import solve_in_elements as solve_in_elements
 from .false_meetings.family import false_family as false_family
-from .false_meetings.meeting import false_meeting as false_meeting
+from .false_meetings.family import false_meeting as false_meeting
 from .problem.chaser import Chaser as Chaser
 from .problem.orbit import Orbit as Orbit
 from .problem.rendezvous import Rendezvous as Rendezvous
