@@ -8,7 +8,7 @@ import numpy as np
 import typer
 
 from pontryagin.terminal import console
-from pontryagin.triple_integrator import transcript
+from pontryagin.triple_integrator import schema
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
 """Options whose last check is left to the solvers."""
@@ -151,7 +151,7 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
 
 @in_silence
 def _files(solution: Any, plot: File, record: File) -> None:
-    if (plot or record) and not transcript.moves(solution):
+    if (plot or record) and not schema.moves(solution):
         raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
     if plot:
         from pontryagin.triple_integrator.figures import solution_figure
@@ -165,13 +165,13 @@ def _files(solution: Any, plot: File, record: File) -> None:
 
 @in_silence
 def _print(solution: Any, json: bool, samples: int) -> None:
-    told: dict[str, Any] = transcript.transcript(solution)
+    told: dict[str, Any] = schema.transcript(solution)
     if samples:
-        told["samples"] = transcript.samples(solution, samples)
+        told["samples"] = schema.samples(solution, samples)
     if json:
         typer.echo(console.to_json(told))
     else:
-        console.show(transcript.account(solution).title, told, transcript.conclusion(solution))
+        console.show(schema.account(solution).title, told, schema.conclusion(solution))
 
 
 @in_silence

@@ -12,35 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-)
-from pontryagin.display.recording import (
-    Events,
-    Plot,
-    Recording,
-    Scene,
-    View,
-    record,
-)
-from pontryagin.numerics.rotation import (
-    between,
-    quaternion,
-    rotation_vector,
-)
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
+from pontryagin.display.recording import Events, Plot, Recording, Scene, View, record
+from pontryagin.numerics.rotation import between, quaternion, rotation_vector
 from pontryagin.triple_integrator.attitude import Programme, Turn, impulses, single, turn
-from pontryagin.triple_integrator.channels import Channels
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple
-from pontryagin.triple_integrator.energy import minimum_energy
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
-from pontryagin.triple_integrator.rigid_body import RigidBody
+from pontryagin.triple_integrator.coupling.channels import Channels
+from pontryagin.triple_integrator.norms.energy import minimum_energy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 SAMPLES = 401
 NORMS: dict[str, tuple[Callable[[Maneuver], Programme], str]] = {

@@ -8,19 +8,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    BLUE,
-    INK,
-    RED,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import BLUE, INK, RED, SEQUENTIAL, styled, subplots
 from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple, spherical_factor
-from pontryagin.triple_integrator.energy import minimum_energy
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import RigidBody
+from pontryagin.triple_integrator.norms.energy import minimum_energy
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 TOLERANCE = 1e-6
 

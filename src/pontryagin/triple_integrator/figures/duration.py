@@ -4,17 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    BLUE,
-    INK,
-    ORANGE,
-    RED,
-    styled,
-    subplots,
-)
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import PeakSolution, minimum_peak
-from pontryagin.triple_integrator.time import minimum_time
+from pontryagin.display.plotting import BLUE, INK, ORANGE, RED, styled, subplots
+from pontryagin.triple_integrator.least_time.time import minimum_time
+from pontryagin.triple_integrator.norms.peak import PeakSolution, minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 COUNT = 1201
 

@@ -4,20 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-)
-from pontryagin.triple_integrator.energy import EnergySolution, minimum_energy
-from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import NormSolution
-from pontryagin.triple_integrator.peak import PeakSolution, minimum_peak
-from pontryagin.triple_integrator.time import TimeSolution
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
+from pontryagin.triple_integrator.least_time.time import TimeSolution
+from pontryagin.triple_integrator.norms.energy import EnergySolution, minimum_energy
+from pontryagin.triple_integrator.norms.impulse import ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.norms.norm import NormSolution
+from pontryagin.triple_integrator.norms.peak import PeakSolution, minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 Solution = EnergySolution | PeakSolution | ImpulseSolution | NormSolution | TimeSolution
 

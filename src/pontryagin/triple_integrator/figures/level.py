@@ -5,17 +5,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from pontryagin.display.plotting import (
-    INK,
-    RED,
-    SKY,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, RED, SKY, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.kernels import level_equation
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled

@@ -6,20 +6,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    GREEN,
-    INK,
-    ORANGE,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
-from pontryagin.triple_integrator.entropy import maximum_entropy
+from pontryagin.display.plotting import GREEN, INK, ORANGE, SEQUENTIAL, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.programmes import draw_impulses
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import minimum_norm
+from pontryagin.triple_integrator.norms.entropy import maximum_entropy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.norm import minimum_norm
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled

@@ -4,14 +4,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    INK,
-    WIDTH,
-    styled,
-)
+from pontryagin.display.plotting import INK, WIDTH, styled
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.figures import sphere
-from pontryagin.triple_integrator.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
 
 SIZE = 500
 

@@ -6,15 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import ImpulseSolution
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.norms.impulse import ImpulseSolution
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled

@@ -6,17 +6,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    WIDTH,
-    styled,
-)
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, WIDTH, styled
 from pontryagin.triple_integrator.figures import sphere
-from pontryagin.triple_integrator.impulse import REGIMES, minimum_impulse
+from pontryagin.triple_integrator.norms.impulse import REGIMES, minimum_impulse
 
 COLOURS = dict(zip(REGIMES[1:], (ORANGE, GREEN, BLUE, PURPLE), strict=True))
 WORDS = {

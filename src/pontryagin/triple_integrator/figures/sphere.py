@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import INK
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 SCALES = np.array([6.0, 2.0, 1.0])
 

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.triple_integrator.attitude import turn
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.figures import duration, labels, overpayment, sphere
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import REGIMES, ImpulseSolution, minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
-from pontryagin.triple_integrator.rigid_body import RigidBody
-from pontryagin.triple_integrator.time import minimum_time
+from pontryagin.triple_integrator.least_time.time import minimum_time
+from pontryagin.triple_integrator.norms.impulse import REGIMES, ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 Columns = dict[str, list[Any]]
 

@@ -4,18 +4,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    INK,
-    RED,
-    SKY,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, RED, SKY, styled, subplots
 from pontryagin.triple_integrator.attitude import turn
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import RigidBody
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled

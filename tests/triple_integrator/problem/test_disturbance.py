@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 from pontryagin import NotConverged
 from pontryagin.triple_integrator import Maneuver
-from pontryagin.triple_integrator.disturbance import integrals
+from pontryagin.triple_integrator.problem.disturbance import integrals
 
 t = sp.Symbol("t")
 START, END = np.array(-0.5), np.array(2.0)

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from scipy.optimize import Bounds, LinearConstraint, minimize, minimize_scalar
 
 from pontryagin.arrays import Array
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
 """Minimise |F| over t1 and t2, free (BFGS) or within 0 <= t1 <= t2 <= T (SLSQP), from T/4 and 3T/4; minimise
@@ -175,7 +175,7 @@ def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> S
 
 def _formulas() -> ModuleType:
     """The compiled formulas; asked for late, because they take SymPy's import and a derivation."""
-    from pontryagin.triple_integrator import route_formulas
+    from pontryagin.triple_integrator.search import formulas as route_formulas
 
     return route_formulas
 

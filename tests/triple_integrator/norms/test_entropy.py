@@ -8,10 +8,10 @@ from numpy.testing import assert_allclose
 from scipy.integrate import quad, solve_ivp
 
 from pontryagin import Infeasible, NotConverged
-from pontryagin.triple_integrator.entropy import maximum_entropy
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import minimum_norm
+from pontryagin.triple_integrator.norms.entropy import maximum_entropy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.norm import minimum_norm
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 few = settings(max_examples=15, deadline=None)
 

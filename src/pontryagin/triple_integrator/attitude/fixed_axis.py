@@ -14,15 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.compile import function
-from pontryagin.numerics.rotation import (
-    between,
-    cross,
-    quaternion,
-    rotation_vector,
-)
-from pontryagin.triple_integrator.disturbance import Panels
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.numerics.rotation import between, cross, quaternion, rotation_vector
+from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.triple_integrator.problem.disturbance import Panels
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import vectors
 
 
@@ -160,8 +155,8 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
 
     Examples
     --------
-    >>> from pontryagin.triple_integrator.maneuver import Maneuver
-    >>> from pontryagin.triple_integrator.peak import minimum_peak
+    >>> from pontryagin.triple_integrator.problem.maneuver import Maneuver
+    >>> from pontryagin.triple_integrator.norms.peak import minimum_peak
     >>> body = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
     >>> programme = minimum_peak(Maneuver([0, 0, 0], [1.5, 0, 0], tf=2.0))
     >>> turn(body, [1, 2, 2], programme).attitude_miss < 1e-10

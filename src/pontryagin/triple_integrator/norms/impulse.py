@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
-from pontryagin.triple_integrator import trajectory
 from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, reversed_moments, two_impulses
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
 ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0

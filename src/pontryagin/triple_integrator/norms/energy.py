@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
-from pontryagin.triple_integrator import kernels, trajectory
+from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 def solve_energy(c1, c2, c3, T):

@@ -7,8 +7,8 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from pontryagin.numerics import rotation as kinematics
+from pontryagin.triple_integrator.attitude.rigid_body import Commands, RigidBody, simulate
 from pontryagin.triple_integrator.derivation import rigid_body as derivation
-from pontryagin.triple_integrator.rigid_body import Commands, RigidBody, simulate
 
 J, w, a, e, q, phi = (
     derivation.inertia,

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from independent import propagate
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
-from pontryagin.triple_integrator import trajectory as tr
+from pontryagin.triple_integrator.problem import trajectory as tr
 from strategies import maneuvers, stacked
 
 SOLVERS = [minimum_energy, minimum_peak, minimum_impulse]

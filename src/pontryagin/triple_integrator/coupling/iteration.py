@@ -22,15 +22,11 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.rotation import (
-    FULL_TURN,
-    rotation_vector,
-    vector_rate_matrix,
-)
-from pontryagin.triple_integrator.attitude import Programme, single
-from pontryagin.triple_integrator.channels import Channels, Coupling
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import Motion, RigidBody
+from pontryagin.numerics.rotation import FULL_TURN, rotation_vector, vector_rate_matrix
+from pontryagin.triple_integrator.attitude.fixed_axis import Programme, single
+from pontryagin.triple_integrator.attitude.rigid_body import Motion, RigidBody
+from pontryagin.triple_integrator.coupling.channels import Channels, Coupling
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import finite
 
 NOISE = 1e-11
@@ -150,7 +146,7 @@ def couple(
 
     Examples
     --------
-    >>> from pontryagin.triple_integrator.energy import minimum_energy
+    >>> from pontryagin.triple_integrator.norms.energy import minimum_energy
     >>> body = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
     >>> ends = [0.3, -0.2, 0.4]
     >>> channels = [Maneuver([0, 0, 0], [angle, 0, 0], tf=2.0) for angle in ends]

@@ -7,16 +7,10 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
-from pontryagin.triple_integrator.route_formulas import area_from_zeros, zeros_from_multiplier
-from pontryagin.triple_integrator.search import (
-    REASONS,
-    ROUTES,
-    multiplier_range,
-    search,
-    survey,
-)
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.search import REASONS, ROUTES, multiplier_range, search, survey
+from pontryagin.triple_integrator.search.formulas import area_from_zeros, zeros_from_multiplier
 
 few = settings(max_examples=20, deadline=None)
 numbers = st.floats(-2, 2, allow_subnormal=False).map(lambda x: round(x, 3))

@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 
 from pontryagin import NotConverged
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
-from pontryagin.triple_integrator.channels import Channels
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.coupling import couple, spherical_factor
+from pontryagin.triple_integrator.coupling.channels import Channels
 from pontryagin.triple_integrator.derivation import rigid_body as derivation
-from pontryagin.triple_integrator.rigid_body import RigidBody
 
 BODY = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
 NEARLY_SPHERICAL = RigidBody(np.diag([0.999, 1.0, 1.001]))

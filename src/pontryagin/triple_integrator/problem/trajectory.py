@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 def over_stack(solver: Batched, maneuver: Maneuver) -> Array:

@@ -14,14 +14,14 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
-from pontryagin.triple_integrator import trajectory
 from pontryagin.triple_integrator.kernels import (
     bang_bang_moments,
     level_equation,
     near_constant_equation,
     peak_bound,
 )
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 EDGE = 1e-14
 """A piece of the control shorter than this share of T is below the rounding of the moments: no piece."""

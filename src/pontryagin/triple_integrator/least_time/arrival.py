@@ -14,8 +14,7 @@ from pontryagin.triple_integrator.kernels import (
     same_branch,
     small_parts,
 )
-from pontryagin.triple_integrator.peak import EDGE, place_switches
-from pontryagin.triple_integrator.quartic import (
+from pontryagin.triple_integrator.least_time.quartic import (
     THIRD,
     quartic,
     root_between,
@@ -23,6 +22,7 @@ from pontryagin.triple_integrator.quartic import (
     stationary_points,
     upper_bound,
 )
+from pontryagin.triple_integrator.norms.peak import EDGE, place_switches
 
 ACCEPT = 2e-15
 """Largest residual of the moments, relative to the data's own size, with which a root is a control."""

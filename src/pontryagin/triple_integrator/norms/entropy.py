@@ -13,10 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.triple_integrator import trajectory
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.newton import minimise
-from pontryagin.triple_integrator.quadrature import (
+from pontryagin.triple_integrator.norms.newton import minimise
+from pontryagin.triple_integrator.norms.quadrature import (
     Array,
     Quadratic,
     basis_at,
@@ -27,6 +25,8 @@ from pontryagin.triple_integrator.quadrature import (
     orthonormal,
     second_moments,
 )
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 CONVERGED = 1e-10
 """Largest residual of the moments that is handed out."""

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
-from pontryagin.triple_integrator import trajectory
-from pontryagin.triple_integrator.arrival import NEVER, solve_stack
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import common_shape, finite, positive, times, vectors
 
 

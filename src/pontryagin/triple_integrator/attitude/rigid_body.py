@@ -16,10 +16,7 @@ from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.rotation import (
-    attitude_rate,
-    cross,
-)
+from pontryagin.numerics.rotation import attitude_rate, cross
 from pontryagin.validation import finite, vectors
 
 TOLERANCE = 1e-13

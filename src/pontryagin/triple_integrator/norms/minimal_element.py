@@ -12,8 +12,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.triple_integrator.newton import minimise
-from pontryagin.triple_integrator.quadrature import (
+from pontryagin.triple_integrator.norms.newton import minimise
+from pontryagin.triple_integrator.norms.quadrature import (
     Array,
     Quadratic,
     basis_at,

@@ -14,16 +14,16 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
-from pontryagin.triple_integrator import trajectory
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.minimal_element import minimal_elements
-from pontryagin.triple_integrator.quadrature import (
+from pontryagin.triple_integrator.norms.minimal_element import minimal_elements
+from pontryagin.triple_integrator.norms.quadrature import (
     Quadratic,
     graded_rule,
     logistic_rule,
     moments_beyond,
     orthonormal,
 )
+from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 CONVERGED = 1e-10
 """Largest residual of the moments and largest relative gap that are handed out."""

@@ -22,8 +22,8 @@ from pontryagin.numerics.rotation import (
     vector_acceleration_drift,
     vector_rate_matrix,
 )
-from pontryagin.triple_integrator.attitude import Programme, disturbance_of, impulses
-from pontryagin.triple_integrator.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.triple_integrator.attitude.fixed_axis import Programme, disturbance_of, impulses
+from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
 
 DEGREE = 40
 """Of the Chebyshev series that holds f on a smooth stretch of the motion."""

@@ -10,12 +10,17 @@ from numpy.testing import assert_allclose
 from scipy.integrate import quad, solve_ivp
 
 from pontryagin import NotConverged
-from pontryagin.triple_integrator.energy import minimum_energy
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import dual_bound, minimum_norm
-from pontryagin.triple_integrator.peak import minimum_peak
-from pontryagin.triple_integrator.quadrature import Quadratic, graded_rule, logistic_rule, moments_beyond
+from pontryagin.triple_integrator.norms.energy import minimum_energy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.norm import dual_bound, minimum_norm
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.norms.quadrature import (
+    Quadratic,
+    graded_rule,
+    logistic_rule,
+    moments_beyond,
+)
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 few = settings(max_examples=8, deadline=None)
 REST_TO_REST = Maneuver([0, 0, 0], [1, 0, 0], tf=1.0)

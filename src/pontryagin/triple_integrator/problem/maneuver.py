@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.jit import batched
-from pontryagin.triple_integrator import disturbance as disturbances
 from pontryagin.triple_integrator import kernels
+from pontryagin.triple_integrator.problem import disturbance as disturbances
 from pontryagin.validation import common_shape, finite, times, vectors
 
 moments_of_stack = batched(kernels.moments, outputs=3)
