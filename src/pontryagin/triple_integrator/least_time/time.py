@@ -1,4 +1,4 @@
-"""Least time for |u| <= U between two states."""
+"""Least time between two states under |u| <= U, the problem mutual to the least peak (section 3)."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,13 +10,13 @@ from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
-from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.validation import common_shape, finite, positive, times, vectors
+from pontryagin.validation import common_shape, finite, positive, vectors
 
 
 @dataclass(frozen=True, eq=False)
-class TimeSolution:
+class TimeSolution(BangBang):
     """Transfer of least duration under |u| <= peak.
 
     Attributes
@@ -59,59 +59,17 @@ class TimeSolution:
 
     @cached_property
     def _motion(self) -> Maneuver:
-        """The same where the ends agree too: nothing of it is asked there beyond the time 0."""
+        """The manoeuvre, with the duration 1 where the ends agree: only its start is used there."""
         longer = np.where(self.duration > 0, self.duration, 1.0)
         return Maneuver(self.x0, self.xf, longer, disturbance=self.disturbance)
 
-    def _times(self, t: ArrayLike) -> Array:
-        return times("t", t, np.zeros_like(self.duration), self.duration)
+    @property
+    def _interval(self) -> tuple[Array, Array]:
+        return np.zeros_like(self.duration), self.duration
 
     @property
-    def norm(self) -> Array:
-        """The peak of |u|, (...): the bound, or 0 where the ends agree."""
-        return np.abs(self.levels)
-
-    @cached_property
-    def switch_times(self) -> Array:
-        """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
-        return trajectory.switch_times(self.duration, self.duration, self.shares)
-
-    @cached_property
-    def first_sign(self) -> Array:
-        """Sign of u at the start, (...)."""
-        return trajectory.first_sign(self.levels, self.shares)
-
-    @property
-    def breakpoints(self) -> Array:
-        """Switches of one transfer, (j,)."""
-        return trajectory.breakpoints(self.switch_times)
-
-    @cached_property
-    def multipliers(self) -> Array:
-        """l0 of the minimal element at this duration, l0'c = 1, (..., 3)."""
-        shape = trajectory.switching_quadratic(self.shares, self.duration)
-        moving = (self.duration > 0)[..., None]
-        return trajectory.normalised(shape, np.where(moving, self._motion.moments, 0.0))
-
-    @property
-    def switch_condition(self) -> Array:
-        """As for `PeakSolution`, at this duration."""
-        return trajectory.switch_condition(self.shares)
-
-    def control(self, t: ArrayLike) -> Array:
-        """u at the times t, (k,) -> (..., k)."""
-        return trajectory.bang_bang(self._times(t), self.switch_times, self.first_sign * self.norm)
-
-    def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (..., k, 3)."""
-        time, start = self._times(t), np.zeros_like(self.duration)
-        return self._motion.drift(time) + trajectory.bang_bang_response(
-            time, start, self.switch_times, self.first_sign * self.norm
-        )
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi at the times t, (k,) -> (..., k, 3)."""
-        return trajectory.costate(self.duration, self._times(t), self.multipliers)
+    def _moments(self) -> Array:
+        return np.where((self.duration > 0)[..., None], self._motion.moments, 0.0)
 
 
 def minimum_time(

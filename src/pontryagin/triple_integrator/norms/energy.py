@@ -1,4 +1,4 @@
-"""Least energy (L2): the parabola c' D^-1 h(s), (2.2) and (2.3)."""
+"""Least energy (L2): the parabola c' D^-1 h(s) of (2.2) and (2.3)."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,8 +12,8 @@ from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
-from pontryagin.triple_integrator.problem import trajectory
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import Programme, normalised, over_stack, response
 
 
 def solve_energy(c1, c2, c3, T):
@@ -40,13 +40,13 @@ solve_stack = batched(solve_energy, outputs=6)
 
 
 @dataclass(frozen=True, eq=False)
-class EnergySolution:
+class EnergySolution(Programme):
     """Control of least L2 norm, a parabola in the time to go.
 
     Attributes
     ----------
     maneuver : Maneuver
-        What was asked.
+        The problem that is solved.
     coefficients : (..., 3) array
         u = u0 + u1 s + u2 s^2 in the time to go s.
     certificate : Certificate
@@ -57,16 +57,6 @@ class EnergySolution:
     coefficients: Array
     certificate: Certificate
 
-    @property
-    def norm(self) -> Array:
-        """The least L2 norm of u, the root of the generalised energy (1.18), (...)."""
-        return self.certificate.primal_value
-
-    @property
-    def breakpoints(self) -> Array:
-        """None: the control is smooth, (0,)."""
-        return trajectory.breakpoints(np.empty((*self.maneuver.shape, 0)))
-
     @cached_property
     def multipliers(self) -> Array:
         """l0 = D^-1 c / (c'D^-1 c), (..., 3); zeros where c = 0."""
@@ -76,7 +66,7 @@ class EnergySolution:
         size = np.abs(k).max(axis=-1, keepdims=True)
         k1, k2, k3 = np.moveaxis(k / np.where(size == 0, 1.0, size), -1, 0)
         parts = kernels.energy_multipliers(k1, k2, k3, 1.0)  # type: ignore[call-arg]
-        return trajectory.normalised(np.stack(parts, axis=-1) / powers, c)
+        return normalised(np.stack(parts, axis=-1) / powers, c)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
@@ -92,14 +82,10 @@ class EnergySolution:
         at_start = [u0 + T * (u1 + T * u2), -u1 - 2 * T * u2, 2 * u2]
         time, knot = m.times(t), m.t0[..., None]
         parts = (
-            trajectory.response(time, knot, amplitude[..., None], order)
+            response(time, knot, amplitude[..., None], order)
             for order, amplitude in enumerate(at_start, start=1)
         )
         return m.drift(time) + sum(parts)
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); u is psi_3 / rho0^2."""
-        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 
 
 def minimum_energy(maneuver: Maneuver) -> EnergySolution:
@@ -121,6 +107,6 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     >>> s.control([0, 0.5, 1]).round(12).tolist(), s.certificate.holds(1e-12)
     ([60.0, -30.0, 60.0], True)
     """
-    result = trajectory.over_stack(solve_stack, maneuver)
+    result = over_stack(solve_stack, maneuver)
     certificate = Certificate(result[..., 3], result[..., 4], result[..., 5])
     return EnergySolution(maneuver, result[..., :3], certificate)

@@ -9,24 +9,23 @@ the control of greatest entropy - (integral of |u| log |u|) with these moments.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.triple_integrator.norms.newton import minimise
+from pontryagin.triple_integrator.norms.quadratic_programme import Profile, QuadraticProgramme, certify
 from pontryagin.triple_integrator.norms.quadrature import (
-    Array,
     Quadratic,
     basis_at,
     first_moments,
-    graded_rule,
     logistic_rule,
-    moments_beyond,
     orthonormal,
     second_moments,
 )
-from pontryagin.triple_integrator.problem import trajectory
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import normalised
 
 CONVERGED = 1e-10
 """Largest residual of the moments that is handed out."""
@@ -38,13 +37,13 @@ CHUNK = 64
 
 
 @dataclass(frozen=True, eq=False)
-class EntropySolution:
+class EntropySolution(QuadraticProgramme):
     """Control u = +-exp(k0 + k1 s + k2 s^2) in the time to go s.
 
     Attributes
     ----------
     maneuver : Maneuver
-        What was asked.
+        The problem that is solved.
     peak : (...) array
         max |u|, with the sign of u; 0 where c = 0.
     exponent : Quadratic
@@ -60,15 +59,10 @@ class EntropySolution:
     certificate: Certificate
 
     @property
-    def norm(self) -> Array:
-        """The total impulse, |c3|, (...)."""
-        return self.certificate.primal_value
-
-    @property
     def multipliers(self) -> Array:
         """l0 = (0, 0, 1/c3): the dual function is constant, (..., 3); zeros where c = 0."""
         c = self.maneuver.moments
-        return trajectory.normalised(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c)
+        return normalised(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c)
 
     @property
     def coefficients(self) -> Array:
@@ -91,31 +85,12 @@ class EntropySolution:
         return np.where(still, 0.0, -mean - np.log(np.where(still, 1.0, self.peak * T / total)))
 
     @property
-    def breakpoints(self) -> Array:
-        """None: the control is smooth, (0,)."""
-        return trajectory.breakpoints(np.empty((*self.maneuver.shape, 0)))
+    def _quadratic(self) -> Quadratic:
+        return self.exponent
 
-    def control(self, t: ArrayLike) -> Array:
-        """u at the times t, (k,) -> (..., k)."""
-        return self.peak[..., None] * np.exp(self.exponent(self._to_go(t)))
-
-    def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (..., k, 3), by quadrature to rounding."""
-        T = self.maneuver.duration[..., None]
-
-        def control(problem: NDArray[np.intp], exponent: Array) -> Array:
-            return self.peak.reshape(-1)[problem, None] * np.exp(exponent)
-
-        forced = moments_beyond(self.exponent, self._to_go(t), control)
-        return self.maneuver.drift(t) + forced * np.stack([T**3, T**2, T], axis=-1)
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3): constant."""
-        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
-
-    def _to_go(self, t: ArrayLike) -> Array:
-        m = self.maneuver
-        return np.clip((m.tf[..., None] - m.times(t)) / m.duration[..., None], 0.0, 1.0)
+    @property
+    def _profile(self) -> Profile:
+        return np.exp
 
 
 def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
@@ -162,12 +137,12 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     exponent = exponent.plus(-exponent.cuts[1].max(axis=-1)[:, None] * np.array([1.0, 0.0, 0.0]))
     peak = np.where(moving, c3 / T / _integral(exponent), 0.0)
     stack = maneuver.shape
-    solution = Quadratic(exponent.coefficients.reshape(*stack, 3), exponent.discriminant.reshape(stack))
-    certificate = _certify(maneuver, exponent, peak)
+    exponent, peak = exponent.reshape(*stack), peak.reshape(stack)
+    certificate = certify(maneuver, exponent, peak, np.exp, 1.0, np.abs(maneuver.moments[..., 2]))
     worst = float(np.max(certificate.primal_residual, initial=0.0))
     if not worst <= CONVERGED:
         raise NotConverged("maximum_entropy: moments missed next to the boundary of the cone", worst)
-    return EntropySolution(maneuver, peak.reshape(stack), solution, certificate)
+    return EntropySolution(maneuver, peak, exponent, certificate)
 
 
 def _require_inside(moving: NDArray[np.bool_], c3: Array, mean: Array, square: Array) -> None:
@@ -204,19 +179,3 @@ def _exponent(w: Array) -> Array:
 def _integral(exponent: Quadratic) -> Array:
     _, values, weights = exponent.sample(logistic_rule())
     return (np.exp(values) * weights).sum(axis=(-2, -1))
-
-
-def _certify(maneuver: Maneuver, exponent: Quadratic, peak: Array) -> Certificate:
-    """Moments and total impulse by the graded rule; the bound |c3| is l = (0, 0, 1)'s."""
-    c1, c2, c3 = (part.reshape(-1) for part in np.moveaxis(maneuver.moments, -1, 0))
-    T = maneuver.duration.reshape(-1)
-    s, values, weights = exponent.sample(graded_rule())
-    u = peak[:, None, None] * np.exp(values) * weights
-    found = np.stack([(u * (j + 1) * s**j).sum(axis=(-2, -1)) for j in (2, 1, 0)], axis=-1)
-    target = np.stack([6 * c1 / T / T / T, 2 * c2 / T / T, c3 / T], axis=-1)
-    scale = np.abs(target).max(axis=-1)
-    missed = np.abs(found - target).max(axis=-1)
-    residual = np.divide(missed, scale, out=np.zeros_like(missed), where=scale > 0)
-    total = np.abs(u).sum(axis=(-2, -1)) * T
-    stack = maneuver.shape
-    return Certificate(residual.reshape(stack), total.reshape(stack), np.abs(c3).reshape(stack))

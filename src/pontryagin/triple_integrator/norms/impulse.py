@@ -14,8 +14,14 @@ from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, reversed_moments, two_impulses
-from pontryagin.triple_integrator.problem import trajectory
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import (
+    Programme,
+    breakpoints,
+    normalised,
+    over_stack,
+    response,
+)
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
 ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0
@@ -98,13 +104,13 @@ solve_stack = batched(solve_impulse, outputs=8)
 
 
 @dataclass(frozen=True, eq=False)
-class ImpulseSolution:
+class ImpulseSolution(Programme):
     """Control of least total impulse: at most three impulses.
 
     Attributes
     ----------
     maneuver : Maneuver
-        What was asked.
+        The problem that is solved.
     inner : (...) array
         Place of the inner impulse, as a share of T to go.
     amplitudes : (..., 3) array
@@ -125,14 +131,9 @@ class ImpulseSolution:
     unique: NDArray[np.bool_]
     certificate: Certificate
 
-    @property
-    def norm(self) -> Array:
-        """The least total impulse, (...)."""
-        return self.certificate.primal_value
-
     @cached_property
     def regime(self) -> NDArray[np.str_] | str:
-        """ "zero", "moment", "chebyshev", "end" or "start": where the impulses are, (...)."""
+        """Where the impulses are, (...): "zero", "moment", "chebyshev", "end" or "start"."""
         names = np.array(REGIMES)[self.regime_index]
         return names if self.maneuver.shape else str(names)
 
@@ -159,7 +160,7 @@ class ImpulseSolution:
         inside = np.where(
             (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
         )
-        return trajectory.breakpoints(self.impulse_times * inside)
+        return breakpoints(self.impulse_times * inside)
 
     @cached_property
     def multipliers(self) -> Array:
@@ -171,7 +172,7 @@ class ImpulseSolution:
         start = regime == START
         p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
         shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
-        return trajectory.normalised(shape, self.maneuver.moments)
+        return normalised(shape, self.maneuver.moments)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""
@@ -186,12 +187,8 @@ class ImpulseSolution:
         """
         m = self.maneuver
         time = m.times(t)
-        driven = trajectory.response(time, self.impulse_times, self.impulses, order=0)
+        driven = response(time, self.impulse_times, self.impulses, order=0)
         return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); impulses act where |psi_3| is largest."""
-        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 
 
 def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
@@ -213,7 +210,7 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
     (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
     """
-    result = trajectory.over_stack(solve_stack, maneuver)
+    result = over_stack(solve_stack, maneuver)
     amplitudes = result[..., 1:4]
     total = np.abs(result[..., 1]) + np.abs(result[..., 2]) + np.abs(result[..., 3])
     certificate = Certificate(result[..., 6], total, result[..., 7])

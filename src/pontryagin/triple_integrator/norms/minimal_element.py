@@ -12,9 +12,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
 from pontryagin.triple_integrator.norms.newton import minimise
 from pontryagin.triple_integrator.norms.quadrature import (
-    Array,
     Quadratic,
     basis_at,
     first_moments,

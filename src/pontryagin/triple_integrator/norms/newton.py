@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from pontryagin.triple_integrator.norms.quadrature import Array, Quadratic, orthonormal
+from pontryagin.arrays import Array
+from pontryagin.triple_integrator.norms.quadrature import Quadratic, orthonormal
 
 Derivatives = Callable[[Quadratic, NDArray[np.intp]], tuple[Array, Array, Array]]
 """(h, problems they are of) -> scale (n,), gradient (n, 3), Hessian (n, 3, 3), in the orthonormal basis."""

@@ -5,41 +5,44 @@ u = rho0^(-p) |h0|^(p-1) sign h0 alone. Time to go is a share of T inside, as in
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from numbers import Real
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.triple_integrator.norms.minimal_element import minimal_elements
+from pontryagin.triple_integrator.norms.quadratic_programme import (
+    BLOCK,
+    Profile,
+    QuadraticProgramme,
+    certify,
+    scaled_moments,
+)
 from pontryagin.triple_integrator.norms.quadrature import (
     Quadratic,
     graded_rule,
     logistic_rule,
-    moments_beyond,
     orthonormal,
 )
-from pontryagin.triple_integrator.problem import trajectory
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import breakpoints
 
 CONVERGED = 1e-10
 """Largest residual of the moments and largest relative gap that are handed out."""
 
-BLOCK = 256
-"""Problems whose certificates are evaluated at once."""
-
 
 @dataclass(frozen=True, eq=False)
-class NormSolution:
+class NormSolution(QuadraticProgramme):
     """Control of least L_q norm: u = peak |h|^(p-1) sign h for a quadratic h whose largest modulus is 1.
 
     Attributes
     ----------
     maneuver : Maneuver
-        What was asked.
+        The problem that is solved.
     q : float
         Exponent of the norm, 1 < q < infinity.
     multipliers : (..., 3) array
@@ -61,37 +64,18 @@ class NormSolution:
     certificate: Certificate
 
     @property
-    def norm(self) -> Array:
-        """The least norm, (integral of |u|^q)^(1/q), (...)."""
-        return self.certificate.primal_value
-
-    @property
     def breakpoints(self) -> Array:
         """Times within one manoeuvre at which u changes sign, (j,): with q > 2 it is not smooth there."""
         m = self.maneuver
-        return trajectory.breakpoints(m.tf[..., None] - m.duration[..., None] * self.shape.zeros)
+        return breakpoints(m.tf[..., None] - m.duration[..., None] * self.shape.zeros)
 
-    def control(self, t: ArrayLike) -> Array:
-        """u at the times t, (k,) -> (..., k)."""
-        return self.peak[..., None] * signed_power(self.shape(self._to_go(t)), 1 / (self.q - 1))
+    @property
+    def _quadratic(self) -> Quadratic:
+        return self.shape
 
-    def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (..., k, 3), by quadrature to rounding."""
-        T, s = self.maneuver.duration[..., None], self._to_go(t)
-
-        def control(problem: NDArray[np.intp], h: Array) -> Array:
-            return self.peak.reshape(-1)[problem, None] * signed_power(h, 1 / (self.q - 1))
-
-        forced = moments_beyond(self.shape, s, control)
-        return self.maneuver.drift(t) + forced * np.stack([T**3, T**2, T], axis=-1)
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); psi_3 = h0, of which u is a power."""
-        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
-
-    def _to_go(self, t: ArrayLike) -> Array:
-        m = self.maneuver
-        return np.clip((m.tf[..., None] - m.times(t)) / m.duration[..., None], 0.0, 1.0)
+    @property
+    def _profile(self) -> Profile:
+        return partial(signed_power, power=1 / (self.q - 1))
 
 
 def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
@@ -141,11 +125,13 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
         peak[moving] = length * size[moving] / (top * integral_of_power(h, conjugate(q)))
         scale[moving] = top / (length * size[moving])
     stack = maneuver.shape
-    shape = Quadratic(coefficients.reshape(*stack, 3), discriminant.reshape(stack))
+    shape = Quadratic(coefficients, discriminant).reshape(*stack)
     multipliers = _multipliers(shape, scale.reshape(stack), maneuver.duration)
-    certificate = certify(maneuver, q, shape, peak.reshape(stack), multipliers)
+    profile, peak = partial(signed_power, power=1 / (q - 1)), peak.reshape(stack)
+    bound = dual_bound(maneuver, q, multipliers)
+    certificate = certify(maneuver, shape, peak, profile, q, bound)
     _require_convergence(certificate, q)
-    return NormSolution(maneuver, q, multipliers, peak.reshape(stack), shape, certificate)
+    return NormSolution(maneuver, q, multipliers, peak, shape, certificate)
 
 
 def exponent(q: float) -> float:
@@ -167,13 +153,6 @@ def conjugate(q: float) -> float:
 def signed_power(h: Array, power: float) -> Array:
     """|h|^power sign h."""
     return np.sign(h) * np.abs(h) ** power
-
-
-def scaled_moments(maneuver: Maneuver) -> Array:
-    """(6 c1/T^3, 2 c2/T^2, c3/T), (..., 3): a constant control has its level thrice."""
-    c1, c2, c3 = np.moveaxis(maneuver.moments, -1, 0)
-    T = maneuver.duration
-    return np.stack([6 * c1 / T / T / T, 2 * c2 / T / T, c3 / T], axis=-1)
 
 
 @cache
@@ -199,25 +178,6 @@ def integral_of_power(h: Quadratic, p: float) -> Array:
 def _multipliers(shape: Quadratic, scale: Array, T: Array) -> Array:
     h0, h1, h2 = np.moveaxis(shape.coefficients, -1, 0)
     return np.stack([2 * h2 / T / T, h1 / T, h0], axis=-1) * (scale / T)[..., None]
-
-
-def certify(maneuver: Maneuver, q: float, shape: Quadratic, peak: Array, multipliers: Array) -> Certificate:
-    """Moments and norm of the control, and the bound of the multipliers, each by the graded rule."""
-    T = maneuver.duration
-    targets = scaled_moments(maneuver).reshape(-1, 3)
-    flat = Quadratic(shape.coefficients.reshape(-1, 3), shape.discriminant.reshape(-1))
-    unit, size = np.empty_like(targets), np.empty(len(targets))
-    for start in range(0, len(targets), BLOCK):
-        part = slice(start, start + BLOCK)
-        s, h, weights = flat[part].sample(graded_rule())
-        u = signed_power(h, 1 / (q - 1))
-        unit[part] = np.stack([(weights * u * (j + 1) * s**j).sum(axis=(-2, -1)) for j in (2, 1, 0)], axis=-1)
-        size[part] = (weights * np.abs(u) ** q).sum(axis=(-2, -1)) ** (1 / q)
-    scale = np.abs(targets).max(axis=1)
-    missed = np.abs(unit * peak.reshape(-1, 1) - targets).max(axis=1)
-    residual = np.divide(missed, scale, out=np.zeros_like(missed), where=scale > 0)
-    norm = peak * size.reshape(T.shape) * T ** (1 / q)
-    return Certificate(residual.reshape(T.shape), np.asarray(norm), dual_bound(maneuver, q, multipliers))
 
 
 def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:

@@ -5,11 +5,9 @@ The control is v outside [b, a] and -v inside, in the time to go as a share of T
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import copysign, fabs, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
@@ -20,8 +18,9 @@ from pontryagin.triple_integrator.kernels import (
     near_constant_equation,
     peak_bound,
 )
-from pontryagin.triple_integrator.problem import trajectory
+from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import over_stack
 
 EDGE = 1e-14
 """A piece of the control shorter than this share of T is below the rounding of the moments: no piece."""
@@ -133,13 +132,13 @@ solve_stack = batched(solve_peak, outputs=5)
 
 
 @dataclass(frozen=True, eq=False)
-class PeakSolution:
+class PeakSolution(BangBang):
     """Control of least peak: |u| constant, at most two switches.
 
     Attributes
     ----------
     maneuver : Maneuver
-        What was asked.
+        The problem that is solved.
     levels : (...) array
         Signed level v of the control near both ends of a two-switch programme.
     shares : (..., 2) array
@@ -152,56 +151,6 @@ class PeakSolution:
     levels: Array
     shares: Array
     certificate: Certificate
-
-    @property
-    def norm(self) -> Array:
-        """The least peak u0 of |u|, (...)."""
-        return np.abs(self.levels)
-
-    @cached_property
-    def switch_times(self) -> Array:
-        """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
-        return trajectory.switch_times(self.maneuver.tf, self.maneuver.duration, self.shares)
-
-    @cached_property
-    def first_sign(self) -> Array:
-        """Sign of u at the start, (...); 0 where u is 0."""
-        return trajectory.first_sign(self.levels, self.shares)
-
-    @property
-    def breakpoints(self) -> Array:
-        """Times within one manoeuvre at which the control is not smooth, (j,)."""
-        return trajectory.breakpoints(self.switch_times)
-
-    @cached_property
-    def multipliers(self) -> Array:
-        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
-        shape = trajectory.switching_quadratic(self.shares, self.maneuver.duration)
-        return trajectory.normalised(shape, self.maneuver.moments)
-
-    @cached_property
-    def switch_condition(self) -> Array:
-        """Condition of the switches, (..., 2): how far one moves (share of T) for a relative change of c.
-
-        Large where the control is constant but for a narrow flip: its place is then not determined by
-        the data. Infinite where a switch does not happen.
-        """
-        return trajectory.switch_condition(self.shares)
-
-    def control(self, t: ArrayLike) -> Array:
-        """u at the times t, (k,) -> (..., k)."""
-        return trajectory.bang_bang(self.maneuver.times(t), self.switch_times, self.first_sign * self.norm)
-
-    def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (..., k, 3)."""
-        m = self.maneuver
-        return m.drift(t) + trajectory.bang_bang_response(
-            m.times(t), m.t0, self.switch_times, self.first_sign * self.norm
-        )
-
-    def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3); psi_3 = h0, whose sign u has."""
-        return trajectory.costate(self.maneuver.tf, self.maneuver.times(t), self.multipliers)
 
 
 def minimum_peak(maneuver: Maneuver) -> PeakSolution:
@@ -224,7 +173,7 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     >>> float(s.norm.round(12)), s.switch_times.round(12).tolist(), s.certificate.holds(1e-12)
     (4.0, [0.5, 1.5], True)
     """
-    result = trajectory.over_stack(solve_stack, maneuver)
+    result = over_stack(solve_stack, maneuver)
     levels = result[..., 0]
     certificate = Certificate(result[..., 3], np.abs(levels), result[..., 4])
     return PeakSolution(maneuver, levels, result[..., 1:3], certificate)

@@ -6,6 +6,7 @@ at the ends of pieces, where both rules crowd their nodes. The solvers use one r
 other.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any, NamedTuple
@@ -14,6 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+
+Integrand = Callable[[NDArray[np.intp], Array], Array]
+"""From the index of each quadratic in its flat stack (m,) and its values (m, n) to the integrand (m, n)."""
 
 
 class Rule(NamedTuple):
@@ -80,6 +84,10 @@ class Quadratic:
     def scaled(self, factor: Array) -> "Quadratic":
         """The quadratic times a positive number."""
         return Quadratic(self.coefficients * factor[..., None], self.discriminant * factor**2)
+
+    def reshape(self, *stack: int) -> "Quadratic":
+        """The same quadratics as a stack of another shape."""
+        return Quadratic(self.coefficients.reshape(*stack, 3), self.discriminant.reshape(stack))
 
     def __getitem__(self, index: Any) -> "Quadratic":
         return Quadratic(self.coefficients[index], self.discriminant[index])
@@ -200,7 +208,7 @@ def blend(bernstein: Array, share: Array, remaining: Array) -> Array:
     return first * remaining**2 + 2 * middle * (remaining * share) + last * share**2
 
 
-def moments_beyond(h: Quadratic, s: Array, function, block: int = 4096) -> Array:
+def moments_beyond(h: Quadratic, s: Array, function: Integrand, block: int = 4096) -> Array:
     """Integrals from s to 1 of (sigma - s)^j / j! times function(h(sigma)), j = 2, 1, 0.
 
     Parameters
@@ -219,8 +227,7 @@ def moments_beyond(h: Quadratic, s: Array, function, block: int = 4096) -> Array
     (..., k, 3) array
     """
     rule = logistic_rule()
-    flat = h[...] if h.discriminant.ndim else Quadratic(h.coefficients[None], h.discriminant[None])
-    flat = Quadratic(flat.coefficients.reshape(-1, 3), flat.discriminant.ravel())
+    flat = h.reshape(-1)
     places = s.reshape(len(flat.discriminant), -1)
     owner = np.repeat(np.arange(places.shape[0]), places.shape[1])
     piece, share, remaining = (part.ravel() for part in flat.locate(places))
@@ -239,7 +246,7 @@ def moments_beyond(h: Quadratic, s: Array, function, block: int = 4096) -> Array
     return result.reshape(*s.shape, 3)
 
 
-def _whole_pieces(flat: Quadratic, function) -> Array:
+def _whole_pieces(flat: Quadratic, function: Integrand) -> Array:
     """The same integrals over each whole piece, from its own start, (m, 4, 3)."""
     _, values, weights = flat.sample(logistic_rule())
     widths = np.diff(flat.cuts[0], axis=-1)[..., None]
