@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
@@ -147,7 +147,7 @@ def _record_channels(path: Path, name: str, programmes: dict[str, Programme]) ->
 
 
 def _channel(
-    recording: Recording, label: str, programme: Programme, t: NDArray, position: NDArray, colour: str
+    recording: Recording, label: str, programme: Programme, t: Array, position: Array, colour: str
 ) -> None:
     x = programme.state(t)
     maneuver = programme.maneuver
@@ -169,7 +169,7 @@ def _channel(
             recording.event("events", time, f"{label}: the control switches")
 
 
-def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: NDArray) -> tuple[NDArray, NDArray]:
+def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: Array) -> tuple[Array, Array]:
     """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it.
 
     The player averages values that fall on one pixel: every time stands once, and those between, t, too.
@@ -184,7 +184,7 @@ def _spikes(told: Sequence[tuple[float, float]], maneuver: Maneuver, t: NDArray)
     return dense, np.interp(dense, once, heights[order][place])
 
 
-def _flash(t: NDArray, told: Sequence[tuple[float, float]], duration: float) -> Array:
+def _flash(t: Array, told: Sequence[tuple[float, float]], duration: float) -> Array:
     """Length of the arrow that marks impulses: 3 for the largest, drawn within 3 % of T of its instant."""
     largest = max(abs(jump) for _, jump in told)
     marks = [np.where(np.abs(t - time) <= 0.03 * duration, 3 * jump / largest, 0.0) for time, jump in told]
@@ -217,9 +217,7 @@ def record_turn(path: Path, norm: str) -> None:
             recording.event("events", t[-1], f"{label}: misses the target by {made.attitude_miss:.3g} rad")
 
 
-def _turning(
-    recording: Recording, label: str, made: Turn, t: NDArray, position: NDArray, colour: str
-) -> None:
+def _turning(recording: Recording, label: str, made: Turn, t: Array, position: Array, colour: str) -> None:
     name = label.replace(" ", "-")
     _spacecraft(recording, f"turn/{name}", t, made.attitude(t), position, colour)
     _target(recording, f"turn/{name}-target", t, made.planned_attitude(t[-1:])[0], position)
@@ -234,7 +232,7 @@ def _turning(
         recording.curve(f"rate/{name}-{i + 1}", t, values, f"w{i + 1} {label}", CHANNEL_COLOURS[i])
 
 
-def _torques(recording: Recording, made: Turn, t: NDArray) -> None:
+def _torques(recording: Recording, made: Turn, t: Array) -> None:
     for i, colour in enumerate(CHANNEL_COLOURS):
         channel, gyroscopic = made.channel_torque(t)[:, i], made.gyroscopic_torque(t)[:, i]
         recording.curve(f"torque/channel/{i + 1}", t, channel, f"channel M{i + 1}", colour)
@@ -287,14 +285,14 @@ def angle_between(attitude: ArrayLike, target: ArrayLike) -> Array:
     return np.asarray(np.linalg.norm(left, axis=1))
 
 
-def _to_inertial(attitude: NDArray, vectors: NDArray) -> Array:
+def _to_inertial(attitude: Array, vectors: Array) -> Array:
     scalar, axis = attitude[:, :1], attitude[:, 1:]
     turned = 2 * np.cross(axis, vectors)
     return vectors + scalar * turned + np.cross(axis, turned)
 
 
 def _spacecraft(
-    recording: Recording, entity: str, t: NDArray, attitude: NDArray, position: NDArray, colour: str
+    recording: Recording, entity: str, t: Array, attitude: Array, position: Array, colour: str
 ) -> None:
     """A bus with two solar wings along its second axis and a dish along its first."""
     recording.body(entity, t, attitude, (1.2, 0.9, 0.9), np.tile(position, (t.size, 1)), colour)
@@ -307,7 +305,7 @@ def _spacecraft(
         recording.body(f"{entity}/{part}", t[:1], [[1, 0, 0, 0]], size, [place], look)
 
 
-def _target(recording: Recording, entity: str, t: NDArray, attitude: NDArray, position: NDArray) -> None:
+def _target(recording: Recording, entity: str, t: Array, attitude: Array, position: Array) -> None:
     """The target attitude as a triad."""
     for i, unit in enumerate(np.eye(3)):
         arm = 2.2 * _to_inertial(attitude[None], unit[None])[0]

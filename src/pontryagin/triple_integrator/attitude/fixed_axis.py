@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.compile import function
@@ -179,7 +179,7 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     gyroscopic = cross(e, inertia) if feedforward else np.zeros(3)
     f = disturbance_of(maneuver)
 
-    def torque(t: float, q: NDArray, w: NDArray, planned: NDArray) -> Array:
+    def torque(t: float, q: Array, w: Array, planned: Array) -> Array:
         return (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
 
     interval = float(maneuver.t0), float(maneuver.tf)
@@ -211,10 +211,10 @@ def _unit(axis: ArrayLike) -> Array:
     return direction / size
 
 
-def _planned_motion(programme: Programme) -> Callable[[float, NDArray], tuple[float, float, float]]:
+def _planned_motion(programme: Programme) -> Callable[[float, Array], tuple[float, float, float]]:
     f = disturbance_of(programme.maneuver)
 
-    def rate(t: float, x: NDArray) -> tuple[float, float, float]:
+    def rate(t: float, x: Array) -> tuple[float, float, float]:
         return x[1], x[2] + f(t), float(programme.control(t)[0])
 
     return rate

@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin.arrays import Array
@@ -213,7 +213,7 @@ def simulate(
     return Motion(edges, stretches, start, state)
 
 
-def _after_impulses(state: NDArray, time: float, commands: Commands) -> NDArray:
+def _after_impulses(state: Array, time: float, commands: Commands) -> Array:
     jumps = [jump for instant, jump in commands.impulses if instant == time]
     return state if not jumps else np.concatenate([state[:7], state[7:] + np.sum(jumps, axis=0)])
 
@@ -223,7 +223,7 @@ def _right_hand_side(
 ) -> Callable:
     inset = INSET * (b - a)
 
-    def right_hand_side(t: float, y: NDArray) -> NDArray:
+    def right_hand_side(t: float, y: Array) -> Array:
         inside = min(max(t, a + inset), b - inset)
         q, w, z = y[:4], y[4:7], y[7:]
         result = np.empty_like(y)

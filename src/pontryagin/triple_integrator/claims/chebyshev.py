@@ -6,8 +6,10 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     LinearSystem,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -33,7 +35,7 @@ F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 
 @claim("before (4.1)", "norm of h in L_∞, the essential maximum of |h|", verdict="holds")
-def norm_of_the_dual_function():
+def norm_of_the_dual_function() -> Evidence:
     key = r"\lVert h(\cdot) \rVert_{L_\infty}"
     return Equality(
         {key: sp.Max(*map(sp.Abs, levels))},
@@ -49,7 +51,7 @@ def norm_of_the_dual_function():
     verdict="holds",
     remark="The essential maximum is the maximum, for h is continuous.",
 )
-def dual_problem():
+def dual_problem() -> Evidence:
     def argument() -> Steps:
         a0, am, aT = sp.symbols("a_0 a_m a_T", positive=True)
         impulses = {chebyshev.impulses[0]: a0, chebyshev.impulses[1]: am, chebyshev.impulses[2]: aT}
@@ -78,11 +80,11 @@ def dual_problem():
 
 
 @claim("(4.2)", "the minimal element is a quadratic in tf − τ", verdict="holds")
-def minimal_element():
+def minimal_element() -> Evidence:
     key = r"h_0(\tau)"
     printed = l1 * (tf - tau) ** 2 / 2 + l2 * (tf - tau) + l3
 
-    def derived():
+    def derived() -> Sides:
         psi = transition(tf - tau).T * multipliers
         return {key: psi[2]}
 
@@ -94,8 +96,8 @@ def minimal_element():
 
 
 @claim("(4.3)", "its multipliers satisfy l0'c = 1", verdict="holds")
-def condition_on_the_multipliers():
-    def derived():
+def condition_on_the_multipliers() -> Evidence:
+    def derived() -> Sides:
         least = chebyshev.minimal_multipliers()
         return {
             "c_1 l_{10} + c_2 l_{20} + c_3 l_{30}": sum(
@@ -116,7 +118,7 @@ def condition_on_the_multipliers():
     "polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
     "lacks.",
 )
-def minimal_element_is_chebyshev():
+def minimal_element_is_chebyshev() -> Evidence:
     def argument() -> Steps:
         amplitudes = chebyshev.amplitudes().values()
         total = sp.cancel(sum(amplitudes) / sign)
@@ -149,12 +151,12 @@ def minimal_element_is_chebyshev():
 
 
 @claim("after (4.3): T2", "Chebyshev's polynomial of the first kind, T2(z) = 2z² − 1", verdict="holds")
-def chebyshev_polynomial():
+def chebyshev_polynomial() -> Evidence:
     return Equality({"T_2(z)": 2 * z**2 - 1}, lambda: {"T_2(z)": chebyshev.chebyshev()})
 
 
 @claim("after (4.3): z", "the variable z in [−1, 1]", verdict="holds")
-def unit_variable():
+def unit_variable() -> Evidence:
     return Equality(
         {"z": (2 * tau - (tf + t0)) / (tf - t0)},
         lambda: {"z": chebyshev.unit_variable()},
@@ -163,7 +165,7 @@ def unit_variable():
 
 
 @claim("(4.4)", "h0 in powers of τ, with t0 = 0", verdict="holds")
-def minimal_element_in_powers():
+def minimal_element_in_powers() -> Evidence:
     printed = l1 * tau**2 / 2 - (T * l1 + l2) * tau + l1 * T**2 / 2 + l2 * T + l3
     return Equality(
         {r"h_0(\tau)": printed},
@@ -179,7 +181,7 @@ def minimal_element_in_powers():
     verdict="holds",
     remark="The scan reads τ as φ in the sentence before it.",
 )
-def chebyshev_in_time():
+def chebyshev_in_time() -> Evidence:
     key = r"T_2(2\tau/T - 1)"
     printed = 8 * tau**2 / T**2 - 8 * tau / T + 1
     return Equality(
@@ -190,7 +192,7 @@ def chebyshev_in_time():
 
 
 @claim("before (4.6): system", "equal coefficients of h0 and ρ~0 T2, and (4.3)", verdict="holds")
-def matching_system():
+def matching_system() -> Evidence:
     printed = [
         T**2 * l1 / 16 - signed_norm,
         T**2 * l1 / 8 + T * l2 / 8 - signed_norm,
@@ -198,7 +200,7 @@ def matching_system():
         c1 * l1 + c2 * l2 + c3 * l3 - 1,
     ]
 
-    def derived():
+    def derived() -> Sides:
         # A quadratic equals rho~ T_2 when it does at three instants.
         gap = chebyshev.dual_in_time() - signed_norm * chebyshev.chebyshev_in_time()
         return [*(gap.subs(tau, instant) for instant in (0, T / 2, T)), (multipliers.T * c)[0] - 1]
@@ -214,12 +216,12 @@ def matching_system():
 
 
 @claim("(4.6)", "Cramer's rule for l10, l20, l30 and ρ~0", verdict="holds")
-def cramers_rule():
+def cramers_rule() -> Evidence:
     keys = ("l_{10}", "l_{20}", "l_{30}", r"\tilde\rho_0")
     numerators = (T / 8, -(T**2) / 16, T**3 / 128, T**3 / 128)
     printed = {key: numerator / (F * T / 128) for key, numerator in zip(keys, numerators, strict=True)}
 
-    def derived():
+    def derived() -> Sides:
         found = chebyshev.minimal_multipliers()
         return {key: found[unknown] for key, unknown in zip(keys, (*multipliers, signed_norm), strict=True)}
 
@@ -232,13 +234,13 @@ def cramers_rule():
 
 
 @claim("after (4.6): determinants", "D1, D2, D3, Dρ", verdict="holds")
-def cramer_numerators():
+def cramer_numerators() -> Evidence:
     printed = {"D_1": T / 8, "D_2": -(T**2) / 16, "D_3": T**3 / 128, r"D_\rho": T**3 / 128}
     return Equality(printed, lambda: chebyshev.cramer(chebyshev.matching())[0])
 
 
 @claim("after (4.6): D", "D = FT/128 with F = 16c1 − 8Tc2 + T²c3", verdict="holds")
-def cramer_denominator():
+def cramer_denominator() -> Evidence:
     return Equality(
         {"D": F * T / 128},
         lambda: {"D": chebyshev.cramer(chebyshev.matching())[1]},
@@ -247,10 +249,10 @@ def cramer_denominator():
 
 
 @claim("after (4.6): solution", "l10 = 16/F, l20 = −8T/F, l30 = T²/F, ρ~0 = T²/F", verdict="holds")
-def multipliers_of_the_polynomial():
+def multipliers_of_the_polynomial() -> Evidence:
     printed = {"l_{10}": 16 / F, "l_{20}": -8 * T / F, "l_{30}": T**2 / F, r"\tilde\rho_0": T**2 / F}
 
-    def derived():
+    def derived() -> Sides:
         # Read off T_2: its value and its two derivatives at the end, scaled so that l'c = 1.
         polynomial = chebyshev.chebyshev_in_time()
         end = [polynomial.diff(tau, k).subs(tau, T) * (-1) ** k for k in range(3)]
@@ -271,7 +273,7 @@ def element() -> sp.Expr:
 
 
 @claim("after (4.6): h0", "h0(τ) = ρ~0 (8τ²/T² − 8τ/T + 1)", verdict="holds")
-def chebyshev_element():
+def chebyshev_element() -> Evidence:
     printed = T**2 / F * (8 * tau**2 / T**2 - 8 * tau / T + 1)
     return Equality(
         {r"h_0(\tau)": printed},
@@ -286,8 +288,8 @@ def chebyshev_element():
     verdict="holds",
     remark="The norm of this h0; that it is the least norm is another claim, above.",
 )
-def norm_of_the_chebyshev_element():
-    def derived():
+def norm_of_the_chebyshev_element() -> Evidence:
+    def derived() -> Sides:
         ends = [element().subs(tau, instant) for instant in (0, T / 2, T)]
         return {r"\rho_0^2": sp.cancel(ends[0] ** 2), r"\rho_0": sp.Abs(sp.factor(ends[0]))}
 
@@ -305,10 +307,10 @@ def norm_of_the_chebyshev_element():
 
 
 @claim("after (4.6): extremes", "h0 is extreme at 0, T/2 and T", verdict="holds")
-def instants_of_the_extremes():
+def instants_of_the_extremes() -> Evidence:
     keys = (r"\tau_1^*", r"\tau_2^*", r"\tau_3^*")
 
-    def derived():
+    def derived() -> Sides:
         inner = sp.solve(element().diff(tau), tau)[0]
         return dict(zip(keys, (sp.S.Zero, inner, T), strict=True))
 
@@ -319,7 +321,7 @@ def instants_of_the_extremes():
 
 
 @claim("after (4.6): values", "h0 = s0ρ0 at the ends and −s0ρ0 in the middle", verdict="holds")
-def values_at_the_extremes():
+def values_at_the_extremes() -> Evidence:
     keys = (r"h_0(0)", r"h_0(T/2)", r"h_0(T)")
     # s0 rho0 = rho~0 = T^2/F.
     printed = dict(zip(keys, (T**2 / F, -(T**2) / F, T**2 / F), strict=True))

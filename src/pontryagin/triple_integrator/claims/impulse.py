@@ -7,9 +7,11 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     LinearSystem,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -17,9 +19,7 @@ from pontryagin.triple_integrator.claims.chebyshev import element
 from pontryagin.triple_integrator.derivation import channel, chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive, kick, required_moments, tau
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
-from pontryagin.triple_integrator.derivation.duality import (
-    dual_function_of,
-)
+from pontryagin.triple_integrator.derivation.duality import dual_function_of
 from pontryagin.triple_integrator.derivation.model import T, c, s
 
 claim = Page("Gorelov & Morozova 2012")
@@ -41,7 +41,7 @@ F = 16 * c1 - 8 * T * c2 + T**2 * c3
     "three "
     "instants only.",
 )
-def conditions_on_the_optimum():
+def conditions_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         moments = dict(zip(c, three_impulses((a0, -am, aT), T), strict=True))
         values = [element().subs(tau, at).subs(moments) for at in (0, T / 2, T)]
@@ -88,7 +88,7 @@ def conditions_on_the_optimum():
     "(0, 0, 4) "
     "instead of (1, 0, 0).",
 )
-def approximating_pulses():
+def approximating_pulses() -> Evidence:
     keys = (
         r"\inf I_m",
         r"\sup I_m",
@@ -98,7 +98,7 @@ def approximating_pulses():
     )
     printed = dict(zip(keys, (-widthm, widthm, a0 / width0, aT / widthT, am / (2 * widthm)), strict=True))
 
-    def derived():
+    def derived() -> Sides:
         centre = sp.solve(element().diff(tau), tau)[0]
         heights = (a0 / width0, aT / widthT, am / ((centre + widthm) - (centre - widthm)))
         return dict(zip(keys, (centre - widthm, centre + widthm, *heights), strict=True))
@@ -131,7 +131,7 @@ def approximating_pulses():
     verdict="holds",
     remark="For the h0 of (4.4). Where the minimal element is a constant, every instant is extreme.",
 )
-def only_at_the_extremes():
+def only_at_the_extremes() -> Evidence:
     def argument() -> Steps:
         room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
         inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
@@ -150,11 +150,11 @@ def only_at_the_extremes():
     remark="With δ(τ + 0) and δ(τ − T − 0) read as the impulses wholly inside [0, T]; a shift by that sign "
     "would put them outside. (4.8) is taken with its middle pulse at T/2.",
 )
-def limit_of_the_pulses():
+def limit_of_the_pulses() -> Evidence:
     keys = ("x_1(T)", "x_2(T)", "x_3(T)")
     printed = three_impulses((sign * a0, -sign * am, sign * aT), T)
 
-    def derived():
+    def derived() -> Sides:
         width = sp.Symbol("epsilon", positive=True)
         middle = chebyshev.spike(T / 2 - width, T / 2 + width, -sign * am)
         pulses = chebyshev.spike(sp.S.Zero, width, sign * a0) + middle
@@ -170,7 +170,7 @@ def limit_of_the_pulses():
 
 
 @claim("after (4.9): L_1", "the impulsive control is not an element of L_1", verdict="holds")
-def impulses_are_not_integrable():
+def impulses_are_not_integrable() -> Evidence:
     def argument() -> Steps:
         width, bound = sp.symbols("epsilon U", positive=True)
         yield (
@@ -184,10 +184,10 @@ def impulses_are_not_integrable():
 
 
 @claim("after (4.9): s0", "s0 = sign h0(0)", verdict="holds")
-def sign_of_the_polynomial():
+def sign_of_the_polynomial() -> Evidence:
     number = sp.Symbol("F", real=True, nonzero=True)
 
-    def derived():
+    def derived() -> Sides:
         start = sp.cancel(element().subs(tau, 0) / T**2)
         return {"s_0": sp.sign(start.subs(c1, (number + 8 * T * c2 - T**2 * c3) / 16).simplify())}
 
@@ -196,14 +196,14 @@ def sign_of_the_polynomial():
 
 
 @claim("before (4.10): states", "the end state under the three impulses, f = 0", verdict="holds")
-def end_state_under_impulses():
+def end_state_under_impulses() -> Evidence:
     printed = {
         "x_{3f}": x30 + sign * (a0 - am + aT),
         "x_{2f}": x20 + (x30 + sign * a0) * T - sign * am * T / 2,
         "x_{1f}": x10 + x20 * T + (x30 + sign * a0) * T**2 / 2 - sign * am * T**2 / 8,
     }
 
-    def derived():
+    def derived() -> Sides:
         first, second, third = chebyshev.impulse_transfer()
         return {"x_{3f}": third, "x_{2f}": second, "x_{1f}": first}
 
@@ -217,7 +217,7 @@ def end_state_under_impulses():
 
 
 @claim("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)", verdict="holds")
-def with_a_disturbance():
+def with_a_disturbance() -> Evidence:
     def argument() -> Steps:
         force = sp.symbols("f_0", real=True) * (1 + tau)
         start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
@@ -234,7 +234,7 @@ def with_a_disturbance():
 
 
 @claim("before (4.10): system", "linear system for a0, am, aT with c~ = s0 c", verdict="holds")
-def system_for_the_impulses():
+def system_for_the_impulses() -> Evidence:
     wanted = sp.symbols(r"\tilde{c}_1:4", real=True)
     printed = [
         a0 * T**2 / 2 - am * T**2 / 8 - wanted[0],
@@ -242,7 +242,7 @@ def system_for_the_impulses():
         a0 - am + aT - wanted[2],
     ]
 
-    def derived():
+    def derived() -> Sides:
         reached = three_impulses((a0, -am, aT), T)
         return [x - w for x, w in zip(reached, wanted, strict=True)]
 
@@ -261,14 +261,14 @@ def system_for_the_impulses():
     verdict="holds",
     remark="They reach the target for every c; where one of them is negative they are not optimal.",
 )
-def impulses():
+def impulses() -> Evidence:
     printed = {
         "a_0": sign * (4 * c1 - T * c2) / T**2,
         "a_m": sign * (8 * c1 - 4 * T * c2) / T**2,
         "a_T": sign * (4 * c1 - 3 * T * c2 + T**2 * c3) / T**2,
     }
 
-    def derived():
+    def derived() -> Sides:
         found = chebyshev.amplitudes()
         return {"a_0": found[a0], "a_m": found[am], "a_T": found[aT]}
 

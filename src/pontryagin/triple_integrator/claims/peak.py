@@ -7,8 +7,10 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -51,7 +53,7 @@ def paired_with(moments: sp.Matrix) -> sp.Expr:
 
 
 @claim("before (3.1)", "the least L1 norm of h on l'c = 1 is ρ0", verdict="holds")
-def dual_norm_in_l1():
+def dual_norm_in_l1() -> Evidence:
     def argument() -> Steps:
         yield (
             "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
@@ -70,7 +72,7 @@ def dual_norm_in_l1():
 
 
 @claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
-def dual_problem():
+def dual_problem() -> Evidence:
     key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
     return Equality(
@@ -82,11 +84,11 @@ def dual_problem():
 
 
 @claim("before (3.2)", "ψ3 from the adjoint equation and its end values", verdict="holds")
-def third_costate():
+def third_costate() -> Evidence:
     end = sp.symbols("psi_1f psi_2f psi_3f", real=True)
     printed = (tf - tau) ** 2 / 2 * end[0] + (tf - tau) * end[1] + end[2]
 
-    def derived():
+    def derived() -> Sides:
         # Integrate (1.15) backwards from tf.
         clock = sp.Dummy("t")
         middle = end[1] + sp.integrate(end[0], (clock, tau, tf))
@@ -107,7 +109,7 @@ def third_costate():
     "Without "
     "it the integral is linear in l and has no minimum (the scan may have read bars as brackets).",
 )
-def dual_problem_written_out():
+def dual_problem_written_out() -> Evidence:
     key = r"\text{integrand}"
     quadratic = (tf - tau) ** 2 / 2 * l1 + (tf - tau) * l2 + l3
 
@@ -129,10 +131,10 @@ def dual_problem_written_out():
 
 
 @claim("(3.3)", "the minimising ψ3* with the coefficients l10, l20, l30", verdict="holds")
-def minimising_costate():
+def minimising_costate() -> Evidence:
     printed = (tf - t) ** 2 / 2 * l1 + (tf - t) * l2 + l3
 
-    def derived():
+    def derived() -> Sides:
         psi = transition(tf - t).T * multipliers
         return {r"\psi_3^*(t)": psi[2]}
 
@@ -144,10 +146,10 @@ def minimising_costate():
 
 
 @claim("after (3.3): end values", "l10, l20, l30 are the end values of ψ1*, ψ2*, ψ3*", verdict="holds")
-def end_values_of_the_costate():
+def end_values_of_the_costate() -> Evidence:
     keys = [rf"\psi_{k}^*(t_f)" for k in (1, 2, 3)]
 
-    def derived():
+    def derived() -> Sides:
         end = (transition(tf - t).T * multipliers).subs(t, tf)
         return dict(zip(keys, end, strict=True))
 
@@ -159,10 +161,10 @@ def end_values_of_the_costate():
 
 
 @claim("before (3.4): conditions", "max ∫h0 u = 1 with max |u| = 1/ρ0, and u0 = 1/ρ0", verdict="holds")
-def conditions_on_the_optimum():
+def conditions_on_the_optimum() -> Evidence:
     key = "u_0"
 
-    def derived():
+    def derived() -> Sides:
         # The level of a control with two switches, from its moments and the h with the same zeros.
         moments = two_switches(v, first, second, T)
         return {key: sp.cancel(paired_with(moments) / area_with_two_zeros())}
@@ -181,7 +183,7 @@ def conditions_on_the_optimum():
 
 
 @claim("before (3.4): uniqueness", "the maximum is attained only by u = sign h0 / ρ0", verdict="holds")
-def only_the_sign_attains_it():
+def only_the_sign_attains_it() -> Evidence:
     def argument() -> Steps:
         yield (
             "h0 is a polynomial and not zero, so it vanishes at two instants at most",
@@ -201,7 +203,7 @@ def only_the_sign_attains_it():
     verdict="holds",
     remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.",
 )
-def least_peak_programme():
+def least_peak_programme() -> Evidence:
     def argument() -> Steps:
         x = sp.Symbol("x", real=True, nonzero=True)
         yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
@@ -228,7 +230,7 @@ def least_peak_programme():
     "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout",
     verdict="holds",
 )
-def general_structure():
+def general_structure() -> Evidence:
     def argument() -> Steps:
         zeros = sp.Poly(parabola.parabola(), tau).degree()
         yield "h0 changes sign at most twice", zeros == 2
@@ -256,7 +258,7 @@ def general_structure():
     "takes "
     "the value 4 at three durations, T = 0.9067..., √5 − 1 and 2. Least time is then the smallest root.",
 )
-def one_to_one():
+def one_to_one() -> Evidence:
     force, wait = sp.symbols("f w", real=True)
     positive = sp.Symbol("T", positive=True)
 

@@ -3,13 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import chebyshev, energy
 from pontryagin.triple_integrator.derivation.channel import drive, kick
@@ -23,14 +17,7 @@ from pontryagin.triple_integrator.derivation.duality import (
     peak_of,
     piecewise_moments,
 )
-from pontryagin.triple_integrator.derivation.model import (
-    T,
-    c,
-    impulse_response,
-    moments_of,
-    multipliers,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import T, c, impulse_response, moments_of, multipliers, s
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -44,7 +31,7 @@ T1, T2 = lengths
     "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖",
     verdict="holds",
 )
-def minimal_element_exists():
+def minimal_element_exists() -> Evidence:
     def argument() -> Steps:
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", all(minor.is_positive for minor in minors)
@@ -65,8 +52,8 @@ def minimal_element_exists():
 @claim(
     "after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds"
 )
-def functional_on_the_dual_set():
-    def derived():
+def functional_on_the_dual_set() -> Evidence:
+    def derived() -> Sides:
         program = energy.minimum_energy_control()
         h = (multipliers.T * impulse_response())[0]
         paired = sp.expand(sp.integrate(sp.expand(h * program), (s, 0, T)))
@@ -77,7 +64,7 @@ def functional_on_the_dual_set():
 
 
 @claim("after (1.12): criterion", "the moment problem is solvable if and only if ρ0 > 0", verdict="holds")
-def solvable_where_norm_is_positive():
+def solvable_where_norm_is_positive() -> Evidence:
     def argument() -> Steps:
         program = energy.minimum_energy_control()
         yield "independent h_k: ρ0 > 0, and solvable", vanishes(moments_of(program) - c)
@@ -100,7 +87,7 @@ def solvable_where_norm_is_positive():
     "‖Φ‖ ≥ 1/ρ0 for every functional that solves the moment problem",
     verdict="holds",
 )
-def norm_estimate():
+def norm_estimate() -> Evidence:
     def argument() -> Steps:
         extra = sp.symbols("n_0:4", real=True)
         noise = sum(a * s**k for k, a in enumerate(extra))
@@ -122,11 +109,11 @@ def norm_estimate():
 
 
 @claim("before (1.13): norm of Φ0", "the optimal functional has the norm 1/ρ0", verdict="holds")
-def norm_of_the_optimum():
+def norm_of_the_optimum() -> Evidence:
     key = r"\lVert \Phi_0 \rVert"
     keys = [f"{key}_{{L_{p}^*}}" for p in ("2", "1", r"\infty")]
 
-    def derived():
+    def derived() -> Sides:
         program = energy.minimum_energy_control().subs(unit_turn())
         in_l2 = sp.sqrt(sp.integrate(sp.expand(program**2), (s, 0, 1)))
         return dict(
@@ -158,7 +145,7 @@ def norm_of_the_optimum():
     "infimum "
     "16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
 )
-def isometry():
+def isometry() -> Evidence:
     def argument() -> Steps:
         for n in (sp.S(2), R(3, 2), sp.S(3), sp.oo):
             size = conjugate_norm(n).subs({T1: 1, T2: 1, v1: 0})
@@ -199,7 +186,7 @@ def isometry():
 
 
 @claim("(1.13)", "the dual problem: least norm of h = l'Φ(tf, τ)b on l'c = 1", verdict="holds")
-def dual_problem():
+def dual_problem() -> Evidence:
     def argument() -> Steps:
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
         square = sp.integrate(sp.expand((multipliers.T * impulse_response())[0] ** 2), (s, 0, T))
@@ -228,7 +215,7 @@ def dual_problem():
     "Krasovskii's principle: a unique u of norm 1/ρ0 with the largest ∫h0 u is optimal",
     verdict="holds",
 )
-def krasovskii_principle():
+def krasovskii_principle() -> Evidence:
     def argument() -> Steps:
         p, q = sp.S(3), R(3, 2)
         size = T1 * sp.Abs(v1) ** p + T2 * sp.Abs(v2) ** p
@@ -263,7 +250,7 @@ def krasovskii_principle():
     "does "
     "not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
 )
-def two_problems_in_turn():
+def two_problems_in_turn() -> Evidence:
     def argument() -> Steps:
         h = dual_function_of(PEAK_DUAL)
         yield (

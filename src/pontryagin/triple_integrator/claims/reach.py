@@ -6,18 +6,17 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Refutation,
+    Sides,
     Steps,
     vanishes,
 )
 from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
-from pontryagin.triple_integrator.derivation.duality import (
-    impulse_bound,
-    piecewise_moments,
-)
+from pontryagin.triple_integrator.derivation.duality import impulse_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c
 
 claim = Page("Gorelov & Morozova 2012")
@@ -53,7 +52,7 @@ def pulse_certificate() -> Steps:
     remark="True where a0, am, aT ≥ 0. For u = 4 on [5/8, 7/8], T = 1, F = −11/24: (4.10) pays 59/48, and "
     "1/ρ0 = 1, not |F|/T² = 11/24, which no control attains.",
 )
-def sum_of_the_impulses():
+def sum_of_the_impulses() -> Evidence:
     def argument() -> Steps:
         yield "a0 + am + aT = s0 F/T²", vanishes(chebyshev.total() - sign * F / T**2)
         bound = 1 / chebyshev.minimal_multipliers()[chebyshev.signed_norm]
@@ -82,7 +81,7 @@ def sum_of_the_impulses():
     verdict="conditional",
     remark="True where a0 > 0. For c = (0, 1, 20), T = 1, F = 12 > 0, but the first impulse of (4.10) is −1.",
 )
-def sign_of_the_first_impulse():
+def sign_of_the_first_impulse() -> Evidence:
     def argument() -> Steps:
         weight = sp.Symbol("a", positive=True)
         for s0 in (1, -1):
@@ -109,7 +108,7 @@ def sign_of_the_first_impulse():
     "c = (1, 2, 0), T = 1 has F = 0, the free motion stays at 0, and every control costs at least 2. There "
     "a0 + am + aT = 0, so the three cannot all be positive, and other families of impulses are optimal.",
 )
-def free_motion_where_f_is_zero():
+def free_motion_where_f_is_zero() -> Evidence:
     def counterexample() -> Steps:
         target = sp.Matrix([1, 2, 0])
         yield "c = (1, 2, 0), T = 1: F = 0", F.subs({T: 1, **dict(zip(c, target, strict=True))}) == 0
@@ -134,7 +133,7 @@ def free_motion_where_f_is_zero():
     "impulses, one "
     "of them at an end, in the rest.",
 )
-def complete_solution():
+def complete_solution() -> Evidence:
     return Refutation(pulse_certificate)
 
 
@@ -143,10 +142,10 @@ def complete_solution():
     "for the ends of example 1 the total impulse is R = 1/ρ0 = 16γ_T/T²",
     verdict="holds",
 )
-def impulse_of_the_turn():
+def impulse_of_the_turn() -> Evidence:
     turned = {c1: turn, c2: 0, c3: 0, sign: 1}
 
-    def derived():
+    def derived() -> Sides:
         return {"R": sp.expand(sum(sp.Abs(value.subs(turned)) for value in chebyshev.amplitudes().values()))}
 
     def argument() -> Steps:
@@ -161,8 +160,8 @@ def impulse_of_the_turn():
 
 
 @claim("end of section 4: half", "that is half of what example 2's programme spends", verdict="holds")
-def half_of_example_2():
-    def derived():
+def half_of_example_2() -> Evidence:
+    def derived() -> Sides:
         bang_bang = sum(
             duration * abs(level) for duration, level in [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
         )
@@ -180,5 +179,5 @@ def half_of_example_2():
     "with (2.3) corrected; q = ∞ yes, as a structure and an equation to solve; q = 1 only on the cone "
     "a0, am, aT ≥ 0.",
 )
-def general_solutions():
+def general_solutions() -> Evidence:
     return Refutation(pulse_certificate)

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
@@ -91,17 +91,17 @@ class Channels:
     def _disturbances(self) -> list[Callable[[float], float]]:
         return [disturbance_of(self.programmes[i].maneuver) for i in self.given]
 
-    def drift(self, phi: NDArray, w: NDArray) -> NDArray:
+    def drift(self, phi: Array, w: Array) -> Array:
         """n of phi'' = B^-1 m + n, (..., 3)."""
         free = self.body.acceleration(w, np.zeros(3))
         kinematic = vector_acceleration_drift(phi, w)
         return kinematic + np.einsum("...ij,...j->...i", vector_rate_matrix(phi), free)
 
-    def coupling(self, phi: NDArray, w: NDArray, m: NDArray) -> NDArray:
+    def coupling(self, phi: Array, w: Array, m: Array) -> Array:
         """f = phi'' - m, (..., 3)."""
         return np.einsum("...ij,...j->...i", vector_rate_matrix(phi), m) - m + self.drift(phi, w)
 
-    def control_acceleration(self, t: NDArray, phi: NDArray, w: NDArray, commands: NDArray) -> NDArray:
+    def control_acceleration(self, t: Array, phi: Array, w: Array, commands: Array) -> Array:
         """m (k, 3) from that of S: channels G take what their given phi'' asks."""
         if not self.given:
             return commands
@@ -113,7 +113,7 @@ class Channels:
         m[:, self.given] = np.linalg.solve(matrix[:, :, self.given], asked[..., None])[..., 0]
         return m
 
-    def _given_acceleration(self, t: NDArray) -> NDArray:
+    def _given_acceleration(self, t: Array) -> Array:
         columns = [
             self.programmes[i].state(t)[:, 2] + np.array([f(time) for time in t])
             for i, f in zip(self.given, self._disturbances, strict=True)
@@ -132,14 +132,14 @@ class Channels:
             self._jumps(),
         )
 
-        def torque(t: float, q: NDArray, w: NDArray, m: NDArray) -> NDArray:
+        def torque(t: float, q: Array, w: Array, m: Array) -> Array:
             if self.given:
                 m = self.control_acceleration(np.array([t]), rotation_vector(q)[None], w[None], m[None])[0]
             return self.body.inertia @ m
 
         return simulate(self.body, (first, last), quaternion(phi), body_rate(start), commands, torque)
 
-    def _jumps(self) -> list[tuple[float, NDArray]]:
+    def _jumps(self) -> list[tuple[float, Array]]:
         unit = np.eye(len(self.programmed))
         return [
             (time, jump * unit[row])

@@ -13,15 +13,7 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.triple_integrator.derivation.model import (
-    CHAIN,
-    INPUT,
-    T,
-    c,
-    impulse_response,
-    multipliers,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import CHAIN, INPUT, T, c, impulse_response, multipliers, s
 
 
 @cache

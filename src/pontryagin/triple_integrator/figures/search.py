@@ -3,17 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    WIDTH,
-    styled,
-)
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.search import Survey
 

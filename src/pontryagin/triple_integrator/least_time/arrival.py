@@ -1,7 +1,8 @@
 """The first arrival under |u| <= U: the least admissible root of two quartics in the time, and its proof.
 
-Units with U = 1 and the typical time of the transfer as unit of time; u, x and f change sign together so
-that c3 = x3f - x30 >= 0. The unknown is z = T - c3 >= 0: in less than c3 not even x3 arrives.
+The problem is solved in units with U = 1 and the typical time of the transfer as the unit of time; x, u
+and f change sign together where that makes c3 = x3f - x30 >= 0. The unknown is z = T - c3 >= 0, since
+x3 alone needs the time c3.
 """
 
 from math import fabs, sqrt
@@ -15,6 +16,7 @@ from pontryagin.triple_integrator.kernels import (
     small_parts,
 )
 from pontryagin.triple_integrator.least_time.quartic import (
+    LEADING,
     THIRD,
     quartic,
     root_between,
@@ -25,22 +27,25 @@ from pontryagin.triple_integrator.least_time.quartic import (
 from pontryagin.triple_integrator.norms.peak import EDGE, place_switches
 
 ACCEPT = 2e-15
-"""Largest residual of the moments, relative to the data's own size, with which a root is a control."""
+"""Largest residual of the moments, relative to the size of the data, with which a root is accepted."""
 
 ILL_POSED = 1e-12
-"""The same where no root passes: rounded data may just miss an arrival that the exact data touch."""
+"""Largest residual accepted where no root passes `ACCEPT`: rounding of the data may remove a double root."""
 
-RELUCTANT = 1e-9
-"""The same again: two roots about to merge lose half their digits."""
+NEARLY_DOUBLE = 1e-9
+"""Largest residual accepted where none passes `ILL_POSED`: nearly equal roots lose half their digits."""
 
-NEARLY = 1e-2
-"""A stationary value this small, relative to its terms, may be a root but for the rounding of the data."""
+TOUCHING = 1e-2
+"""A stationary value this small, relative to its terms, may be a root of the data before rounding."""
 
 NEVER = 1e300
+"""The value of z where no root is accepted."""
 
 
-def sized(level, z, ends, f, c3, edge):
-    """Switches a, b, time T and residual of the control that a root z of one branch stands for.
+def control_of(
+    level: float, z: float, ends: tuple[float, ...], f: float, c3: float, edge: float
+) -> tuple[float, ...]:
+    """Switches a, b, time T and residual of the control that belongs to a root z of one branch.
 
     Pieces shorter than the share `edge` are left out.
     """
@@ -63,9 +68,13 @@ def sized(level, z, ends, f, c3, edge):
     return a, b, T, residual
 
 
-def polished(level, z, r20, r21, w0, w1, w2, c3):
-    """Two Newton steps on p3^2 (4 T^2 - p3^2) + 8 p3 w - 12 r2^2, whose parts keep the digits that its
-    coefficients in z lose to cancellation."""
+def refine(
+    level: float, z: float, r20: float, r21: float, w0: float, w1: float, w2: float, c3: float
+) -> float:
+    """Two Newton steps on p3^2 (4 T^2 - p3^2) + 8 p3 w - 12 r2^2, without its coefficients in z.
+
+    Those lose digits to cancellation; p3, r2 and w do not.
+    """
     for _ in range(2):
         T = c3 + z
         p3, p3_slope = (z, 1.0) if level > 0.0 else (-(z + 2.0 * c3), -1.0)
@@ -81,12 +90,24 @@ def polished(level, z, r20, r21, w0, w1, w2, c3):
     return z
 
 
-def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
-    """z, a, b, residual of the least root below `limit` that is a control; z = limit if there is none."""
+def least_root(
+    level: float,
+    limit: float,
+    accept: float,
+    ends: tuple[float, ...],
+    f: float,
+    c3: float,
+    small: tuple[float, ...],
+    q0: float,
+    q1: float,
+    q2: float,
+    q3: float,
+) -> tuple[float, ...]:
+    """z, a, b, residual of the least root below `limit` that is accepted; z = limit if there is none."""
     top = min(limit, upper_bound(q0, q1, q2, q3) * (1.0 + 1e-9))
     low, low_value = 0.0, q0
     if level > 0.0 and c3 > 0.0:
-        a, b, _, residual = sized(level, 0.0, ends, f, c3, EDGE)
+        a, b, _, residual = control_of(level, 0.0, ends, f, c3, EDGE)
         if residual <= 4e-15:
             return 0.0, a, b, residual
     changes = sign_changes(q0, q1, q2, q3)
@@ -97,23 +118,23 @@ def least_root(level, limit, accept, ends, f, c3, small, q0, q1, q2, q3):
         high = first if k == 0 else second if k == 1 else third if k == 2 else top
         if not low < high:
             continue
-        value = quartic(high, q0, q1, q2, q3)
+        value = quartic(high, q0, q1, q2, q3, LEADING)
         size = fabs(q0) + high * (fabs(q1) + high * (fabs(q2) + high * (fabs(q3) + 3.0 * high)))
         crosses = (low_value > 0.0) != (value > 0.0)
-        touches = high < top and fabs(value) <= NEARLY * size
+        touches = high < top and fabs(value) <= TOUCHING * size
         if crosses or touches:
-            z = root_between(low, high, q0, q1, q2, q3) if crosses else high
-            z = polished(level, z, small[0], small[1], small[2], small[3], small[4], c3)
-            _, _, _, residual = sized(level, z, ends, f, c3, 0.0)
+            z = root_between(low, high, q0, q1, q2, q3, LEADING) if crosses else high
+            z = refine(level, z, small[0], small[1], small[2], small[3], small[4], c3)
+            _, _, _, residual = control_of(level, z, ends, f, c3, 0.0)
             if residual <= accept:
-                a, b, _, residual = sized(level, z, ends, f, c3, EDGE)
+                a, b, _, residual = control_of(level, z, ends, f, c3, EDGE)
                 return z, a, b, residual
         low, low_value = high, value
     return limit, 0.0, 0.0, 1.0
 
 
-def first_arrival(accept, ends, f, c3):
-    """Level, z, a, b, residual of the least root of either branch that is a control."""
+def first_arrival(accept: float, ends: tuple[float, ...], f: float, c3: float) -> tuple[float, ...]:
+    """Level, z, a, b, residual of the least accepted root of either branch."""
     d1, x20, x30, x2f, x3f, _ = ends
     small = small_parts(0.0, x20, x30, d1, x2f, x3f, f, c3)
     r20, r21, w0, w1, w2 = small
@@ -126,7 +147,9 @@ def first_arrival(accept, ends, f, c3):
     return 1.0, z, a, b, residual
 
 
-def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
+def solve_time(
+    x10: float, x20: float, x30: float, x1f: float, x2f: float, x3f: float, f: float, U: float
+) -> tuple[float, ...]:
     """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T."""
     d1, d2, c3 = x1f - x10, x2f - x20, x3f - x30
     x30, x3f, f = x30 + f, x3f + f, 0.0
@@ -148,17 +171,20 @@ def solve_time(x10, x20, x30, x1f, x2f, x3f, f, U):
     if z == NEVER:
         level, z, a, b, residual = first_arrival(ILL_POSED, ends, force, height)
     if z == NEVER:
-        level, z, a, b, residual = first_arrival(RELUCTANT, ends, force, height)
+        level, z, a, b, residual = first_arrival(NEARLY_DOUBLE, ends, force, height)
     T = height + z
     bound = lower_bound(level, a, b, T, ends, force, height)
     return T * unit, sign * level * U, a, b, residual, bound * unit
 
 
-def lower_bound(level, a, b, T, ends, f, c3):
+def lower_bound(
+    level: float, a: float, b: float, T: float, ends: tuple[float, ...], f: float, c3: float
+) -> float:
     """The time just before which a separating functional proves the target out of reach; |c3| if none does.
 
-    To two switches belongs (s - aT)(s - bT); to one of them also the functional whose other zero is at the
-    other end of the manoeuvre; to none those without a zero inside.
+    A control with two switches is separated by (s - aT)(s - bT), one with a single switch also by the
+    functional whose other zero lies at the other end of the manoeuvre, and a constant control by those
+    without a zero inside.
     """
     found = max(
         separation(level, a, b, T, ends, f, c3),
@@ -168,9 +194,14 @@ def lower_bound(level, a, b, T, ends, f, c3):
     return max(c3, found if a > b else max(found, separation(level, 1.0, 1.0, T, ends, f, c3)))
 
 
-def separation(level, a, b, T, ends, f, c3):
-    """Where phi(T') = l'c(T') - integral of |l'h| falls to zero for l'h = level (s - aT)(s - bT), by one
-    Newton step from T; 0 where it does not fall."""
+def separation(
+    level: float, a: float, b: float, T: float, ends: tuple[float, ...], f: float, c3: float
+) -> float:
+    """The time at which phi falls to zero, by one Newton step from T; 0 where phi does not fall.
+
+    phi(T') = l'c(T') - integral of |l'h| over [0, T'] for l'h = level (s - aT)(s - bT): the target is out
+    of reach in the time T' if phi(T') > 0.
+    """
     d1, x20, x30, x2f, x3f, _ = ends
     c1, c2, _ = moments(0.0, x20, x30, d1, x2f, x3f, T, 0.5 * f * T * T, f * T)
     m, product = T * (a + b), T * T * a * b

@@ -1,29 +1,35 @@
-"""Roots of 3 z^4 + q3 z^3 + q2 z^2 + q1 z + q0 on z > 0: isolated by its stationary points, then Newton."""
+"""Roots of q4 z^4 + q3 z^3 + q2 z^2 + q1 z + q0 on z > 0: isolated by stationary points, then Newton.
+
+The quartics of the least time have q4 = 3.
+"""
 
 from math import fabs, sqrt
 
 QUADRATIC = 1e-9
-"""A Newton step this small (relative) leaves an error of its square: below rounding."""
+"""A Newton step this small (relative) leaves an error of its square, which is below rounding."""
 
 THIRD = 1.0 / 3.0
 
-
-def quartic(z, q0, q1, q2, q3):
-    """3 z^4 + q3 z^3 + q2 z^2 + q1 z + q0."""
-    return q0 + z * (q1 + z * (q2 + z * (q3 + 3.0 * z)))
+LEADING = 3.0
+"""The leading coefficient q4 of both quartics of the least time."""
 
 
-def quartic_slope(z, q1, q2, q3):
-    """Its derivative."""
-    return q1 + z * (2.0 * q2 + z * (3.0 * q3 + 12.0 * z))
+def quartic(z: float, q0: float, q1: float, q2: float, q3: float, q4: float) -> float:
+    """q4 z^4 + q3 z^3 + q2 z^2 + q1 z + q0."""
+    return q0 + z * (q1 + z * (q2 + z * (q3 + q4 * z)))
 
 
-def root_between(low, high, q0, q1, q2, q3):
-    """The root of the quartic between two points of opposite sign: Newton, kept in the bracket."""
-    rising = quartic(high, q0, q1, q2, q3) > 0.0
+def quartic_slope(z: float, q1: float, q2: float, q3: float, q4: float) -> float:
+    """The derivative of `quartic` by z."""
+    return q1 + z * (2.0 * q2 + z * (3.0 * q3 + 4.0 * q4 * z))
+
+
+def root_between(low: float, high: float, q0: float, q1: float, q2: float, q3: float, q4: float) -> float:
+    """The root of the quartic between two points of opposite sign, by Newton's method kept in the bracket."""
+    rising = quartic(high, q0, q1, q2, q3, q4) > 0.0
     z = 0.5 * (low + high)
     for _ in range(200):
-        value, slope = quartic(z, q0, q1, q2, q3), quartic_slope(z, q1, q2, q3)
+        value, slope = quartic(z, q0, q1, q2, q3, q4), quartic_slope(z, q1, q2, q3, q4)
         if (value > 0.0) == rising:
             high = z
         else:
@@ -39,29 +45,8 @@ def root_between(low, high, q0, q1, q2, q3):
     return z
 
 
-def slope_root_between(low, high, q1, q2, q3):
-    """The root of the quartic's derivative between two points of opposite sign."""
-    rising = quartic_slope(high, q1, q2, q3) > 0.0
-    z = 0.5 * (low + high)
-    for _ in range(200):
-        value, slope = quartic_slope(z, q1, q2, q3), 2.0 * q2 + z * (6.0 * q3 + 36.0 * z)
-        if (value > 0.0) == rising:
-            high = z
-        else:
-            low = z
-        following = z - value / slope if slope != 0.0 else low - 1.0
-        small = fabs(following - z) <= QUADRATIC * fabs(z)
-        if not small and not low < following < high:
-            following = 0.5 * (low + high)
-            small = following == low or following == high
-        z = following
-        if small:
-            break
-    return z
-
-
-def stationary_points(top, q1, q2, q3):
-    """The quartic's stationary points in (0, top), ascending; `top` where there are fewer than three."""
+def stationary_points(top: float, q1: float, q2: float, q3: float) -> tuple[float, ...]:
+    """The stationary points for q4 = 3 in (0, top), ascending; `top` where there are fewer than three."""
     discriminant = q3 * q3 - 8.0 * q2
     first, second, third = top, top, top
     start, start_value, found = 0.0, q1, 0
@@ -76,9 +61,9 @@ def stationary_points(top, q1, q2, q3):
         end = bend1 if k == 0 else bend2 if k == 1 else top
         if not start < end <= top:
             continue
-        end_value = quartic_slope(end, q1, q2, q3)
+        end_value = quartic_slope(end, q1, q2, q3, LEADING)
         if (start_value > 0.0) != (end_value > 0.0):
-            point = slope_root_between(start, end, q1, q2, q3)
+            point = root_between(start, end, q1, 2.0 * q2, 3.0 * q3, 4.0 * LEADING, 0.0)
             if found == 0:
                 first = point
             elif found == 1:
@@ -90,7 +75,7 @@ def stationary_points(top, q1, q2, q3):
     return first, second, third
 
 
-def sign_changes(q0, q1, q2, q3):
+def sign_changes(q0: float, q1: float, q2: float, q3: float) -> int:
     """Sign changes among the coefficients: no positive root if 0, exactly one if 1 (Descartes)."""
     changes, last = 0, 1.0
     for q in (q3, q2, q1, q0):
@@ -100,8 +85,7 @@ def sign_changes(q0, q1, q2, q3):
     return changes
 
 
-def upper_bound(q0, q1, q2, q3):
-    """No root is larger (Fujiwara)."""
-    return 2.0 * max(
-        fabs(q3) / 3.0, sqrt(fabs(q2) / 3.0), (fabs(q1) / 3.0) ** THIRD, sqrt(sqrt(fabs(q0) / 3.0))
-    )
+def upper_bound(q0: float, q1: float, q2: float, q3: float) -> float:
+    """Fujiwara's bound: no root is larger in modulus, for q4 = 3."""
+    largest = max(fabs(q3) / 3.0, sqrt(fabs(q2) / 3.0), sqrt(sqrt(fabs(q0) / 3.0)))
+    return 2.0 * max(largest, (fabs(q1) / 3.0) ** THIRD)

@@ -13,10 +13,10 @@ from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import Programme, normalised, over_stack, response
+from pontryagin.triple_integrator.problem.programme import Programme, normalise, over_stack, response
 
 
-def solve_energy(c1, c2, c3, T):
+def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Coefficients of 1, s, s^2 in u, scaled residual, norm, lower bound."""
     k1, k2, k3 = c1 / T / T / T, c2 / T / T, c3 / T
     scale = max(6.0 * fabs(k1), 2.0 * fabs(k2), fabs(k3))
@@ -65,8 +65,8 @@ class EnergySolution(Programme):
         k = c / powers
         size = np.abs(k).max(axis=-1, keepdims=True)
         k1, k2, k3 = np.moveaxis(k / np.where(size == 0, 1.0, size), -1, 0)
-        parts = kernels.energy_multipliers(k1, k2, k3, 1.0)  # type: ignore[call-arg]
-        return normalised(np.stack(parts, axis=-1) / powers, c)
+        parts = kernels.energy_multipliers(k1, k2, k3, 1.0)
+        return normalise(np.stack(parts, axis=-1) / powers, c)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""

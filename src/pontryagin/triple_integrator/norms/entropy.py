@@ -1,9 +1,9 @@
-"""Among the one-signed controls, all of one total impulse, the one of greatest entropy: the limit q -> 1.
+"""The control of one sign with the greatest entropy, which is the limit of the L_q optimum for q -> 1.
 
-In the interior of the moment cone every control of one sign with the moments c has the total impulse |c3|,
-the least there is, so that problem 3 (1.20) alone does not choose. The L_q optimum |h0|^(p-1) does as
-q -> 1, p -> infinity: with h0 ~ 1 + (k1 s + k2 s^2)/(p - 1) it tends to exp(k0 + k1 s + k2 s^2), which is
-the control of greatest entropy - (integral of |u| log |u|) with these moments.
+In the interior of the moment cone every control of one sign with the moments c has the least total impulse
+|c3|, so that problem 3, (1.20), has many solutions. The optimum |h0|^(p-1) in L_q selects one of them as
+q -> 1 and p -> infinity: with h0 ~ 1 + (k1 s + k2 s^2)/(p - 1) it tends to exp(k0 + k1 s + k2 s^2), which
+is the control of greatest entropy - (integral of |u| log |u|) with these moments.
 """
 
 from dataclasses import dataclass
@@ -25,15 +25,16 @@ from pontryagin.triple_integrator.norms.quadrature import (
     second_moments,
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import normalised
+from pontryagin.triple_integrator.problem.programme import normalise
 
 CONVERGED = 1e-10
-"""Largest residual of the moments that is handed out."""
+"""Largest residual of the moments of a solution that is returned."""
 
 BOUNDARY = 4e-15
 """Distance to the boundary of the moment cone, for c3 = 1, below which it is rounding."""
 
 CHUNK = 64
+"""How many problems are solved side by side, such that their nodes fit a processor's cache."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,7 @@ class EntropySolution(QuadraticProgramme):
         log(u / peak) in the time to go as a share of T; its largest value is 0.
     certificate : Certificate
         Residual of the moments, relative to the largest of 6 c1/T^3, 2 c2/T^2, c3/T; the total impulse, by a
-        rule that the solver does not use; and |c3|, which no control undercuts.
+        rule that the solver does not use; and the bound |c3|, that of l = (0, 0, 1).
     """
 
     maneuver: Maneuver
@@ -62,7 +63,7 @@ class EntropySolution(QuadraticProgramme):
     def multipliers(self) -> Array:
         """l0 = (0, 0, 1/c3): the dual function is constant, (..., 3); zeros where c = 0."""
         c = self.maneuver.moments
-        return normalised(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c)
+        return normalise(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c)
 
     @property
     def coefficients(self) -> Array:
@@ -94,7 +95,7 @@ class EntropySolution(QuadraticProgramme):
 
 
 def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
-    """The least total impulse spread as evenly as it can be, where one-signed controls attain it.
+    """Control of one sign and least total impulse that has the greatest entropy among all of them.
 
     Parameters
     ----------
@@ -141,12 +142,12 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     certificate = certify(maneuver, exponent, peak, np.exp, 1.0, np.abs(maneuver.moments[..., 2]))
     worst = float(np.max(certificate.primal_residual, initial=0.0))
     if not worst <= CONVERGED:
-        raise NotConverged("maximum_entropy: moments missed next to the boundary of the cone", worst)
+        raise NotConverged("maximum_entropy: the moments are missed next to the boundary of the cone", worst)
     return EntropySolution(maneuver, peak, exponent, certificate)
 
 
 def _require_inside(moving: NDArray[np.bool_], c3: Array, mean: Array, square: Array) -> None:
-    """Both inequalities of the cone's interior; the reason names the first one that fails."""
+    """Check the inequalities of the cone's interior; the error names the first one that fails."""
     for holds, reason in (
         (c3 != 0, "c3 = 0 although c is not 0"),
         (square - mean * mean > BOUNDARY, "2 c1 c3 - c2^2 is not positive"),
@@ -162,7 +163,7 @@ def _exponent(w: Array) -> Array:
     """Coefficients of the exponent whose density has the orthonormal moments w (n, 3), w0 = 1."""
 
     def derivatives(h: Quadratic, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
-        """Of log (integral of exp h) - <h, w>."""
+        """Scale, gradient and Hessian of log (integral of exp h) - <h, w>."""
         s, values, weights = h.sample(logistic_rule())
         density = weights * np.exp(values - values.max(axis=(-2, -1), keepdims=True))
         density /= density.sum(axis=(-2, -1), keepdims=True)
@@ -178,4 +179,4 @@ def _exponent(w: Array) -> Array:
 
 def _integral(exponent: Quadratic) -> Array:
     _, values, weights = exponent.sample(logistic_rule())
-    return (np.exp(values) * weights).sum(axis=(-2, -1))
+    return np.asarray((np.exp(values) * weights).sum(axis=(-2, -1)))

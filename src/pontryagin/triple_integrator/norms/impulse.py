@@ -18,7 +18,7 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import (
     Programme,
     breakpoints,
-    normalised,
+    normalise,
     over_stack,
     response,
 )
@@ -30,7 +30,7 @@ ROUNDING = 4e-15
 """Relative size below which an impulse, or the distance to the boundary of a regime, is rounding."""
 
 
-def touching_bound(m0, m1, m2):
+def touching_bound(m0: float, m1: float, m2: float) -> float:
     """The family's bound at its stationary x = mu1/mu2, or 0 where that is not between 1 and 2."""
     square, mixed = m2 * m2, m1 * m2
     if square == 0.0 or mixed < square * (1.0 - ROUNDING) or mixed > 2.0 * square:
@@ -38,14 +38,14 @@ def touching_bound(m0, m1, m2):
     return fabs(m0 - 2.0 * m1 * (m1 / m2))
 
 
-def one_impulse(m0, m1):
+def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
     """At the end, inside and where: the control of one sign on the boundary of the moment cone."""
     if m0 * m1 <= 0.0:
         return m0, 0.0, 0.5
     return 0.0, m0, min(1.0, m1 / m0)
 
 
-def solve_impulse(c1, c2, c3, T):
+def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
     share = 1.0 / T
     m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
@@ -172,7 +172,7 @@ class ImpulseSolution(Programme):
         start = regime == START
         p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
         shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
-        return normalised(shape, self.maneuver.moments)
+        return normalise(shape, self.maneuver.moments)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""

@@ -1,9 +1,9 @@
 """The minimal element (1.13) in L_p, 1 < p < infinity: a smooth convex problem in two unknowns, by Newton.
 
-Time to go is a share s of T here, and the moments are scaled to length one in a basis of polynomials
-orthonormal on [0, 1]. Minimise N(h) = (integral of |h|^p)^(1/p) over the quadratics with <h, moments> = 1.
-Its derivative along the plane is what the moments of |h|^(p-1) sign h miss, so the step that lowers the
-bound is the one that meets the moments.
+The time to go s is a share of T, and the moments are scaled to length one in a basis of polynomials
+orthonormal on [0, 1]. N(h) = (integral of |h|^p)^(1/p) is minimised over the quadratics with
+<h, moments> = 1. Its derivative along that plane is the error of the moments of |h|^(p-1) sign h, so that
+at the minimum this control has the required moments.
 """
 
 from dataclasses import dataclass
@@ -24,21 +24,21 @@ from pontryagin.triple_integrator.norms.quadrature import (
 )
 
 CHUNK = 64
-"""Problems solved side by side: their nodes fit a processor's cache."""
+"""How many problems are solved side by side, such that their nodes fit a processor's cache."""
 
 STEEP = 30.0
-"""p - 1 or q - 1 beyond which the solution for a third of it is sought first."""
+"""Where p - 1 or q - 1 exceeds this, the problem with a third of it is solved first, as a start."""
 
 
 @dataclass(frozen=True)
 class Plane:
-    """Quadratics with <h, w> = 1 for unit vectors w (n, 3) of moments in the orthonormal basis."""
+    """The quadratics with <h, w> = 1, for unit vectors w (n, 3) of moments in the orthonormal basis."""
 
     w: Array
 
     @property
     def tangent(self) -> Array:
-        """Two orthonormal directions that leave <h, w> as it is, (n, 3, 2)."""
+        """Two orthonormal directions along which <h, w> is constant, (n, 3, 2)."""
         return np.swapaxes(np.linalg.svd(self.w[:, None, :])[2][:, 1:, :], 1, 2)
 
     @property
@@ -90,7 +90,7 @@ def derivatives(h: Quadratic, _: NDArray[np.intp], p: float) -> tuple[Array, Arr
 
 
 def _add_tails(curved: Array, h: Quadratic, p: float, step: float) -> None:
-    """Add what the rule leaves off at zeros, where |h|^(p-2) decays like exp(-(p-1) x) only."""
+    """Add the tails that the rule cuts off at zeros, where |h|^(p-2) decays only like exp(-(p-1) x)."""
     at_zero = h.cuts[1] == 0
     tail = -np.expm1(-(p - 1) * step)
     curved[..., 0] = np.where(at_zero[..., :-1], curved[..., 0] / tail, curved[..., 0])

@@ -1,4 +1,4 @@
-"""Newton's method for convex functions of a quadratic, many side by side, with a line search on the slope."""
+"""Newton's method for many convex functions of a quadratic at once, with a line search on the slope."""
 
 from collections.abc import Callable
 
@@ -9,19 +9,20 @@ from pontryagin.arrays import Array
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, orthonormal
 
 Derivatives = Callable[[Quadratic, NDArray[np.intp]], tuple[Array, Array, Array]]
-"""(h, problems they are of) -> scale (n,), gradient (n, 3), Hessian (n, 3, 3), in the orthonormal basis."""
+"""From quadratics (n) and the indices of their problems (n,) to a scale (n,), the gradient (n, 3) and the
+Hessian (n, 3, 3) in the orthonormal basis."""
 
 SMALL = 1e-10
-"""Residual below which an iteration that no longer improves has met rounding."""
+"""Residual below which an iteration that no longer improves is limited by rounding."""
 
 
 def minimise(
     derivatives: Derivatives, directions: Array, start: Quadratic, tolerance: float, steps: int = 100
 ) -> tuple[Quadratic, Array]:
-    """Minimise from `start` along directions (n, 3, 2): the best h found, and the residuals (n,).
+    """Minimise from `start` along directions (n, 3, 2): the best h found, and its residuals (n,).
 
     The residual is the gradient along the directions over the scale. A problem leaves the iteration when
-    it is within the tolerance, or small and no longer falling.
+    its residual is within the tolerance, or below `SMALL` and no longer falling.
     """
     n = len(directions)
     best, stalled = np.full(n, np.inf), np.zeros(n, dtype=int)
@@ -52,8 +53,8 @@ def line_search(
 ) -> tuple[Quadratic, Array, Array, Array]:
     """Follow each step until the function no longer falls half as steeply as at first.
 
-    It is convex, so its slope along the step only grows, and the slope is known to more digits than the
-    value: where the full step goes too far, the zero of the slope is bracketed.
+    The function is convex, so its slope along the step only grows, and the slope is known to more digits
+    than the value: where the full step goes too far, the zero of the slope is bracketed.
     """
     n = len(which)
     first = (gradient * step).sum(axis=-1)

@@ -1,7 +1,7 @@
-"""Least L_q norm for any 1 < q < infinity: between the impulses and the bang-bang programme, (1.13), (1.14).
+"""Least L_q norm for any 1 < q < infinity, between least total impulse and least peak, (1.13) and (1.14).
 
 With 1/p + 1/q = 1 and the minimal element h0 of (1.13) the maximum in (1.14) is attained by
-u = rho0^(-p) |h0|^(p-1) sign h0 alone. Time to go is a share of T inside, as in `minimal_element`.
+u = rho0^(-p) |h0|^(p-1) sign h0 alone. The solver's time to go is a share of T, as in `minimal_element`.
 """
 
 from dataclasses import dataclass
@@ -22,17 +22,12 @@ from pontryagin.triple_integrator.norms.quadratic_programme import (
     certify,
     scaled_moments,
 )
-from pontryagin.triple_integrator.norms.quadrature import (
-    Quadratic,
-    graded_rule,
-    logistic_rule,
-    orthonormal,
-)
+from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule, logistic_rule, orthonormal
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import breakpoints
 
 CONVERGED = 1e-10
-"""Largest residual of the moments and largest relative gap that are handed out."""
+"""Largest residual of the moments and largest relative gap of a solution that is returned."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +48,7 @@ class NormSolution(QuadraticProgramme):
         h in the time to go as a share of T.
     certificate : Certificate
         Residual of the moments, relative to the largest of 6 c1/T^3, 2 c2/T^2, c3/T; the norm; and the
-        bound l'c / ||l'h||_p, both by a rule that the solver does not use.
+        bound l'c / ||l'h||_p. Norm and bound come from a rule that the solver does not use.
     """
 
     maneuver: Maneuver
@@ -97,10 +92,10 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     Raises
     ------
     TypeError, ValueError
-        If q is not a number greater than 1 and finite; those ends are `minimum_impulse`, `minimum_peak`.
+        If q is not a finite number greater than 1; `minimum_impulse` and `minimum_peak` solve q = 1 and inf.
     pontryagin.NotConverged
-        If the moments are missed, or the bound is, by more than 1e-10: seen for q - 1 <= 1e-4, and
-        for q = 1e6 next to a constant control.
+        If the moments or the lower bound are missed by more than 1e-10. This was seen for q - 1 <= 1e-4,
+        and for q = 1e6 next to a constant control.
 
     Examples
     --------
@@ -158,16 +153,16 @@ def signed_power(h: Array, power: float) -> Array:
 @cache
 def from_scaled_moments() -> Array:
     """From the scaled moments to those in the orthonormal basis."""
-    return orthonormal()[:, ::-1] / np.array([3.0, 2.0, 1.0])
+    return np.asarray(orthonormal()[:, ::-1] / np.array([3.0, 2.0, 1.0]))
 
 
 def largest(h: Quadratic) -> Array:
     """max |h| on [0, 1]."""
-    return np.abs(h.cuts[1]).max(axis=-1)
+    return np.asarray(np.abs(h.cuts[1]).max(axis=-1))
 
 
 def integral_of_power(h: Quadratic, p: float) -> Array:
-    """Integral of |h|^p over [0, 1], (n,), by the solver's rule."""
+    """Integral of |h|^p over [0, 1] by the logistic rule, (n,)."""
     blocks = []
     for start in range(0, len(h.discriminant), BLOCK):
         _, values, weights = h[start : start + BLOCK].sample(logistic_rule())
@@ -211,14 +206,13 @@ def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:
         norm[start : start + BLOCK] = top * mean ** (1 / p)
     norm = norm.reshape(T.shape) * T ** (1 / p)
     pairing = (l * maneuver.moments).sum(axis=-1)
-    return np.divide(pairing, norm, out=np.zeros_like(norm), where=pairing != 0)
+    return np.asarray(np.divide(pairing, norm, out=np.zeros_like(norm), where=pairing != 0))
 
 
 def _require_convergence(certificate: Certificate, q: float) -> None:
     lost = np.abs(certificate.primal_value - certificate.dual_value)
-    relative = np.divide(
-        lost, certificate.primal_value, out=np.zeros_like(lost), where=certificate.primal_value > 0
-    )
+    norm = certificate.primal_value
+    relative = np.divide(lost, norm, out=np.zeros_like(lost), where=norm > 0)
     left = np.maximum(certificate.primal_residual, relative)
     bad = ~(left <= CONVERGED)
     if bad.any():

@@ -29,7 +29,7 @@ QUADRATIC = 1e-9
 """A Newton step this small (relative) leaves an error of its square: below rounding."""
 
 
-def solve_level(k1, k2, k3):
+def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
     """t = 1/v and y = 1 - k3 t of the optimum for moments of size one (the largest is 1 in modulus)."""
     bound = fabs(peak_bound(k1, k2, k3, 0.75, 0.25))
     reach = 1.0 / max(1.0, bound, 2.0 * fabs(k2 - k3))
@@ -45,7 +45,7 @@ def solve_level(k1, k2, k3):
     return t, y
 
 
-def root_on_side(side, reach, k1, k2, k3):
+def root_on_side(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
     """Root of the level equation with the sign `side` and |t| <= reach; t = 0 if there is none."""
     y = 1.0 - side * reach * k3
     if side * k3 > 0.9:
@@ -63,7 +63,7 @@ def root_on_side(side, reach, k1, k2, k3):
     return t, 1.0 - k3 * t
 
 
-def narrow_root(side, reach, k1, k2, k3):
+def narrow_root(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
     """The same on the side of the pole at y = 0, in y: exact for a flip of any width."""
     e2 = k2 - k3
     w = k1 - k3 - 1.5 * e2
@@ -95,7 +95,7 @@ def narrow_root(side, reach, k1, k2, k3):
     return t, y
 
 
-def place_switches(d, m, edge):
+def place_switches(d: float, m: float, edge: float) -> tuple[float, ...]:
     """a and b in [0, 1] from their difference, which is exact and is kept, and their sum.
 
     Pieces shorter than the share `edge` are left out.
@@ -110,7 +110,7 @@ def place_switches(d, m, edge):
     return a, b
 
 
-def solve_peak(c1, c2, c3, T):
+def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Signed level v, switches a >= b (shares of T to go; 1 or 0 if none), scaled residual, bound."""
     k1, k2, k3 = 6.0 * c1 / T / T / T, 2.0 * c2 / T / T, c3 / T
     scale = max(fabs(k1), fabs(k2), fabs(k3))

@@ -1,9 +1,9 @@
 """Integrals over [0, 1] of functions of a quadratic: any power of it, zeros and narrow peaks included.
 
 A quadratic is cut at its zeros and its vertex. On each piece it is monotone and of one sign, so that its
-Bernstein form has coefficients of one sign and loses nothing next to a zero; what is singular or steep sits
-at the ends of pieces, where both rules crowd their nodes. The solvers use one rule, their certificates the
-other.
+Bernstein form has coefficients of one sign and loses no digits next to a zero. Singularities and steep
+places lie at the ends of pieces, where both rules crowd their nodes. The solvers use the logistic rule,
+their certificates the graded one.
 """
 
 from collections.abc import Callable
@@ -33,8 +33,8 @@ class Rule(NamedTuple):
 def logistic_rule() -> Rule:
     """Trapezoidal rule in x for the node 1/(1 + exp(-x)).
 
-    A zero at any distance beyond an end of the piece stays pi, a peak of any width at an end pi/4 away from
-    the real axis of x, so that one step gives 15 digits for them all.
+    In the plane of x a zero at any distance beyond an end of the piece keeps the distance pi from the real
+    axis, and a peak of any width at an end the distance pi/4, so that one step gives 15 digits for all.
     """
     step, reach = 0.14, 264
     x = step * np.arange(-reach, reach + 1)
@@ -62,8 +62,8 @@ class Quadratic:
     coefficients : (..., 3) array
         h0, h1, h2.
     discriminant : (...) array
-        h1^2 - 4 h0 h2, carried beside the coefficients: next to a double zero their rounding does not
-        determine it, and the zeros lie at its square root.
+        h1^2 - 4 h0 h2, kept beside the coefficients: next to a double zero the rounded coefficients do not
+        determine it, and the distance of the zeros is its square root over h2.
     """
 
     coefficients: Array
@@ -76,7 +76,7 @@ class Quadratic:
         return cls(h, h[..., 1] ** 2 - 4 * h[..., 0] * h[..., 2])
 
     def plus(self, change: Array) -> "Quadratic":
-        """Sum with the quadratic of these coefficients; the discriminant changes by their rounding only."""
+        """Sum with the quadratic of these coefficients; the discriminant is updated, not computed anew."""
         (h0, h1, h2), (d0, d1, d2) = np.moveaxis(self.coefficients, -1, 0), np.moveaxis(change, -1, 0)
         linear = 2 * (h1 * d1 - 2 * (h0 * d2 + h2 * d0))
         return Quadratic(self.coefficients + change, self.discriminant + linear + (d1**2 - 4 * d0 * d2))
@@ -94,10 +94,7 @@ class Quadratic:
 
     @cached_property
     def zeros(self) -> Array:
-        """Zeros within (0, 1) at which h changes sign, (..., 2): before the vertex, after it.
-
-        nan where there is none.
-        """
+        """Zeros within (0, 1) at which h changes sign, before and after the vertex, (..., 2); else nan."""
         h0, h1, h2 = np.moveaxis(self.coefficients, -1, 0)
         with np.errstate(all="ignore"):
             larger = -(h1 + np.where(h1 < 0, -1, 1) * self._root) / 2
@@ -115,7 +112,7 @@ class Quadratic:
 
     @cached_property
     def _vertex(self) -> Array:
-        """Where h' vanishes, moved to the nearer end if that is outside."""
+        """The zero of h', moved to the nearer end of [0, 1] if it lies outside."""
         _, h1, h2 = np.moveaxis(self.coefficients, -1, 0)
         with np.errstate(all="ignore"):
             vertex = np.where(h2 == 0, 1.0, -h1 / (2 * h2))
@@ -123,7 +120,10 @@ class Quadratic:
 
     @cached_property
     def cuts(self) -> tuple[Array, Array, Array]:
-        """Positions 0, zero, vertex, zero, 1, and h and h' there, each (..., 5); absent ones at an end."""
+        """Positions 0, zero, vertex, zero, 1, and h and h' there, each (..., 5).
+
+        A zero or a vertex that is not inside is put at an end.
+        """
         h0, h1, h2 = np.moveaxis(self.coefficients, -1, 0)
         left, right = np.moveaxis(self.zeros, -1, 0)
         vertex, end, end_slope = self._vertex, h0 + h1 + h2, h1 + 2 * h2
@@ -194,7 +194,8 @@ def basis_at(s: Array) -> Array:
 
 def first_moments(basis: Array, weights: Array) -> Array:
     """Sums of weights times basis, (n, 3)."""
-    return np.einsum("nk,nki->ni", weights.reshape(len(basis), -1), basis)
+    sums: Array = np.einsum("nk,nki->ni", weights.reshape(len(basis), -1), basis)
+    return sums
 
 
 def second_moments(basis: Array, weights: Array) -> Array:
@@ -204,7 +205,7 @@ def second_moments(basis: Array, weights: Array) -> Array:
 
 def blend(bernstein: Array, share: Array, remaining: Array) -> Array:
     """Value of a Bernstein form (..., 3) at a share of its piece."""
-    first, middle, last = np.moveaxis(bernstein, -1, 0)
+    first, middle, last = bernstein[..., 0], bernstein[..., 1], bernstein[..., 2]
     return first * remaining**2 + 2 * middle * (remaining * share) + last * share**2
 
 

@@ -10,7 +10,7 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import (
     Programme,
     breakpoints,
-    normalised,
+    normalise,
     response,
     truncated_power,
 )
@@ -55,7 +55,7 @@ class BangBang(Programme):
     def multipliers(self) -> Array:
         """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
         start, end = self._interval
-        return normalised(switching_quadratic(self.shares, end - start), self._moments)
+        return normalise(switching_quadratic(self.shares, end - start), self._moments)
 
     @cached_property
     def switch_condition(self) -> Array:

@@ -1,41 +1,57 @@
-"""The disturbance f(t) and its integrals g2 = int f and g1 = int (t - tau) f, (1.8)."""
+"""The disturbance f(t) and its integrals g2 = int f and g1 = int (t - tau) f of (1.8)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
 from pontryagin.validation import finite
 
 DEGREE = 24
+"""Degree of the Chebyshev series on each panel."""
+
 PANELS = 4096
-
-Integrals = Callable[[NDArray, NDArray], NDArray]
-"""(t, t0), broadcast -> (..., 2): g1 and g2 from t0 to t."""
+"""Most panels into which an interval is cut."""
 
 
-def integrals(disturbance: object, start: NDArray, end: NDArray) -> Integrals:
+class Expression(Protocol):
+    """A SymPy expression."""
+
+    @property
+    def free_symbols(self) -> Any:
+        """The symbols that it holds."""
+
+
+Disturbance = ArrayLike | Callable[[Any], Any] | Expression | None
+"""What may be given as the disturbance f: nothing, numbers, a function of time, or an expression in t."""
+
+Integrals = Callable[[Array, Array], Array]
+"""From the times (t, t0), broadcast, to g1 and g2 from t0 to t, (..., 2)."""
+
+
+def integrals(disturbance: Disturbance, start: Array, end: Array) -> Integrals:
     """The integrals (g1, g2) of a disturbance given as None, a number, a callable or a SymPy expression.
 
     Parameters
     ----------
     disturbance : None, number or array (...), callable f(t), or sympy.Expr in `t`
-        Acceleration, in units of the third state.
+        Acceleration, in the units of the third state.
     start, end : (...) arrays
-        Intervals on which it acts.
+        The intervals of time on which it is integrated.
 
     Raises
     ------
     TypeError, ValueError
         If it is of another kind, has a wrong shape, an unknown symbol or a value that is not finite.
     pontryagin.NotConverged
-        If it is not resolved to 1e-13 (a singularity, or more than 4096 panels).
+        If it is not resolved to 1e-13, because of a singularity or after 4096 panels.
     """
     if disturbance is None or np.size(start) == 0:
         return lambda t, t0: np.zeros((*np.broadcast_shapes(np.shape(t), np.shape(t0)), 2))
@@ -47,11 +63,11 @@ def integrals(disturbance: object, start: NDArray, end: NDArray) -> Integrals:
         _ = panels.series
         return panels.integrals
     takes = "None, a number, a callable f(t) or an expression in t"
-    return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
+    return _constant(finite("disturbance", cast(ArrayLike, disturbance), takes))
 
 
-def _constant(value: NDArray) -> Integrals:
-    def call(t: NDArray, t0: NDArray) -> NDArray:
+def _constant(value: Array) -> Integrals:
+    def call(t: Array, t0: Array) -> Array:
         elapsed = np.asarray(t - t0)
         level = value[(..., *[None] * (elapsed.ndim - value.ndim))] if value.ndim else value
         return np.stack([level * elapsed**2 / 2, level * elapsed], axis=-1)
@@ -59,18 +75,21 @@ def _constant(value: NDArray) -> Integrals:
     return call
 
 
-def _symbolic(expression, low: float, high: float) -> Integrals:
+def _symbolic(expression: Any, low: float, high: float) -> Integrals:
     """Antiderivatives by SymPy, where it finds them and they agree with quadrature; else quadrature."""
     import sympy as sp
 
     from pontryagin.numerics import compile as compiler
 
     if not isinstance(expression, sp.Expr) or expression.is_real is False:
-        raise TypeError(f"disturbance must be a real expression in t, got {expression}")
+        raise ArgumentTypeError(
+            f"disturbance must be a real expression in t, got {expression}", "disturbance"
+        )
     foreign = {str(symbol) for symbol in expression.free_symbols} - {"t"}
     if foreign:
-        raise ValueError(
-            f"disturbance must be an expression in t alone, got symbols {', '.join(sorted(foreign))}"
+        raise ArgumentValueError(
+            f"disturbance must be an expression in t alone, got symbols {', '.join(sorted(foreign))}",
+            "disturbance",
         )
     t = sp.Symbol("t", real=True)
     expression = expression.subs(dict.fromkeys(expression.free_symbols, t))
@@ -78,8 +97,8 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
         value = compiler.function("disturbance", [t], {"f": expression})
         value((low + high) / 2)
     except (NameError, KeyError):
-        raise ValueError(
-            f"disturbance must be an expression that NumPy evaluates, got {expression}"
+        raise ArgumentValueError(
+            f"disturbance must be an expression that NumPy evaluates, got {expression}", "disturbance"
         ) from None
     panels = Panels(lambda time: value(time)[0], low, high)
     antiderivatives = _antiderivatives(expression)
@@ -89,7 +108,7 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
         "primitives", [t], dict(zip(("first", "second"), antiderivatives, strict=True))
     )
 
-    def exact(time: NDArray, t0: NDArray) -> NDArray:
+    def exact(time: Array, t0: Array) -> Array:
         with np.errstate(all="ignore"):
             first, second = primitive(time)
             first0, second0 = primitive(t0)
@@ -100,13 +119,14 @@ def _symbolic(expression, low: float, high: float) -> Integrals:
     scale = np.abs(by_quadrature).max() + np.finfo(float).tiny
     try:
         difference = np.abs(exact(probe, np.asarray(low)) - by_quadrature).max()
-    except (NameError, TypeError):  # a special function that NumPy does not have, or complex values
+    except (NameError, TypeError):  # NumPy lacks a special function, or the values are complex.
         return panels.integrals
     return exact if difference <= 1e-11 * scale else panels.integrals
 
 
 @cache
-def _antiderivatives(expression) -> tuple | None:
+def _antiderivatives(expression: Any) -> tuple[Any, Any] | None:
+    """First and second antiderivative of a real expression, or None where SymPy does not find them."""
     import sympy as sp
 
     (t,) = expression.free_symbols or {sp.Symbol("t", real=True)}
@@ -124,16 +144,31 @@ def _real(value: object) -> Array:
     return array.astype(float)
 
 
+@cache
+def chebyshev_fit(degree: int) -> tuple[Array, Array]:
+    """Chebyshev nodes in [-1, 1], and the matrix from values there to the coefficients of the series."""
+    nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+    return nodes, np.linalg.inv(chebyshev.chebvander(nodes, degree))
+
+
 @dataclass(frozen=True)
 class Panels:
-    """A function of time as Chebyshev series on panels, halved until each is resolved to rounding."""
+    """A function of time as Chebyshev series on panels, halved until each is resolved to rounding.
 
-    function: Callable
+    Attributes
+    ----------
+    function : callable f(t)
+        It may have an attribute ``edges``: the times at which it is not smooth.
+    low, high : float
+        Ends of the interval.
+    """
+
+    function: Callable[[Any], Any]
     low: float
     high: float
 
-    def values(self, t: NDArray) -> NDArray:
-        """f at the times (k,), called with an array if it takes one and with numbers if not."""
+    def values(self, t: Array) -> Array:
+        """f at the times (k,), by one call with an array if f takes it, else by a call for each time."""
         try:
             result = _real(self.function(t))
         except (TypeError, ValueError):
@@ -141,39 +176,43 @@ class Panels:
         if result.shape == ():
             result = np.asarray([self._at(float(time)) for time in t])
         if result.shape != t.shape:
-            raise ValueError(
+            raise ArgumentValueError(
                 f"disturbance must return one number for each time: got shape {result.shape} "
-                f"for times {t.shape}"
+                f"for times {t.shape}",
+                "disturbance",
             )
         if not np.isfinite(result).all():
             k = int(np.argmin(np.isfinite(result)))
-            raise ValueError(f"disturbance must be finite: f({t[k]:.6g}) = {result[k]}")
+            raise ArgumentValueError(
+                f"disturbance must be finite: f({t[k]:.6g}) = {result[k]}", "disturbance"
+            )
         return result
 
     def _at(self, time: float) -> float:
         try:
             value = _real(self.function(time))
         except TypeError as error:
-            raise TypeError(
-                f"disturbance must be a function f(t) that takes a time and returns a number: {error}"
+            raise ArgumentTypeError(
+                f"disturbance must be a function f(t) that takes a time and returns a number: {error}",
+                "disturbance",
             ) from error
         if value.shape != ():
-            raise ValueError(
-                f"disturbance must return one number for each time: got shape {value.shape} for a number"
+            raise ArgumentValueError(
+                f"disturbance must return one number for each time: got shape {value.shape} for a number",
+                "disturbance",
             )
         return float(value)
 
     def _start(self) -> list[tuple[float, float]]:
-        """First panels: between the function's own ``edges`` where it tells them, last one first."""
+        """The first panels, between the ``edges`` of the function where it has them; the last one first."""
         inner = [t for t in getattr(self.function, "edges", ()) if self.low < t < self.high]
         edges = [self.low, *sorted(map(float, inner)), self.high]
         return list(pairwise(edges))[::-1]
 
     @cached_property
-    def series(self) -> tuple[NDArray, NDArray, NDArray]:
-        """Edges (p+1,), and the running integrals (p+1, 2) at them, and coefficients (p, degree+1)."""
-        nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-        invert = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
+    def series(self) -> tuple[Array, Array, Array]:
+        """Edges (p+1,), the integrals from `low` to each of them (p+1, 2), and coefficients (p, degree+1)."""
+        nodes, invert = chebyshev_fit(DEGREE)
         pending, done, area = self._start(), [], 0.0
         while pending:
             low, high = pending.pop()
@@ -200,14 +239,14 @@ class Panels:
             running[i + 1] = running[i] + [running[i, 1] * width + g1, g2]
         return edges, running, coefficients
 
-    def integrals(self, t: NDArray, t0: NDArray) -> NDArray:
+    def integrals(self, t: Array, t0: Array) -> Array:
         """g1 and g2 from t0 to t, (...) -> (..., 2)."""
         end, start = self._from_low(np.asarray(t)), self._from_low(np.asarray(t0))
         between = end - start
         between[..., 0] -= start[..., 1] * (np.asarray(t) - t0)
         return between
 
-    def _from_low(self, t: NDArray) -> NDArray:
+    def _from_low(self, t: Array) -> Array:
         edges, running, coefficients = self.series
         flat = np.ravel(t)
         index = np.clip(np.searchsorted(edges, flat, side="right") - 1, 0, len(coefficients) - 1)
@@ -219,7 +258,7 @@ class Panels:
         return inside.reshape(*np.shape(t), 2)
 
 
-def _panel_integrals(coefficients: NDArray, x: NDArray, width: NDArray) -> NDArray:
+def _panel_integrals(coefficients: Array, x: Array, width: Array) -> Array:
     """g1 and g2 from the left edge of panels (p, degree+1) to the positions x in [-1, 1], (p, 2)."""
     first = chebyshev.chebint(coefficients, 1, lbnd=-1, axis=1)
     second = chebyshev.chebint(coefficients, 2, lbnd=-1, axis=1)

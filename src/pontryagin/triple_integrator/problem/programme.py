@@ -80,7 +80,7 @@ def breakpoints(events: Array) -> Array:
     return np.sort(events[np.isfinite(events)])
 
 
-def normalised(multipliers: Array, moments: Array) -> Array:
+def normalise(multipliers: Array, moments: Array) -> Array:
     """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0 and no factor can do it."""
     pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
     return np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)

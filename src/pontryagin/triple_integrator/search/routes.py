@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from types import ModuleType
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import Bounds, LinearConstraint, minimize, minimize_scalar
 
 from pontryagin.arrays import Array
@@ -180,7 +179,7 @@ def _formulas() -> ModuleType:
     return route_formulas
 
 
-def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: float) -> str:
+def _judge(zeros: Array, area: float, least: float, curvature: float, c0: float) -> str:
     """Empty if 1/|area| is the least peak and the zeros lie within [0, 1]; else why not."""
     if not np.isfinite(area) or abs(c0) < 1e-6:
         return "singular"
@@ -194,10 +193,10 @@ def _judge(zeros: NDArray, area: float, least: float, curvature: float, c0: floa
     return "boundary" if room < 1e-6 else "early"
 
 
-def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
+def _by_zeros(c: Array, route: str) -> tuple[Array, float, int]:
     """Zeros and evaluations of the two-variable minimisation (3.6)."""
 
-    def area(zeros: NDArray) -> tuple[float, NDArray]:
+    def area(zeros: Array) -> tuple[float, Array]:
         with np.errstate(all="ignore"):
             value, *slopes = (float(part) for part in _formulas().area_from_zeros()(*zeros, *c, 1.0)[:3])
         return abs(value), np.sign(value) * np.array(slopes)
@@ -218,10 +217,10 @@ def _by_zeros(c: NDArray, route: str) -> tuple[NDArray, float, int]:
     return np.asarray(found.x, dtype=float), np.nan, int(found.nfev)
 
 
-def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
+def _by_multiplier(c: Array, route: str) -> tuple[Array, float, int]:
     """Zeros, alpha_m and evaluations of the one-variable minimisation (3.15) to (3.19)."""
 
-    def area(multiplier: NDArray | float) -> NDArray:
+    def area(multiplier: Array | float) -> Array:
         with np.errstate(all="ignore"):
             t1, t2, _ = _formulas().zeros_from_multiplier()(multiplier, *c, 1.0)
             return _formulas().area_from_zeros()(t1, t2, *c, 1.0)[0]
@@ -237,7 +236,7 @@ def _by_multiplier(c: NDArray, route: str) -> tuple[NDArray, float, int]:
     return np.array([float(t1), float(t2)]), float(curvature), evaluations
 
 
-def multiplier_range(c: NDArray) -> tuple[float, float]:
+def multiplier_range(c: Array) -> tuple[float, float]:
     """All lambda~ with 0 <= t1 < t2 <= T that can be optimal, for T = 1: an interval around 0.
 
     Both conditions are concave quadratics in lambda~ that are positive at 0, over T + lambda~ c3 > 0; and
@@ -253,7 +252,7 @@ def multiplier_range(c: NDArray) -> tuple[float, float]:
     return max(x for x in limits if x < 0), min(x for x in limits if x > 0)
 
 
-def _least_on_a_grid(value: Callable[[NDArray], NDArray], low: float, high: float) -> tuple[float, int]:
+def _least_on_a_grid(value: Callable[[Array], Array], low: float, high: float) -> tuple[float, int]:
     """Place of the least value on [low, high], refined from the three lowest dips of a grid."""
     x = np.linspace(low, high, GRID)
     y = value(x)
