@@ -6,8 +6,6 @@ trajectories to their ends at once, with their derivatives in the initial state 
 """
 
 import functools
-import importlib.util
-import sys
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -16,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.packages import installed
 
 Flow = Callable[..., Array]
 Ends = Callable[..., tuple[Array, Array]]
@@ -30,9 +29,8 @@ SMALL = 200
 
 @functools.cache
 def has_heyoka() -> bool:
-    """Whether heyoka can be imported; said once if it cannot."""
-    if importlib.util.find_spec("heyoka") is None:
-        print("pontryagin: heyoka is not installed; flows use SciPy's DOP853, slower", file=sys.stderr)
+    """Whether heyoka can be imported; one warning in a process where it cannot."""
+    if not installed("heyoka", "flows use SciPy's DOP853, slower"):
         return False
     import heyoka
 

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.packages import installed
 
 COMPILE_FROM = 512
 """Stacks at least this large are worth the half second that Numba takes to load."""
@@ -95,13 +96,9 @@ def batched(kernel: Callable[..., tuple], outputs: int) -> Batched:
 _LOADED: dict[Callable, types.ModuleType] = {}
 
 
-@functools.cache
 def has_numba() -> bool:
-    """Whether Numba can be imported; said once if it cannot."""
-    if importlib.util.find_spec("numba") is None:
-        print("pontryagin: numba is not installed; large stacks run as plain Python, slowly", file=sys.stderr)
-        return False
-    return True
+    """Whether Numba can be imported; one warning in a process where it cannot."""
+    return installed("numba", "large stacks run as plain Python, slowly")
 
 
 def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> types.ModuleType:

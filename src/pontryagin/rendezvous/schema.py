@@ -28,12 +28,10 @@ from typing import Any
 
 from pontryagin.io import formula
 from pontryagin.rendezvous.problem.cases import chaser_on
-from pontryagin.rendezvous.problem.rendezvous import (
-    Chaser,
-    Orbit,
-    Rendezvous,
-    number,
-)
+from pontryagin.rendezvous.problem.chaser import Chaser
+from pontryagin.rendezvous.problem.checks import number
+from pontryagin.rendezvous.problem.orbit import Orbit
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 Keys = tuple[str, ...]
 
@@ -116,7 +114,7 @@ def _chaser(given: Any, gravity: float) -> Chaser:
         return Chaser(**numbers, attitude=attitude)
 
 
-def _orbit(name: str, given: Any, why: str = "the target goes round") -> Orbit:
+def _orbit(name: str, given: Any, why: str = "the target moves on an ellipse") -> Orbit:
     turned = isinstance(given, Mapping) and bool(set(given) & set(ANGLES[3:]))
     keys = ANGLES if turned else ORBIT
     values = _object(name, given, keys)

@@ -15,10 +15,8 @@ from pontryagin.rendezvous.false_meetings.rotated_target import (
     refined,
     towards_turned,
 )
-from pontryagin.rendezvous.problem.rendezvous import (
-    Rendezvous,
-    number,
-)
+from pontryagin.rendezvous.problem.checks import number
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import about_third, product, rotated
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.homotopy import (

@@ -8,11 +8,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from pontryagin.rendezvous.problem.rendezvous import (
-    Chaser,
-    Orbit,
-    Rendezvous,
-)
+from pontryagin.rendezvous.problem.chaser import Chaser
+from pontryagin.rendezvous.problem.orbit import Orbit
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.quaternions import about_third, product
 
 ONE = (1.0, 0.0, 0.0, 0.0)

@@ -1,0 +1,27 @@
+"""Optional compiled packages: whether they are installed, with one warning where one is not."""
+
+import functools
+import importlib.util
+import warnings
+
+
+@functools.cache
+def installed(package: str, consequence: str) -> bool:
+    """Whether a package can be imported; if not, warn once in a process what follows from that.
+
+    Parameters
+    ----------
+    package : str
+        Its name.
+    consequence : str
+        What the user notices without it, such as "large stacks run as plain Python, slowly".
+
+    Examples
+    --------
+    >>> installed("numpy", "nothing runs")
+    True
+    """
+    if importlib.util.find_spec(package) is not None:
+        return True
+    warnings.warn(f"{package} is not installed; {consequence}", UserWarning, stacklevel=3)
+    return False
