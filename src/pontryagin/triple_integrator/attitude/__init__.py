@@ -4,7 +4,6 @@
 """
 
 from pontryagin.triple_integrator.attitude.fixed_axis import (
-    Programme,
     Turn,
     disturbance_of,
     impulses,
@@ -12,6 +11,7 @@ from pontryagin.triple_integrator.attitude.fixed_axis import (
     turn,
 )
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.triple_integrator.problem.programme import Programme
 
 __all__ = [
     "Commands",

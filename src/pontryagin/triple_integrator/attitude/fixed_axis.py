@@ -1,42 +1,27 @@
-"""The real turn: a rigid body about a fixed axis by a channel's programme, with the torque no channel knows.
+"""The turn of a rigid body about a fixed axis, planned by the programme of one channel.
 
-The programme moves the angle x1 about the axis e. Euler's equations with w = x2 e need the torque
-M = J e (x3 + f) + x2^2 e x (J e): what the channel commands, and a gyroscopic part across the axis that
-vanishes only where e is a principal axis. It is fed forward, or it is not and the body misses.
+The programme plans the angle x1 about the axis e. Euler's equations with w = x2 e need the torque
+M = J e (x3 + f) + x2^2 e x (J e): the channel's torque along J e, and a gyroscopic torque across the axis,
+which vanishes only where e is a principal axis and which no channel commands. With feedforward the
+actuators give it too; without, the body misses its target.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.compile import function
 from pontryagin.numerics.rotation import between, cross, quaternion, rotation_vector
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
 from pontryagin.triple_integrator.problem.disturbance import Panels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import vectors
-
-
-class Programme(Protocol):
-    """What `minimum_energy`, `minimum_peak`, `minimum_impulse`, `minimum_norm` and `minimum_time` return."""
-
-    @property
-    def maneuver(self) -> Maneuver:
-        """What was asked."""
-
-    @property
-    def breakpoints(self) -> Array:
-        """Times between which the control is smooth, (j,)."""
-
-    def control(self, t: ArrayLike) -> Array:
-        """u at the times t, (k,) -> (k,)."""
-
-    def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (k, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +38,7 @@ class Turn:
     feedforward : bool
         Whether the actuators also give the gyroscopic torque.
     motion : Motion
-        What Euler's equations make of it; its commands are the planned x1, x2, x3, integrated beside.
+        The motion by Euler's equations; its commands are the planned x1, x2, x3, integrated with it.
     """
 
     body: RigidBody
@@ -83,25 +68,26 @@ class Turn:
         return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
 
     def angle(self, t: ArrayLike) -> Array:
-        """Angle turned about the axis, rad, (k,): the share of the true attitude that is a turn about it."""
+        """Angle turned about the axis, rad, (k,): the twist of the true attitude about it."""
         turn = between(self.planned_attitude(t), self.attitude(t))
-        return self.motion.commands(t)[:, 0] + 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
+        twist: Array = 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
+        return self.motion.commands(t)[:, 0] + twist
 
     def channel_torque(self, t: ArrayLike) -> Array:
-        """J e x3: what the programme commands, (k, 3)."""
+        """J e x3, the torque that the programme commands, (k, 3)."""
         return self.motion.commands(t)[:, 2:] * (self.body.inertia @ self.axis)
 
     def gyroscopic_torque(self, t: ArrayLike) -> Array:
-        """x2^2 e x (J e): what else the planned turn needs, (k, 3)."""
+        """x2^2 e x (J e), the gyroscopic torque of the planned turn, (k, 3)."""
         return self.motion.commands(t)[:, 1:2] ** 2 * self.gyroscopic_inertia
 
     def torque(self, t: ArrayLike) -> Array:
-        """What the actuators give, (k, 3)."""
+        """Torque that the actuators give, (k, 3)."""
         channel = self.channel_torque(t)
         return channel + self.gyroscopic_torque(t) if self.feedforward else channel
 
     def torque_rate(self, t: ArrayLike) -> Array:
-        """Rate of change of `torque`, (k, 3); between impulses, which make the torque jump by J e du."""
+        """Rate of change of `torque` between impulses, (k, 3); at an impulse du it jumps by J e du."""
         x2, x3 = self.motion.commands(t)[:, 1:].T
         control = self.programme.control(t)
         channel = np.where(np.isfinite(control), control, 0.0)[:, None] * (self.body.inertia @ self.axis)
@@ -109,7 +95,8 @@ class Turn:
             return channel
         f = disturbance_of(self.programme.maneuver)
         acceleration = x3 + np.array([f(time) for time in np.atleast_1d(t)])
-        return channel + (2 * x2 * acceleration)[:, None] * self.gyroscopic_inertia
+        gyroscopic: Array = (2 * x2 * acceleration)[:, None] * self.gyroscopic_inertia
+        return channel + gyroscopic
 
     @property
     def gyroscopic_inertia(self) -> Array:
@@ -123,20 +110,21 @@ class Turn:
 
     @property
     def rate_miss(self) -> float:
-        """Size of the angular rate left over at the end."""
+        """Size of the error of the angular rate at the end."""
         return float(np.linalg.norm(self.rate_error(self.motion.edges[-1:])))
 
 
 def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bool = True) -> Turn:
-    """Turn a rigid body about a fixed axis by a programme, and integrate what it then does.
+    """Turn a rigid body about a fixed axis by a programme, and integrate its motion.
 
-    The body starts turned by x1(t0) about the axis at the rate x2(t0). A disturbance f of the manoeuvre
-    acts as the torque J e f from outside. The motion is integrated from Euler's equations and the
-    quaternion kinematics, by SciPy; the programme supplies its control and its impulses only.
+    The body starts turned by x1(t0) about the axis, with the rate x2(t0) about it. A disturbance f of the
+    manoeuvre acts as the external torque J e f. SciPy integrates Euler's equations and the kinematics of
+    the quaternion; only the control and the impulses are taken from the programme.
 
     Parameters
     ----------
     body : RigidBody
+        The body that turns.
     axis : (3,) array_like
         Direction of the axis, not zero.
     programme : solution of one manoeuvre
@@ -180,7 +168,8 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     f = disturbance_of(maneuver)
 
     def torque(t: float, q: Array, w: Array, planned: Array) -> Array:
-        return (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
+        total: Array = (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
+        return total
 
     interval = float(maneuver.t0), float(maneuver.tf)
     motion = simulate(body, interval, quaternion(start * e), rate * e, commands, torque)
@@ -188,15 +177,23 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
 
 
 def single(programme: Programme) -> Maneuver:
-    """The manoeuvre of a programme, refused if it is a stack."""
+    """The manoeuvre of a programme.
+
+    Raises
+    ------
+    ValueError
+        If it is a stack of manoeuvres.
+    """
     maneuver = programme.maneuver
     if maneuver.shape != ():
-        raise ValueError(f"programme must be that of one manoeuvre, got a stack of shape {maneuver.shape}")
+        raise ArgumentValueError(
+            f"programme must be that of one manoeuvre, got a stack of shape {maneuver.shape}", "programme"
+        )
     return maneuver
 
 
 def impulses(programme: Any) -> list[tuple[float, float]]:
-    """Impulses of the control, (time, jump of x3); none unless the programme has them."""
+    """Impulses of the control as pairs (time, jump of x3); an empty list for other programmes."""
     if not hasattr(programme, "impulses"):
         return []
     pairs = zip(programme.impulse_times.tolist(), programme.impulses.tolist(), strict=True)
@@ -207,7 +204,9 @@ def _unit(axis: ArrayLike) -> Array:
     direction = vectors("axis", axis, 3)
     size = np.linalg.norm(direction)
     if direction.shape != (3,) or not size > 0:
-        raise ValueError(f"axis must be an array (3,) other than zero, got {direction.tolist()}")
+        raise ArgumentValueError(
+            f"axis must be an array (3,) other than zero, got {direction.tolist()}", "axis"
+        )
     return direction / size
 
 

@@ -1,7 +1,7 @@
-"""A rigid body under torque: Euler's equations and its attitude, integrated by SciPy, by no channel formula.
+"""A rigid body under torque: Euler's equations and its attitude, integrated by SciPy.
 
-Attitudes are unit quaternions, scalar first, that turn body axes into inertial axes; angular rates and
-torques are in body axes.
+No formula of a channel is used. Attitudes are unit quaternions, scalar first, that turn body axes into
+inertial axes; angular rates and torques are in body axes.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.rotation import attitude_rate, cross
 from pontryagin.validation import finite, vectors
 
@@ -23,13 +23,16 @@ TOLERANCE = 1e-13
 """Local error of the integration, relative and in scaled units."""
 
 INSET = 1e-13
-"""Share of a smooth stretch by which the control is read off its ends, so that it is read inside."""
+"""Distance from the ends of a smooth stretch, as a share of it, within which the control is not read."""
 
 CommandRate = Callable[[float, Array], ArrayLike]
+"""From (t, commands) to the rate of change of the commands (n,)."""
+
 Torque = Callable[[float, Array, Array, Array], Array]
+"""From (t, attitude, rate, commands) to the torque on the body in body axes, (3,)."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class RigidBody:
     """A rigid spacecraft.
 
@@ -37,12 +40,13 @@ class RigidBody:
     ----------
     inertia : (3, 3) array_like
         Inertia tensor J about the centre of mass in body axes: symmetric, positive definite, no principal
-        moment greater than the sum of the other two. Only ratios matter to the motion when torque scales too.
+        moment greater than the sum of the other two. The motion is the same if torques and J are both
+        multiplied by one number.
 
     Raises
     ------
     TypeError, ValueError
-        If `inertia` is anything else.
+        If `inertia` does not hold numbers, or is not the inertia tensor of a body.
 
     Examples
     --------
@@ -52,24 +56,27 @@ class RigidBody:
 
     inertia: Array
 
-    def __post_init__(self) -> None:
-        inertia = finite("inertia", self.inertia, "an array (3, 3)")
-        if inertia.shape != (3, 3):
-            raise ValueError(f"inertia must be an array (3, 3), got shape {inertia.shape}")
-        size = np.abs(inertia).max()
-        if np.abs(inertia - inertia.T).max() > 1e-12 * size:
-            raise ValueError(f"inertia must be symmetric, got {inertia.tolist()}")
-        inertia = (inertia + inertia.T) / 2
-        moments = np.linalg.eigvalsh(inertia)
+    def __init__(self, inertia: ArrayLike) -> None:
+        tensor = finite("inertia", inertia, "an array (3, 3)")
+        if tensor.shape != (3, 3):
+            raise ArgumentValueError(f"inertia must be an array (3, 3), got shape {tensor.shape}", "inertia")
+        size = np.abs(tensor).max()
+        if np.abs(tensor - tensor.T).max() > 1e-12 * size:
+            raise ArgumentValueError(f"inertia must be symmetric, got {tensor.tolist()}", "inertia")
+        tensor = (tensor + tensor.T) / 2
+        moments = np.linalg.eigvalsh(tensor)
         listed = ", ".join(f"{moment:.6g}" for moment in moments)
         if not moments[0] > 1e-12 * size:
-            raise ValueError(f"inertia must be positive definite, got principal moments {listed}")
-        if moments[2] > (moments[0] + moments[1]) * (1 + 1e-12):
-            raise ValueError(
-                "inertia must be that of a body: no principal moment exceeds the sum of the other two, "
-                f"got principal moments {listed}"
+            raise ArgumentValueError(
+                f"inertia must be positive definite, got principal moments {listed}", "inertia"
             )
-        object.__setattr__(self, "inertia", inertia)
+        if moments[2] > (moments[0] + moments[1]) * (1 + 1e-12):
+            raise ArgumentValueError(
+                "inertia must be that of a body: no principal moment exceeds the sum of the other two, "
+                f"got principal moments {listed}",
+                "inertia",
+            )
+        object.__setattr__(self, "inertia", tensor)
 
     @cached_property
     def inverse(self) -> Array:
@@ -88,7 +95,9 @@ class RigidBody:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion of the body, sampled on demand; commands jump at impulses and are continuous from the right.
+    """A motion of the body, sampled on demand.
+
+    The commands jump at impulses and are continuous from the right.
 
     Attributes
     ----------
@@ -110,8 +119,8 @@ class Motion:
         time = np.atleast_1d(finite("t", t, "a number or an array (k,) of times"))
         first, last = self.edges[0], self.edges[-1]
         if time.ndim != 1 or np.any(time < first) or np.any(time > last):
-            raise ValueError(
-                f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}"
+            raise ArgumentValueError(
+                f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}", "t"
             )
         index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.stretches) - 1)
         result = np.empty((time.size, self.start.size))
@@ -130,13 +139,13 @@ class Motion:
         return self.at(t)[:, 4:7]
 
     def commands(self, t: ArrayLike) -> Array:
-        """What the actuators were told, (k,) -> (k, n)."""
+        """Commands to the actuators at the times t, (k,) -> (k, n)."""
         return self.at(t)[:, 7:]
 
 
 @dataclass(frozen=True, eq=False)
 class Commands:
-    """What drives the actuators: n numbers z with z' = `rate`(t, z), smooth but for the events.
+    """Commands to the actuators: n numbers z with z' = `rate`(t, z), smooth except at the events.
 
     Attributes
     ----------
@@ -144,7 +153,7 @@ class Commands:
         z at the start.
     rate : function (t, z) -> (n,)
     scales : (n,) array
-        Size of z at which an error of 1 would be one: sets the integrator's absolute tolerance.
+        Typical sizes of z, by which the integrator's absolute tolerance is multiplied.
     breakpoints : sequence of times
         Where the rate is not smooth.
     impulses : sequence of (time, jump (n,))
@@ -166,7 +175,7 @@ def simulate(
     commands: Commands,
     torque: Torque,
 ) -> Motion:
-    """Integrate Euler's equations and q' = q w / 2 with SciPy's DOP853, anew on each smooth stretch.
+    """Integrate Euler's equations and q' = q w / 2 by SciPy's DOP853, restarted on each smooth stretch.
 
     Parameters
     ----------
@@ -175,7 +184,7 @@ def simulate(
     attitude, rate : (4,), (3,) array_like
         Quaternion and angular rate at the start.
     commands : Commands
-        Integrated beside the body.
+        Integrated together with the motion.
     torque : function (t, attitude, rate, commands) -> (3,)
         All torque on the body, in body axes.
 
@@ -186,7 +195,7 @@ def simulate(
     Raises
     ------
     pontryagin.NotConverged
-        If the integrator gives up.
+        If the integrator stops before the end.
     """
     first, last = interval
     quaternion, spin = vectors("attitude", attitude, 4), vectors("rate", rate, 3)
@@ -220,7 +229,7 @@ def _after_impulses(state: Array, time: float, commands: Commands) -> Array:
 
 def _right_hand_side(
     body: RigidBody, command_rate: CommandRate, torque: Torque, a: float, b: float
-) -> Callable:
+) -> Callable[[float, Array], Array]:
     inset = INSET * (b - a)
 
     def right_hand_side(t: float, y: Array) -> Array:

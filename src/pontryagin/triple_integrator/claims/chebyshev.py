@@ -1,5 +1,7 @@
 """Section 4 up to the extremes of h0: Chebyshev's polynomial as the minimal element, (4.1) to (4.6)."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -200,7 +202,7 @@ def matching_system() -> Evidence:
         c1 * l1 + c2 * l2 + c3 * l3 - 1,
     ]
 
-    def derived() -> Sides:
+    def derived() -> list[Any]:
         # A quadratic equals rho~ T_2 when it does at three instants.
         gap = chebyshev.dual_in_time() - signed_norm * chebyshev.chebyshev_in_time()
         return [*(gap.subs(tau, instant) for instant in (0, T / 2, T)), (multipliers.T * c)[0] - 1]

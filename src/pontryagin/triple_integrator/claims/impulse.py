@@ -1,5 +1,7 @@
 """Section 4, (4.7) to (4.10): pulses, impulses and their amplitudes."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -242,7 +244,7 @@ def system_for_the_impulses() -> Evidence:
         a0 - am + aT - wanted[2],
     ]
 
-    def derived() -> Sides:
+    def derived() -> list[Any]:
         reached = three_impulses((a0, -am, aT), T)
         return [x - w for x, w in zip(reached, wanted, strict=True)]
 

@@ -1,6 +1,7 @@
 """Section 3, (3.5) to (3.7): a dual function given by its two zeros."""
 
 import itertools
+from typing import Any
 
 import sympy as sp
 
@@ -79,7 +80,7 @@ def system_for_the_multipliers() -> Evidence:
         c1 * l1 + c2 * l2 + c3 * l3 - 1,
     ]
 
-    def derived() -> Sides:
+    def derived() -> list[Any]:
         # A quadratic with these zeros is a multiple of (tau - t1)(tau - t2).
         height = sp.Symbol("k")
         matching = sp.Poly(

@@ -1,7 +1,7 @@
-"""One body driven by three channels: phi'' = m + f exactly, and the f(t) that a motion holds for each.
+"""One body driven by three channels: phi'' = m + f exactly, and f(t) of each channel along a motion.
 
 A channel is a component of the rotation vector phi; its control acceleration is a component of m, with the
-torque M = J m. f(phi, phi', m) is then all that Euler's equations and the kinematics add.
+torque M = J m. The cross-coupling f(phi, phi', m) is all that Euler's equations and the kinematics add.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,16 +22,18 @@ from pontryagin.numerics.rotation import (
     vector_acceleration_drift,
     vector_rate_matrix,
 )
-from pontryagin.triple_integrator.attitude.fixed_axis import Programme, disturbance_of, impulses
+from pontryagin.triple_integrator.attitude.fixed_axis import disturbance_of, impulses
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.triple_integrator.problem.disturbance import chebyshev_fit
+from pontryagin.triple_integrator.problem.programme import Programme
 
 DEGREE = 40
-"""Of the Chebyshev series that holds f on a smooth stretch of the motion."""
+"""Degree of the Chebyshev series of f on each smooth stretch of the motion."""
 
 
 @dataclass(frozen=True, eq=False)
 class Coupling:
-    """f(t) of one channel, continuous from the right.
+    """The cross-coupling f(t) of one channel, continuous from the right.
 
     Attributes
     ----------
@@ -55,15 +57,16 @@ class Coupling:
 
 @dataclass(frozen=True, eq=False)
 class Channels:
-    """The body under three programmes: channels S that are programmed, channels G whose motion is given.
+    """The body under three programmes: the channels S are programmed, the motion of the channels G is given.
 
     Attributes
     ----------
     body : RigidBody
         The body that turns.
     programmes : three solutions
+        Of the channels, in order.
     programmed : tuple of int
-        S; to the others' motion the control acceleration is found that it takes.
+        S. The control acceleration of the others, G, is the one that their given motion requires.
     """
 
     body: RigidBody
@@ -72,18 +75,18 @@ class Channels:
 
     @property
     def given(self) -> list[int]:
-        """G."""
+        """The channels G whose motion is given."""
         return [i for i in range(3) if i not in self.programmed]
 
     @property
     def ends(self) -> Array:
-        """Both ends of the channels, (2, 3, 3)."""
+        """States of the three channels at the start and at the end, (2, 3, 3)."""
         maneuvers = [programme.maneuver for programme in self.programmes]
         return np.array([[m.x0 for m in maneuvers], [m.xf for m in maneuvers]])
 
     @property
     def interval(self) -> tuple[float, float]:
-        """t0 and tf."""
+        """Start t0 and end tf."""
         maneuver = self.programmes[0].maneuver
         return float(maneuver.t0), float(maneuver.tf)
 
@@ -94,23 +97,22 @@ class Channels:
     def drift(self, phi: Array, w: Array) -> Array:
         """n of phi'' = B^-1 m + n, (..., 3)."""
         free = self.body.acceleration(w, np.zeros(3))
-        kinematic = vector_acceleration_drift(phi, w)
-        return kinematic + np.einsum("...ij,...j->...i", vector_rate_matrix(phi), free)
+        return vector_acceleration_drift(phi, w) + _applied(vector_rate_matrix(phi), free)
 
     def coupling(self, phi: Array, w: Array, m: Array) -> Array:
         """f = phi'' - m, (..., 3)."""
-        return np.einsum("...ij,...j->...i", vector_rate_matrix(phi), m) - m + self.drift(phi, w)
+        return _applied(vector_rate_matrix(phi), m) - m + self.drift(phi, w)
 
     def control_acceleration(self, t: Array, phi: Array, w: Array, commands: Array) -> Array:
-        """m (k, 3) from that of S: channels G take what their given phi'' asks."""
+        """m of all channels from that of S, (k, 3); that of G makes their phi'' the given one."""
         if not self.given:
             return commands
         m = np.empty(phi.shape)
         m[:, self.programmed] = commands
         matrix = vector_rate_matrix(phi)[:, self.given]
-        asked = self._given_acceleration(t) - self.drift(phi, w)[:, self.given]
-        asked -= np.einsum("kij,kj->ki", matrix[:, :, self.programmed], commands)
-        m[:, self.given] = np.linalg.solve(matrix[:, :, self.given], asked[..., None])[..., 0]
+        required = self._given_acceleration(t) - self.drift(phi, w)[:, self.given]
+        required -= _applied(matrix[:, :, self.programmed], commands)
+        m[:, self.given] = np.linalg.solve(matrix[:, :, self.given], required[..., None])[..., 0]
         return m
 
     def _given_acceleration(self, t: Array) -> Array:
@@ -121,7 +123,7 @@ class Channels:
         return np.stack(columns, axis=-1)
 
     def move(self) -> Motion:
-        """The motion that the full equations make of the programmes."""
+        """The motion under the programmes by the full equations, from the start to the end."""
         start, (first, last) = self.ends[0], self.interval
         phi = start[:, 0]
         commands = Commands(
@@ -155,20 +157,24 @@ class Channels:
         return float(max(np.linalg.norm(left), (last - first) * np.linalg.norm(rate_left)))
 
     def couplings_along(self, motion: Motion, miss: float) -> list[Coupling | None]:
-        """f of the programmed channels along a motion."""
-        nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+        """f of the programmed channels along a motion with the given miss; None for the other channels."""
+        nodes, fit = chebyshev_fit(DEGREE)
         low, high = motion.edges[:-1, None], motion.edges[1:, None]
         t = ((high + low) / 2 + (high - low) / 2 * nodes).ravel()
         phi, w = rotation_vector(motion.attitude(t)), motion.rate(t)
         if np.linalg.norm(phi, axis=-1).max() > 0.99 * FULL_TURN:
-            raise NotConverged("the motion came to a full turn, where rotation vectors end", miss)
+            raise NotConverged("the motion came to a full turn, where rotation vectors are singular", miss)
         m = self.control_acceleration(t, phi, w, motion.commands(t))
         f = self.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
-        fit = np.linalg.inv(chebyshev.chebvander(nodes, DEGREE))
         series = np.einsum("dn,pnc->cpd", fit, f)
         return [Coupling(motion.edges, series[i]) if i in self.programmed else None for i in range(3)]
 
 
+def _applied(matrix: Array, vector: Array) -> Array:
+    """Matrices (..., i, j) times vectors (..., j)."""
+    return np.asarray(np.einsum("...ij,...j->...i", matrix, vector))
+
+
 def body_rate(ends: Array) -> Array:
-    """w = B phi' of channels with states (3, 3)."""
+    """Angular rate w = B phi' of channels with the states (3, 3)."""
     return np.asarray(np.linalg.solve(vector_rate_matrix(ends[:, 0]), ends[:, 1]), dtype=float)

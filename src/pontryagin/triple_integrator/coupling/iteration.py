@@ -1,15 +1,14 @@
-"""Three channels of one body: the cross-coupling f(t) taken from the motion, iterated to the target attitude.
+"""Three channels of one body: the iteration that takes f(t) from the motion until the target is reached.
 
-A channel is a component of the rotation vector phi; its control acceleration is a component of m, with
-the torque M = J m. Then phi'' = m + f, where f(phi, phi', m) is all that Euler's equations and the
-kinematics add. From one iterate's motion f(t) is known; each channel's moment problem is solved with it as
-disturbance; the full equations are integrated with the controls found; and again, until attitude and rate
-are reached.
+With phi'' = m + f as in `channels`, the motion of one iterate gives f(t). The moment problem of each
+channel is solved with it as disturbance, the full equations are integrated with the controls found, and
+this is repeated until attitude and rate reach the target.
 
 f(phi, k phi', k^2 m) = k^2 f, so that the iteration in t/T does not depend on the duration T. Along every
-motion x(tf) = Phi x(t0) + g(f) + c, so that an iteration takes the last motion's miss off the moments c.
-For a spherical body and a turn from rest to rest it multiplies the miss by `spherical_factor`, half the
-angle for small angles, whatever the norm; unequal moments of inertia change that by a share of it.
+motion x(tf) = Phi x(t0) + g(f) + c, so that an iteration subtracts the miss of the last motion from the
+moments c. For a spherical body and a turn from rest to rest an iteration multiplies the miss by
+`spherical_factor`, which is half the angle for small angles and does not depend on the norm; unequal
+moments of inertia change that factor.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,21 +20,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
 from pontryagin.numerics.rotation import FULL_TURN, rotation_vector, vector_rate_matrix
-from pontryagin.triple_integrator.attitude.fixed_axis import Programme, single
+from pontryagin.triple_integrator.attitude.fixed_axis import single
 from pontryagin.triple_integrator.attitude.rigid_body import Motion, RigidBody
 from pontryagin.triple_integrator.coupling.channels import Channels, Coupling
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import finite
 
 NOISE = 1e-11
-"""A miss below this is the integrator's, and tells nothing of the iteration."""
+"""A miss below this is an error of the integrator and says nothing about the iteration."""
 
 GROWN = 100.0
-"""A miss (rad) from which no iterate comes back."""
+"""A miss (rad) at which the iteration is given up."""
 
 Solver = Callable[[Maneuver], Programme]
+"""What solves the moment problem of one channel, such as `minimum_energy`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,15 +46,17 @@ class CoupledManeuver:
     Attributes
     ----------
     body : RigidBody
+        The body that turns.
     programmes : three solutions
         Of the channels, in order; those programmed here have the cross-coupling as their disturbance.
     programmed : tuple of int
         Which channels were programmed; the motion of the others was given.
     misses : (n,) array
-        What each iterate's motion misses of the target: the larger of the angle between the attitudes (rad)
-        and T times the error of the angular rate. The first is that of the uncoupled programmes.
+        By how much the motion of each iterate misses the target: the larger of the angle between the
+        attitudes (rad) and T times the error of the angular rate. The first is that of the uncoupled
+        programmes.
     motion : Motion
-        The last iterate's, from Euler's equations; its commands are m of the programmed channels.
+        Of the last iterate, by Euler's equations; its commands are m of the programmed channels.
     """
 
     body: RigidBody
@@ -64,12 +67,12 @@ class CoupledManeuver:
 
     @property
     def factor(self) -> float:
-        """By what an iteration multiplied the miss: geometric mean over the last three that tell.
+        """Factor of the miss per iteration: geometric mean over the last three with a miss above rounding.
 
-        0 where the first iterate's miss was rounding already.
+        0 where the miss of the first iterate was rounding already.
         """
-        telling = self.misses[self.misses > NOISE][-4:]
-        return float((telling[-1] / telling[0]) ** (1 / (telling.size - 1))) if telling.size > 1 else 0.0
+        last = self.misses[self.misses > NOISE][-4:]
+        return float((last[-1] / last[0]) ** (1 / (last.size - 1))) if last.size > 1 else 0.0
 
     def attitude(self, t: ArrayLike) -> Array:
         """Quaternion, scalar first, from body to inertial axes, (k,) -> (k, 4)."""
@@ -96,11 +99,11 @@ class CoupledManeuver:
         ).T
 
     def torque(self, t: ArrayLike) -> Array:
-        """J m, (k,) -> (k, 3)."""
+        """Torque J m, (k,) -> (k, 3)."""
         return self._control_acceleration(t) @ self.body.inertia
 
     @cached_property
-    def _channels(self) -> "Channels":
+    def _channels(self) -> Channels:
         return Channels(self.body, self.programmes, self.programmed)
 
     def _control_acceleration(self, t: ArrayLike) -> Array:
@@ -122,11 +125,12 @@ def couple(
     Parameters
     ----------
     body : RigidBody
+        The body that turns.
     channels : three of Maneuver or solution
         A Maneuver (x1, x2, x3 = phi_i, phi_i', m_i at both ends, no disturbance) is programmed. A solution is
-        the given motion of its channel, held by whatever torque it takes.
+        the given motion of its channel, whatever torque that requires.
     solve : function Maneuver -> solution
-        `minimum_energy`, `minimum_peak`, `minimum_impulse` or another.
+        `minimum_energy`, `minimum_peak`, `minimum_impulse` or another solver.
     tol : float
         Largest miss accepted, rad.
     iterations : int
@@ -139,8 +143,8 @@ def couple(
     Raises
     ------
     TypeError, ValueError
-        If the channels are not three, not of one interval, none is a Maneuver, one has a disturbance of
-        its own or is a stack, or an end is a full turn or more.
+        If the channels are not three or not of one interval, if none is a Maneuver, if one has a disturbance
+        of its own or is a stack, or if an end is a full turn or more.
     pontryagin.NotConverged
         If the miss does not come below `tol`, or the motion leaves |phi| < 2 pi; its residual is the miss.
 
@@ -156,7 +160,7 @@ def couple(
     >>> [round(float(factor), 2) for factor in (turn.factor, spherical_factor(np.linalg.norm(ends)))]
     [0.25, 0.27]
     """
-    maneuvers, programmed = _checked(channels)
+    maneuvers, programmed = _maneuvers_of(channels)
     couplings: list[Coupling | None] = [None] * 3
     misses: list[float] = []
     while len(misses) < iterations:
@@ -178,11 +182,12 @@ def couple(
 def spherical_factor(angle: ArrayLike) -> Array:
     """Factor by which an iteration multiplies the miss of a spherical body's turn from rest to rest.
 
-    |1 - x cot x + i x| with x = angle/2: the eigenvalues of 1 - B^-1. It is 1 at an angle of 1.895 rad
-    (108.6 degrees); beyond, with nearly equal moments of inertia, an iteration leads away from the target.
+    |1 - x cot x + i x| with x = angle/2: the modulus of the eigenvalues of 1 - B^-1 (dimensionless). It is 1
+    at an angle of 1.895 rad (108.6 degrees); beyond, with nearly equal moments of inertia, an iteration leads
+    away from the target.
 
-    The moments c decompose: those of another direction of the turn's axis give a turn about that axis, met
-    at once; those that leave a rate w at the end are answered by phi' = B^-1 w.
+    A change of the moments c has two parts. One changes the axis of the turn, and is corrected in one
+    iteration. The other leaves a rate w at the end, for which the iteration uses phi' = B^-1 w.
 
     Parameters
     ----------
@@ -196,34 +201,39 @@ def spherical_factor(angle: ArrayLike) -> Array:
     """
     x = finite("angle", angle, "a number or an array (...)") / 2
     if not np.all((x > 0) & (x < np.pi)):
-        raise ValueError(f"angle must be more than 0 and less than 2 pi, got {2 * x}")
-    return np.hypot(1 - x / np.tan(x), x)
+        raise ArgumentValueError(f"angle must be more than 0 and less than 2 pi, got {2 * x}", "angle")
+    return np.asarray(np.hypot(1 - x / np.tan(x), x))
 
 
 def _with(maneuver: Maneuver, coupling: Coupling | None) -> Maneuver:
     return Maneuver(maneuver.x0, maneuver.xf, maneuver.tf, maneuver.t0, coupling)
 
 
-def _checked(channels: Sequence[Maneuver | Programme]) -> tuple[list[Maneuver], tuple[int, ...]]:
-    """The manoeuvres of the channels, and which of them are to be programmed."""
+def _maneuvers_of(channels: Sequence[Maneuver | Programme]) -> tuple[list[Maneuver], tuple[int, ...]]:
+    """The manoeuvres of the channels, checked, and which of them are to be programmed."""
     if len(channels) != 3:
-        raise ValueError(f"channels must be three, got {len(channels)}")
+        raise _refusal(f"be three, got {len(channels)}")
     for i, channel in enumerate(channels):
         if not isinstance(channel, Maneuver) and not hasattr(channel, "maneuver"):
-            raise TypeError(f"channels must be manoeuvres or solutions, got {type(channel).__name__} at {i}")
+            got = f"{type(channel).__name__} at {i}"
+            raise ArgumentTypeError(f"channels must be manoeuvres or solutions, got {got}", "channels")
     programmed = tuple(i for i, channel in enumerate(channels) if isinstance(channel, Maneuver))
     maneuvers = [channel if isinstance(channel, Maneuver) else single(channel) for channel in channels]
     if not programmed:
-        raise ValueError("channels must hold a Maneuver to be programmed, got three solutions")
+        raise _refusal("hold a Maneuver to be programmed, got three solutions")
     if any(maneuver.shape for maneuver in maneuvers):
-        raise ValueError(f"channels must be single manoeuvres, got shapes {[m.shape for m in maneuvers]}")
+        raise _refusal(f"be single manoeuvres, got shapes {[m.shape for m in maneuvers]}")
     if any(maneuvers[i].disturbance is not None for i in programmed):
-        raise ValueError("channels must have no disturbance of their own: the cross-coupling is theirs")
+        raise _refusal("have no disturbance of their own: the cross-coupling is theirs")
     intervals = {(float(m.t0), float(m.tf)) for m in maneuvers}
     if len(intervals) > 1:
-        raise ValueError(f"channels must be of one interval, got {sorted(intervals)}")
+        raise _refusal(f"be of one interval, got {sorted(intervals)}")
     for end in ("x0", "xf"):
         angle = np.linalg.norm([getattr(m, end)[0] for m in maneuvers])
         if not angle < FULL_TURN:
-            raise ValueError(f"channels must turn by less than 2 pi, got {angle:.6g} at {end}")
+            raise _refusal(f"turn by less than 2 pi, got {angle:.6g} at {end}")
     return maneuvers, programmed
+
+
+def _refusal(takes: str) -> ArgumentValueError:
+    return ArgumentValueError(f"channels must {takes}", "channels")

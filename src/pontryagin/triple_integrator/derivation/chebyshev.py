@@ -74,7 +74,7 @@ def cramer(rows: tuple[sp.Expr, ...]) -> tuple[dict[str, sp.Expr], sp.Expr]:
 def minimal_multipliers() -> dict[sp.Symbol, sp.Expr]:
     """l10, l20, l30 and rho~ of the Chebyshev dual function with l'c = 1."""
     equations = [*matching(), (multipliers.T * c)[0] - 1]
-    return sp.solve(equations, [*multipliers, signed_norm], dict=True)[0]
+    return dict(sp.solve(equations, [*multipliers, signed_norm], dict=True)[0])
 
 
 def impulse_transfer() -> sp.Matrix:

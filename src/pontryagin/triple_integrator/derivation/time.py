@@ -78,7 +78,7 @@ def in_excess_time() -> dict[str, list[sp.Expr]]:
 
 def coefficient_symbols() -> tuple[sp.Symbol, ...]:
     """r20, r21, w0, w1, w2 and c3 of `in_excess_time`."""
-    return sp.symbols("r20 r21 w0 w1 w2 c3", real=True)
+    return tuple(sp.symbols("r20 r21 w0 w1 w2 c3", real=True))
 
 
 def small_part_coefficients() -> list[sp.Expr]:

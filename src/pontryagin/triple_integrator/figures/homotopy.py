@@ -1,4 +1,4 @@
-"""From impulses to a parabola to bang-bang: the programmes of least L_q norm as q runs from 1 to infinity."""
+"""The programmes of least L_q norm for q from 1 (impulses) over 2 (a parabola) to infinity (bang-bang)."""
 
 from collections.abc import Iterable, Sequence
 
@@ -29,7 +29,7 @@ def norm_family(maneuver: Maneuver, exponents: Sequence[float] = EXPONENTS) -> F
     maneuver : Maneuver
         One manoeuvre.
     exponents : sequence of float
-        The q, each 1 < q < infinity; the ends 1 and infinity are added.
+        The exponents q, each 1 < q < infinity; q = 1 and infinity are added.
     """
     labels.single(maneuver)
     figure, (left, right) = subplots(1, 2, height=3.8, width_ratios=(1.55, 1))

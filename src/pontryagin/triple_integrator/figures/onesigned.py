@@ -1,4 +1,4 @@
-"""Equally cheap programmes of one sign, and the one that the limit q -> 1 chooses."""
+"""Programmes of one sign with the same total impulse, and the one that is the limit q -> 1."""
 
 from collections.abc import Sequence
 
@@ -24,7 +24,7 @@ def equally_cheap(maneuver: Maneuver, exponents: Sequence[float] = (2.0, 1.3, 1.
     maneuver : Maneuver
         One manoeuvre whose moments lie inside the moment cone.
     exponents : sequence of float
-        The q, in falling order.
+        The exponents q, in falling order.
     """
     labels.single(maneuver)
     impulse, entropy = minimum_impulse(maneuver), maximum_entropy(maneuver)

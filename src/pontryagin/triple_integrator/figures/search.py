@@ -1,4 +1,4 @@
-"""Where the paper's own numerical routes to the least peak arrive."""
+"""Results of the paper's own numerical routes to the least peak, over the directions of the moments."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -27,12 +27,12 @@ WORDS = {
 
 @styled
 def search_routes(survey: Survey) -> Figure:
-    """Outcome of each route over the directions of a survey; opposite directions are drawn together.
+    """Outcome of each route over the directions of a survey; opposite directions are drawn as one.
 
     Parameters
     ----------
     survey : Survey
-        What `search.survey` returned.
+        Returned by `search.survey`.
     """
     figure = Figure(figsize=(WIDTH, 5.3), layout="constrained")
     axes = figure.subplots(2, 3).ravel()

@@ -87,5 +87,5 @@ def sign_changes(q0: float, q1: float, q2: float, q3: float) -> int:
 
 def upper_bound(q0: float, q1: float, q2: float, q3: float) -> float:
     """Fujiwara's bound: no root is larger in modulus, for q4 = 3."""
-    largest = max(fabs(q3) / 3.0, sqrt(fabs(q2) / 3.0), sqrt(sqrt(fabs(q0) / 3.0)))
-    return 2.0 * max(largest, (fabs(q1) / 3.0) ** THIRD)
+    cube_root: float = (fabs(q1) / 3.0) ** THIRD
+    return 2.0 * max(fabs(q3) / 3.0, sqrt(fabs(q2) / 3.0), cube_root, sqrt(sqrt(fabs(q0) / 3.0)))

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentTypeError, NotConverged
 from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
@@ -24,7 +24,7 @@ class TimeSolution(BangBang):
     x0, xf : (..., 3) array
         Both ends.
     peak, disturbance : (...) array
-        Bound on |u| and constant force, as asked.
+        Bound on |u|, and the constant disturbance.
     duration : (...) array
         Least time; 0 where the ends agree.
     levels : (...) array
@@ -34,7 +34,7 @@ class TimeSolution(BangBang):
     certificate : Certificate
         Residual of the moments, relative to the data; the duration; and the time just before which a
         separating functional proves the target out of reach. That proof is local: that nothing arrives
-        earlier still rests on the quartics having no smaller admissible root.
+        earlier still rests on the quartics, which have no smaller admissible root.
     """
 
     x0: Array
@@ -77,8 +77,9 @@ def minimum_time(
 ) -> TimeSolution:
     """Least time between two states of the triple integrator under |u| <= peak.
 
-    The problem that section 3 calls mutual to the least peak. It is so where one end is an equilibrium;
-    elsewhere the least peak need not fall as the time grows, and this is the first time it meets the bound.
+    Section 3 calls this problem mutual to the least peak. It is so where one end is an equilibrium;
+    elsewhere the least peak need not fall as the time grows, and the least time is the first at which the
+    least peak meets the bound.
 
     Parameters
     ----------
@@ -87,19 +88,19 @@ def minimum_time(
     peak : (...) array_like
         Bound on |u|, positive.
     disturbance : (...) array_like, optional
-        Constant acceleration beside the control.
+        Constant acceleration in addition to the control acceleration.
 
     Returns
     -------
     TimeSolution
-        ``duration`` is the least time; the control, the switches and the rest as for `minimum_peak`.
+        ``duration`` is the least time; the other attributes are those of `minimum_peak`'s solution.
 
     Raises
     ------
     TypeError, ValueError
         If an argument has the wrong kind, shape or sign, or is not finite.
     pontryagin.NotConverged
-        If no root of the quartics steers the state to the target to 1e-9.
+        If no root of the quartics gives a control that reaches the target to 1e-9.
 
     Examples
     --------
@@ -109,7 +110,9 @@ def minimum_time(
     """
     start, end, bound = vectors("x0", x0, 3), vectors("xf", xf, 3), positive("peak", peak)
     if callable(disturbance) or hasattr(disturbance, "free_symbols"):
-        raise TypeError(f"disturbance must be None or a constant for minimum_time, got {disturbance!r}")
+        raise ArgumentTypeError(
+            f"disturbance must be None or a constant for minimum_time, got {disturbance!r}", "disturbance"
+        )
     force = finite("disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array")
     if start.ndim == end.ndim == 1 and bound.ndim == force.ndim == 0:
         result = solve_stack.one(*start.tolist(), *end.tolist(), float(force), float(bound))

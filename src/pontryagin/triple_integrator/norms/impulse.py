@@ -1,6 +1,8 @@
-"""Least total impulse (L1): the largest of a few closed forms, and the impulses where its quadratic touches.
+"""Least total impulse (L1), (1.20), in every regime; (4.10) is one of them.
 
-Moments mu = (c3, c2/T, 2 c1/T^2) are those of 1, sigma, sigma^2 in sigma = s/T.
+The least total impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], a maximum of a few
+closed forms; the impulses act where the best p touches its bounds. Here mu = (c3, c2/T, 2 c1/T^2) are the
+control's moments of 1, sigma and sigma^2 in sigma = s/T.
 """
 
 from dataclasses import dataclass
@@ -24,6 +26,9 @@ from pontryagin.triple_integrator.problem.programme import (
 )
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
+"""Where the impulses act: nowhere; anywhere with one sign; at both ends and in the middle with alternating
+signs, (4.10); at the end and inside; at the start and inside."""
+
 ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0
 
 ROUNDING = 4e-15
@@ -31,7 +36,7 @@ ROUNDING = 4e-15
 
 
 def touching_bound(m0: float, m1: float, m2: float) -> float:
-    """The family's bound at its stationary x = mu1/mu2, or 0 where that is not between 1 and 2."""
+    """The bound of 2 (1 - x sigma)^2 - 1 at its stationary x = mu1/mu2, or 0 if that is not in [1, 2]."""
     square, mixed = m2 * m2, m1 * m2
     if square == 0.0 or mixed < square * (1.0 - ROUNDING) or mixed > 2.0 * square:
         return 0.0
@@ -39,7 +44,7 @@ def touching_bound(m0: float, m1: float, m2: float) -> float:
 
 
 def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
-    """At the end, inside and where: the control of one sign on the boundary of the moment cone."""
+    """Impulse at the end, impulse inside and its place, for moments on the boundary of the moment cone."""
     if m0 * m1 <= 0.0:
         return m0, 0.0, 0.5
     return 0.0, m0, min(1.0, m1 / m0)
@@ -118,8 +123,8 @@ class ImpulseSolution(Programme):
     regime_index : (...) int array
         Index into ``REGIMES``.
     unique : (...) bool array
-        Whether no other control is as cheap. In the interior of the moment cone every u of one sign with
-        the right moments is; the solution holds the one with an impulse at the end and one before it.
+        Whether this is the only optimum. In the interior of the moment cone every u of one sign with the
+        right moments is optimal; the solution holds the one with an impulse at the end and one before it.
     certificate : Certificate
         Residual of the moments, relative to the largest; the total impulse; and the largest p.mu found.
     """
@@ -202,7 +207,7 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     Returns
     -------
     ImpulseSolution
-        Exact to rounding, in every regime; the printed solution (4.10) is the regime "chebyshev".
+        Exact to rounding in every regime; the printed solution (4.10) is that of the regime "chebyshev".
 
     Examples
     --------

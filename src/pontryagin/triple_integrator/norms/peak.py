@@ -1,7 +1,7 @@
-"""Least peak (L-infinity): the level from one convex equation, then both switches, beyond (3.4).
+"""Least peak (L-infinity): the level from one convex equation, then both switches of (3.4).
 
-Scaled moments k = (6 c1/T^3, 2 c2/T^2, c3/T) make a constant control's three moments equal to its level.
-The control is v outside [b, a] and -v inside, in the time to go as a share of T.
+The moments are scaled, k = (6 c1/T^3, 2 c2/T^2, c3/T), so that those of a constant control all equal its
+level. The control is v outside [b, a] and -v inside, in the time to go as a share of T.
 """
 
 from dataclasses import dataclass
@@ -23,14 +23,14 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import over_stack
 
 EDGE = 1e-14
-"""A piece of the control shorter than this share of T is below the rounding of the moments: no piece."""
+"""A piece of the control shorter than this share of T is left out: rounding of the moments hides it."""
 
 QUADRATIC = 1e-9
-"""A Newton step this small (relative) leaves an error of its square: below rounding."""
+"""A Newton step this small (relative) leaves an error of its square, which is below rounding."""
 
 
 def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
-    """t = 1/v and y = 1 - k3 t of the optimum for moments of size one (the largest is 1 in modulus)."""
+    """t = 1/v and y = 1 - k3 t of the optimum, for moments whose largest modulus is 1."""
     bound = fabs(peak_bound(k1, k2, k3, 0.75, 0.25))
     reach = 1.0 / max(1.0, bound, 2.0 * fabs(k2 - k3))
     side = copysign(1.0, k1 - 1.5 * k2 + 0.5625 * k3)
@@ -46,7 +46,7 @@ def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
 
 
 def root_on_side(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
-    """Root of the level equation with the sign `side` and |t| <= reach; t = 0 if there is none."""
+    """Root t of the level equation of the sign `side`, |t| <= reach, and y; t = 0 if there is none."""
     y = 1.0 - side * reach * k3
     if side * k3 > 0.9:
         return narrow_root(side, reach, k1, k2, k3)
@@ -64,7 +64,7 @@ def root_on_side(side: float, reach: float, k1: float, k2: float, k3: float) -> 
 
 
 def narrow_root(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
-    """The same on the side of the pole at y = 0, in y: exact for a flip of any width."""
+    """The root of `root_on_side` near the pole y = 0, solved for y: exact for a flip of any width."""
     e2 = k2 - k3
     w = k1 - k3 - 1.5 * e2
     if e2 == 0.0 and w == 0.0:
@@ -96,9 +96,9 @@ def narrow_root(side: float, reach: float, k1: float, k2: float, k3: float) -> t
 
 
 def place_switches(d: float, m: float, edge: float) -> tuple[float, ...]:
-    """a and b in [0, 1] from their difference, which is exact and is kept, and their sum.
+    """a and b in [0, 1] from their difference d, which is kept exactly, and their sum m.
 
-    Pieces shorter than the share `edge` are left out.
+    Pieces of the control shorter than the share `edge` are left out.
     """
     if d <= edge:
         return 0.0, 0.0
@@ -111,7 +111,7 @@ def place_switches(d: float, m: float, edge: float) -> tuple[float, ...]:
 
 
 def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
-    """Signed level v, switches a >= b (shares of T to go; 1 or 0 if none), scaled residual, bound."""
+    """Signed level v, switches a >= b (shares of T to go; 1 or 0 if none), scaled residual, lower bound."""
     k1, k2, k3 = 6.0 * c1 / T / T / T, 2.0 * c2 / T / T, c3 / T
     scale = max(fabs(k1), fabs(k2), fabs(k3))
     if scale == 0.0:
@@ -144,7 +144,7 @@ class PeakSolution(BangBang):
     shares : (..., 2) array
         Both switches a >= b as shares of T to go; 1 and 0 where they do not happen, equal if neither does.
     certificate : Certificate
-        Residual of the moments, relative to the largest; the peak; and what the dual function proves.
+        Residual of the moments, relative to the largest; the peak; and the bound by the dual function.
     """
 
     maneuver: Maneuver
@@ -164,8 +164,8 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     Returns
     -------
     PeakSolution
-        Exact to rounding; its certificate's dual value is |2 c1 - (a+b) c2 + ab c3| over the integral of
-        |(s - a)(s - b)|, a lower bound whatever a and b are.
+        Exact to rounding. The dual value of its certificate is |2 c1 - (a+b) c2 + ab c3| over the integral of
+        |(s - a)(s - b)|, a lower bound for any a and b.
 
     Examples
     --------

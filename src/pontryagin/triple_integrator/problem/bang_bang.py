@@ -3,7 +3,7 @@
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
@@ -99,7 +99,7 @@ def bang_bang_response(t: Array, t0: Array, switches: Array, first: Array) -> Ar
     return response(t, knots, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
 
 
-def _happen(shares: Array) -> Array:
+def _happen(shares: Array) -> NDArray[np.bool_]:
     """Whether the switch at a happens, and the one at b, (..., 2)."""
     a, b = shares[..., 0], shares[..., 1]
     return np.stack([(a < 1) & (a > b), (b > 0) & (a > b)], axis=-1)

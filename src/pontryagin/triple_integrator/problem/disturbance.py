@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -63,7 +63,7 @@ def integrals(disturbance: Disturbance, start: Array, end: Array) -> Integrals:
         _ = panels.series
         return panels.integrals
     takes = "None, a number, a callable f(t) or an expression in t"
-    return _constant(finite("disturbance", cast(ArrayLike, disturbance), takes))
+    return _constant(finite("disturbance", disturbance, takes))
 
 
 def _constant(value: Array) -> Integrals:
@@ -148,7 +148,7 @@ def _real(value: object) -> Array:
 def chebyshev_fit(degree: int) -> tuple[Array, Array]:
     """Chebyshev nodes in [-1, 1], and the matrix from values there to the coefficients of the series."""
     nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-    return nodes, np.linalg.inv(chebyshev.chebvander(nodes, degree))
+    return nodes, np.asarray(np.linalg.inv(chebyshev.chebvander(nodes, degree)), dtype=float)
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.numerics.jit import batched
 from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals
 from pontryagin.validation import common_shape, finite, times, vectors
@@ -65,16 +65,17 @@ class Maneuver:
     ) -> None:
         start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
         first, last = (finite(name, time, NUMBERS) for name, time in (("t0", t0), ("tf", tf)))
+        force: tuple[int, ...] = ()
         if isinstance(disturbance, np.ndarray | list | tuple):
-            disturbance = finite("disturbance", disturbance, NUMBERS)
-        force = np.shape(disturbance) if isinstance(disturbance, np.ndarray) else ()
+            numbers = finite("disturbance", disturbance, NUMBERS)
+            disturbance, force = numbers, numbers.shape
         if not first.ndim == last.ndim == 0 or not start.ndim == end.ndim == 1 or force:
             shape = common_shape(
                 x0=start.shape[:-1], xf=end.shape[:-1], tf=last.shape, t0=first.shape, disturbance=force
             )
             start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
             first, last = (np.broadcast_to(time, shape) for time in (first, last))
-            disturbance = np.broadcast_to(disturbance, shape) if force else disturbance
+            disturbance = np.broadcast_to(numbers, shape) if force else disturbance
         late = ~(last > first)
         if late.any():
             wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
@@ -101,7 +102,7 @@ class Maneuver:
         """c of (1.10), the required integrals of (s^2/2, s, 1) u with s = tf - t, (..., 3)."""
         if not self.shape and self.disturbance is None:
             numbers = [*self.x0.tolist(), *self.xf.tolist()]
-            return np.array(kernels.moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))
+            return np.array(kernels.moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
         g = self._integrals(self.tf, self.t0)
         ends = [x[..., i].ravel() for x in (self.x0, self.xf) for i in range(3)]
         rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g[..., 0], g[..., 1])]

@@ -83,7 +83,8 @@ def breakpoints(events: Array) -> Array:
 def normalise(multipliers: Array, moments: Array) -> Array:
     """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0 and no factor can do it."""
     pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
-    return np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
+    scaled = np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
+    return np.asarray(scaled)
 
 
 def truncated_power(t: Array, knots: Array, order: int) -> Array:

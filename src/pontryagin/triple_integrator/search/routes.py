@@ -1,44 +1,48 @@
 """The paper's own numerical routes to the least peak, (3.6) to (3.19), and where they arrive.
 
-Both look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus as long
-as 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F is a number without meaning, and where
-c0 of (3.5) vanishes it is infinite. Within the domain |F| is stationary at the optimum only, because the norm
-is convex on the plane l'c = 1; so a search that fails has left it, met its boundary or a pole. Outside there
-is nothing to find: where t1 has passed t2 there are points with F = 0 for every c, so that (3.6) without its
-bounds has no minimum worth the name, and a free search is right only as long as it stays near.
+The routes look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus
+if 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F has no such meaning, and where c0 of
+(3.5) vanishes it is infinite. Within that domain |F| is stationary at the optimum only, because the norm is
+convex on the plane l'c = 1; a search that fails has therefore left the domain, or met its boundary or a
+pole. Where t1 > t2 there are points with F = 0 for every c, so that (3.6) without its bounds has no
+meaningful minimum, and a free search is right only if it stays near its start.
 """
 
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, minimize, minimize_scalar
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.triple_integrator.norms.peak import minimum_peak
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
-"""Minimise |F| over t1 and t2, free (BFGS) or within 0 <= t1 <= t2 <= T (SLSQP), from T/4 and 3T/4; minimise
-F as printed, or |F|, over lambda~ by Brent's method from 0; or minimise |F| over all lambda~ that put both
-zeros within the manoeuvre, on a grid and from its best three points."""
+"""The routes. "zeros" and "zeros within" minimise |F| over t1 and t2 from T/4 and 3T/4, free (BFGS) or
+within 0 <= t1 <= t2 <= T (SLSQP). "multiplier" and "multiplier modulus" minimise F as printed, or |F|, over
+lambda~ by Brent's method from 0. "multiplier within" minimises |F| over all lambda~ that put both zeros
+within the manoeuvre, on a grid and then from its best three points."""
 
 REASONS = ("singular", "sign", "crossed", "outside", "boundary", "early")
-"""Why a search fails, the first that applies: it runs to c0 = 0; the curvature has the wrong sign, on the
-wrong side of c0 = 0; t1 has passed t2; a zero lies outside the manoeuvre; one lies at an end, or they have
-merged; it stopped early."""
+"""Why a search fails; the first that applies. "singular": it runs to c0 = 0. "sign": the curvature has the
+wrong sign, beyond c0 = 0. "crossed": t1 > t2. "outside": a zero lies outside the manoeuvre. "boundary": a
+zero lies at an end, or both agree. "early": it stopped before the minimum."""
 
 AGREES = 1e-6
-"""Relative difference up to which a level found is the certified least one."""
+"""Relative difference up to which a level found counts as the certified least one."""
 
 GRID = 201
+"""How many points the grid of "multiplier within" has."""
 
 
 @dataclass(frozen=True)
 class SearchResult:
-    """Where a route arrives.
+    """The point at which a route ends.
 
     Attributes
     ----------
@@ -51,11 +55,11 @@ class SearchResult:
     curvature : float
         Its alpha_m by (3.13), which makes l'c = 1.
     curvature_by_multiplier : float
-        Its alpha_m by (3.16), put right, where the route is one over lambda~; else nan. It equals the other
-        at the least peak, unless F does not depend on lambda~ (c2 = c3 = 0, as in example 2): then lambda~,
-        and with it this number, is arbitrary.
+        Its alpha_m by the corrected (3.16) for the routes over lambda~; else nan. It equals `curvature` at
+        the least peak, unless F does not depend on lambda~ (c2 = c3 = 0, as in example 2): then lambda~ is
+        arbitrary, and so is this number.
     evaluations : int
-        How often F was evaluated, once for a value with its gradient.
+        How often F was evaluated; a value with its gradient counts once.
     reason : str
         Empty if `peak` is the least peak, as certified by `minimum_peak`; else one of ``REASONS``.
     """
@@ -76,7 +80,7 @@ class SearchResult:
 
 @dataclass(frozen=True)
 class Survey:
-    """What the routes find over directions of the moments.
+    """The results of the routes over directions of the moments.
 
     Attributes
     ----------
@@ -93,11 +97,11 @@ class Survey:
         """Share of the directions on which a route finds the least peak."""
         return float(np.mean([result.right for result in self.results[route]]))
 
-    def table(self) -> dict[str, list]:
+    def table(self) -> dict[str, list[Any]]:
         """One row for each route: shares of the directions by outcome, and the mean number of evaluations."""
         counts = {route: Counter(result.reason for result in found) for route, found in self.results.items()}
         total = len(self.directions)
-        columns: dict[str, list] = {"route": list(counts)}
+        columns: dict[str, list[Any]] = {"route": list(counts)}
         for reason in ("", *REASONS):
             columns[reason or "right"] = [count[reason] / total for count in counts.values()]
         columns["evaluations"] = [
@@ -107,7 +111,7 @@ class Survey:
 
 
 def search(maneuver: Maneuver, route: str) -> SearchResult:
-    """Follow one of the paper's routes to the least peak of one manoeuvre, and judge where it arrives.
+    """Follow one of the paper's routes to the least peak of one manoeuvre, and judge its result.
 
     Parameters
     ----------
@@ -128,21 +132,23 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
     (4.0, [0.5, 1.5], True)
     """
     if route not in ROUTES:
-        raise ValueError(f"route must be one of {', '.join(ROUTES)}, got {route!r}")
+        raise ArgumentValueError(f"route must be one of {', '.join(ROUTES)}, got {route!r}", "route")
     if maneuver.shape:
-        raise ValueError(f"maneuver must be a single manoeuvre, got a stack of shape {maneuver.shape}")
+        raise ArgumentValueError(
+            f"maneuver must be a single manoeuvre, got a stack of shape {maneuver.shape}", "maneuver"
+        )
     T = float(maneuver.duration)
     k = maneuver.moments * np.array([6.0, 2.0, 1.0]) / T ** np.array([3.0, 2.0, 1.0])
     size = float(np.abs(k).max())
     if size == 0.0:
-        raise ValueError("maneuver must have moments c other than 0, got c = 0")
+        raise ArgumentValueError("maneuver must have moments c other than 0, got c = 0", "maneuver")
     unit = k / size / np.array([6.0, 2.0, 1.0])
     follow = _by_zeros if route.startswith("zeros") else _by_multiplier
     zeros, by_multiplier, evaluations = follow(unit, route)
     with np.errstate(all="ignore"):
         area, _, _, c0 = (float(part) for part in _formulas().area_from_zeros()(*zeros, *unit, 1.0))
         alpha, by_multiplier = (part / (size * T**3) for part in (0.5 / np.float64(c0), by_multiplier))
-    certified = minimum_peak(Maneuver(np.zeros(3), unit, tf=np.asarray(1.0)))
+    certified = minimum_peak(Maneuver([0, 0, 0], unit, tf=1.0))
     peak = size / abs(area) if area and np.isfinite(area) else np.nan
     reason = _judge(zeros, area, float(certified.norm), float(certified.multipliers[0]), c0)
     times = float(maneuver.t0) + T * zeros
@@ -150,14 +156,14 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
 
 
 def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> Survey:
-    """Follow the routes from random directions of (6 c1/T^3, 2 c2/T^2, c3/T), uniform on the sphere.
+    """Follow the routes for random directions of (6 c1/T^3, 2 c2/T^2, c3/T), uniform on the sphere.
 
     Parameters
     ----------
     count : int
         How many directions.
     seed : int
-        Of NumPy's default generator.
+        Seed of NumPy's default generator.
     routes : sequence of str
         Some of ``ROUTES``.
 
@@ -168,19 +174,19 @@ def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> S
     """
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
-    maneuvers = [Maneuver(np.zeros(3), k / np.array([6.0, 2.0, 1.0]), tf=np.asarray(1.0)) for k in directions]
+    maneuvers = [Maneuver([0, 0, 0], k / np.array([6.0, 2.0, 1.0]), tf=1.0) for k in directions]
     return Survey(directions, {route: tuple(search(m, route) for m in maneuvers) for route in routes})
 
 
 def _formulas() -> ModuleType:
-    """The compiled formulas; asked for late, because they take SymPy's import and a derivation."""
+    """The compiled formulas, imported late because they need SymPy and a derivation."""
     from pontryagin.triple_integrator.search import formulas as route_formulas
 
     return route_formulas
 
 
 def _judge(zeros: Array, area: float, least: float, curvature: float, c0: float) -> str:
-    """Empty if 1/|area| is the least peak and the zeros lie within [0, 1]; else why not."""
+    """The reason of a `SearchResult`: empty if 1/|area| is the least peak and the zeros lie in [0, 1]."""
     if not np.isfinite(area) or abs(c0) < 1e-6:
         return "singular"
     room = min(zeros[0], 1 - zeros[1], zeros[1] - zeros[0])
@@ -223,7 +229,7 @@ def _by_multiplier(c: Array, route: str) -> tuple[Array, float, int]:
     def area(multiplier: Array | float) -> Array:
         with np.errstate(all="ignore"):
             t1, t2, _ = _formulas().zeros_from_multiplier()(multiplier, *c, 1.0)
-            return _formulas().area_from_zeros()(t1, t2, *c, 1.0)[0]
+            return np.asarray(_formulas().area_from_zeros()(t1, t2, *c, 1.0)[0])
 
     if route == "multiplier within":
         multiplier, evaluations = _least_on_a_grid(lambda x: np.abs(area(x)), *multiplier_range(c))
@@ -239,8 +245,8 @@ def _by_multiplier(c: Array, route: str) -> tuple[Array, float, int]:
 def multiplier_range(c: Array) -> tuple[float, float]:
     """All lambda~ with 0 <= t1 < t2 <= T that can be optimal, for T = 1: an interval around 0.
 
-    Both conditions are concave quadratics in lambda~ that are positive at 0, over T + lambda~ c3 > 0; and
-    |lambda~| is the inverse of the least peak, which no |k| exceeds.
+    Both conditions are concave quadratics in lambda~ that are positive at 0, over T + lambda~ c3 > 0. The
+    optimal |lambda~| is the inverse of the least peak, which is at least max |k|.
     """
     reach = 1.0 / float(np.abs(c * np.array([6.0, 2.0, 1.0])).max())
     limits = [-reach, reach]
@@ -253,7 +259,7 @@ def multiplier_range(c: Array) -> tuple[float, float]:
 
 
 def _least_on_a_grid(value: Callable[[Array], Array], low: float, high: float) -> tuple[float, int]:
-    """Place of the least value on [low, high], refined from the three lowest dips of a grid."""
+    """Place of the least value on [low, high], refined from the three lowest minima on a grid."""
     x = np.linspace(low, high, GRID)
     y = value(x)
     y = np.where(np.isfinite(y), y, np.inf)
