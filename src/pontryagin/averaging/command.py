@@ -5,8 +5,16 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin.averaging import asked, transcript
-from pontryagin.averaging.asked import EXAMPLES, Example
+from pontryagin.averaging import (
+    schema as asked,
+)
+from pontryagin.averaging import (
+    transcript,
+)
+from pontryagin.averaging.schema import (
+    EXAMPLES,
+    Example,
+)
 from pontryagin.io import rows
 from pontryagin.terminal import console
 
