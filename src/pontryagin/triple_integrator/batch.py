@@ -11,7 +11,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.io import formula
-from pontryagin.triple_integrator.schema import account, certificate_of
+from pontryagin.triple_integrator.transcript import account, certificate_of
 
 START, END = ("x10", "x20", "x30"), ("x1f", "x2f", "x3f")
 UNSTACKED = ("q", "breakpoints", "multipliers")

@@ -1,4 +1,4 @@
-"""``pontryagin solve triple-integrator``: the five problems of the folder from the command line."""
+"""``pontryagin solve triple-integrator``: least norms and least time from the command line."""
 
 import math
 from pathlib import Path
@@ -8,16 +8,19 @@ import numpy as np
 import typer
 
 from pontryagin.terminal import console
-from pontryagin.triple_integrator import schema
+from pontryagin.triple_integrator import transcript
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
-"""Options whose last check is left to the solvers."""
+"""The options of the arguments that the solvers check."""
 
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}
-"""Exponents whose problems have solvers of their own."""
+"""The solvers for special exponents q of the norm; `minimum_norm` solves the others."""
 
 Text = str | None
 File = Path | None
+
+without_warnings = np.errstate(all="ignore")
+"""An overflow makes the certificate fail, which is reported as an error; a warning would repeat it."""
 
 
 def solve(
@@ -84,24 +87,20 @@ def solve(
     _print(solution, json, samples)
 
 
-in_silence = np.errstate(all="ignore")
-"""What overflows fails its certificate; a warning beside the error would be a second voice."""
-
-
 class Goal(NamedTuple):
-    """What is least: the norm with exponent q, or the time under a bound on |u|."""
+    """The quantity to minimise: the norm with exponent q, or the time under a bound on |u|."""
 
     q: float | None = None
     peak: float | None = None
 
     @property
     def least_time(self) -> bool:
-        """Whether the duration is sought."""
+        """Whether the duration is minimised."""
         return self.peak is not None
 
 
 class Ends(NamedTuple):
-    """Both states and, for a given duration, both times; of one problem or a stack."""
+    """Both states and, for a given duration, both times, of one problem or a stack."""
 
     x0: Any
     xf: Any
@@ -149,9 +148,9 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
         return ti.minimum_norm(maneuver, goal.q)
 
 
-@in_silence
+@without_warnings
 def _files(solution: Any, plot: File, record: File) -> None:
-    if (plot or record) and not schema.moves(solution):
+    if (plot or record) and not transcript.moves(solution):
         raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
     if plot:
         from pontryagin.triple_integrator.figures import solution_figure
@@ -163,18 +162,18 @@ def _files(solution: Any, plot: File, record: File) -> None:
         console.save_recording("--record", record, lambda path: record_solution(solution, path))
 
 
-@in_silence
+@without_warnings
 def _print(solution: Any, json: bool, samples: int) -> None:
-    told: dict[str, Any] = schema.transcript(solution)
+    report: dict[str, Any] = transcript.transcript(solution)
     if samples:
-        told["samples"] = schema.samples(solution, samples)
+        report["samples"] = transcript.samples(solution, samples)
     if json:
-        typer.echo(console.to_json(told))
+        typer.echo(console.to_json(report))
     else:
-        console.show(schema.account(solution).title, told, schema.conclusion(solution))
+        console.show(transcript.account(solution).title, report, transcript.conclusion(solution))
 
 
-@in_silence
+@without_warnings
 def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     from pontryagin.triple_integrator import batch
 

@@ -1,4 +1,4 @@
-"""The least-energy programme, (2.1) to (2.5): a quadratic problem, solved by one inverse.
+"""The least-energy programme, (2.1) to (2.5): a quadratic problem, solved by the inverse of the Gramian.
 
 paper   here            meaning
 ------  --------------  ----------------------------------------------------------
