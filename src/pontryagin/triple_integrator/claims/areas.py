@@ -1,4 +1,4 @@
-"""Section 3, (3.12) to (3.14): the areas that the parabola cuts off."""
+"""Section 3, (3.12) to (3.14): the areas between the parabola and the axis."""
 
 import sympy as sp
 
@@ -43,8 +43,7 @@ def piece_in_the_vertex_form() -> Evidence:
     "limits of the third integral",
     verdict="misprint",
     remark="Printed: b3 = T and a2 = τ_m + Δ_m. Right: a3 = τ_m + Δ_m; the line before has a2 = τ_m − Δ_m, "
-    "and "
-    "(3.12) uses a3.",
+    "and (3.12) uses a3.",
 )
 def limits_of_the_third_piece() -> Evidence:
     def consequence() -> Consequence:

@@ -71,7 +71,7 @@ def dual_problem() -> Evidence:
         yield "and l'c = 1", vanishes(condition - 1)
         sample = sp.Matrix([R(1, 3), R(1, 7), R(2, 5)])
         bounds = [impulse_bound(l, sample, sp.S.One) for l in (sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]))]
-        yield "no other h proves more than 1/ρ0 (a sample)", bounds[0] > bounds[1]
+        yield "no other h of a sample proves more than 1/ρ0", bounds[0] > bounds[1]
 
     return Proof(
         argument,
@@ -116,8 +116,7 @@ def condition_on_the_multipliers() -> Evidence:
     verdict="conditional",
     remark="True where a0, am, aT of (4.10) are all ≥ 0 for s0 = sign F (a cone of c), and nowhere else. For "
     "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: "
-    "the "
-    "polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
+    "the polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
     "lacks.",
 )
 def minimal_element_is_chebyshev() -> Evidence:
@@ -126,10 +125,10 @@ def minimal_element_is_chebyshev() -> Evidence:
         total = sp.cancel(sum(amplitudes) / sign)
         yield "with a0, am, aT ≥ 0 the impulses cost a0 + am + aT = |F|/T²", vanishes(total - F / T**2)
         bound = 1 / chebyshev.minimal_multipliers()[signed_norm]
-        yield "and ρ0 T2 proves that less is not possible", vanishes(bound - F / T**2)
+        yield "ρ0 T2 proves that less is not possible", vanishes(bound - F / T**2)
         polynomial = chebyshev.chebyshev()
         room = sp.factor(1 - polynomial**2)
-        yield "for |T2| ≤ 1 on [−1, 1]: 1 − T2² = 4z²(1 − z²)", vanishes(room - 4 * z**2 * (1 - z**2))
+        yield "|T2| ≤ 1 on [−1, 1]: 1 − T2² = 4z²(1 − z²)", vanishes(room - 4 * z**2 * (1 - z**2))
 
     def counterexample() -> Steps:
         moments = piecewise_moments([(R(1), 1)])

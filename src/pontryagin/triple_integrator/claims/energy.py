@@ -63,7 +63,7 @@ def definition_of_the_gramian() -> Evidence:
     def argument() -> Steps:
         candidate = energy.gramian()
         yield "it solves dW/dT = AW + WA' + bb'", vanishes(energy.lyapunov_residual(candidate))
-        yield "and is zero at T = 0", vanishes(candidate.subs(T, 0))
+        yield "D is zero at T = 0", vanishes(candidate.subs(T, 0))
         program = energy.minimum_energy_control()
         end = drive(sp.zeros(3, 1), T, program.subs(s, T - tau))
         yield "b'Φ'D⁻¹c takes the channel from rest to c", vanishes(end - c)
@@ -148,7 +148,7 @@ def conditions_on_the_optimum() -> Evidence:
         program = energy.minimum_energy_control()
         ratio = sp.cancel(program / energy.minimal_element())
         yield "the programme is a multiple of h0", not ratio.has(s)
-        yield "by c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
+        yield "the factor is c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
 
     return Proof(
         argument,
@@ -202,7 +202,7 @@ def general_solution() -> Evidence:
         noise = sum(a * s**k for k, a in enumerate(extra))
         silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
         cross = sp.integrate(sp.expand(program * noise.subs(silent)), (s, 0, T))
-        yield "what any other control adds is orthogonal to it, and costs", vanishes(cross)
+        yield "the difference of any other control is orthogonal to it, and adds to the norm", vanishes(cross)
 
     return Proof(argument)
 

@@ -70,7 +70,7 @@ def dual_norm_of_example_2() -> Evidence:
 
 
 def bang_bang_turn() -> list[tuple[sp.Expr, sp.Expr]]:
-    """Example 2's control, by pieces, at the level that its moments ask for."""
+    """Example 2's control by pieces, at the level that its moments require."""
     signs = [(T / 4, peak), (T / 2, -peak), (T / 4, peak)]
     needed = sp.solve(piecewise_moments(signs)[0] - turn, peak)[0]
     return [(duration, value.subs(peak, needed)) for duration, value in signs]
@@ -85,7 +85,7 @@ def least_peak_of_the_turn() -> Evidence:
         end = piecewise_moments(bang_bang_turn())
         yield "switching at T/4 and 3T/4 makes the turn", vanishes(end - sp.Matrix([turn, 0, 0]))
         bound = 1 / sp.simplify(parabola.signed_area().subs(vertex_of_the_turn()))
-        yield "and 1/ρ0 is a lower bound, attained", vanishes(bound - bang_bang_turn()[0][1])
+        yield "1/ρ0 is a lower bound, which it attains", vanishes(bound - bang_bang_turn()[0][1])
 
     return Proof(argument, Equality({"u_0": 32 * turn / T**3}, derived))
 
@@ -111,7 +111,7 @@ def bound_on_the_duration() -> Evidence:
             least.diff(T).is_negative,
         )
         rest = drive(sp.Matrix([turn, 0, 0]), sp.Symbol("w", positive=True), sp.S.Zero)
-        yield "and longer ones can wait at the end", vanishes(rest - sp.Matrix([turn, 0, 0]))
+        yield "longer manoeuvres can wait at the end", vanishes(rest - sp.Matrix([turn, 0, 0]))
 
     return Proof(
         argument,

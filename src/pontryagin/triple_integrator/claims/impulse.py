@@ -40,8 +40,7 @@ F = 16 * c1 - 8 * T * c2 + T**2 * c3
     "max ∫h0 u = 1 over u in L_1 with ∫|u| = 1/ρ0",
     verdict="conditional",
     remark="True as a supremum, and as a maximum for impulses. No integrable u attains it: |h0| = ρ0 at "
-    "three "
-    "instants only.",
+    "three instants only.",
 )
 def conditions_on_the_optimum() -> Evidence:
     def argument() -> Steps:
@@ -50,7 +49,7 @@ def conditions_on_the_optimum() -> Evidence:
         paired = a0 * values[0] - am * values[1] + aT * values[2]
         yield "impulses a0, −am, aT at 0, T/2, T have ∫ h0 u = 1", vanishes(paired - 1)
         yield (
-            "where h0 is 1/(a0 + am + aT), so that positive ones have the norm 1/ρ0",
+            "|h0| there is 1/(a0 + am + aT), so that positive ones have the norm 1/ρ0",
             vanishes(values[0] * (a0 + am + aT) - 1),
         )
         width = sp.Symbol("epsilon", positive=True)
@@ -63,11 +62,11 @@ def conditions_on_the_optimum() -> Evidence:
     def counterexample() -> Steps:
         room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
         shape = 16 * tau * (T - tau) * (T - 2 * tau) ** 2 / F**2
-        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive but at 0, T/2, T", vanishes(room - shape)
+        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive except at 0, T/2, T", vanishes(room - shape)
         h = dual_function_of(sp.Matrix([1, -R(1, 2), R(1, 16)]))
         reached = 64 * (sp.integrate(h, (s, R(7, 8), 1)) + sp.integrate(h, (s, 0, R(1, 8))))
         yield (
-            "so every integrable u stays below 1: 64 on [0, 1/8] and [7/8, 1] (unit turn) gives 13/24",
+            "so ∫ h0 u < 1 for every integrable u: 64 on [0, 1/8] and [7/8, 1] (unit turn) gives 13/24",
             (reached == R(13, 24)),
         )
 
@@ -85,10 +84,8 @@ def conditions_on_the_optimum() -> Evidence:
     "pulses that approximate the impulses, and their intervals",
     verdict="misprint",
     remark="Printed: I_m = [−ε_m, +ε_m]. Right: [T/2 − ε_m, T/2 + ε_m], where the sign h0(T/2) in the same "
-    "line "
-    "and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would end at "
-    "(0, 0, 4) "
-    "instead of (1, 0, 0).",
+    "line and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would "
+    "end at (0, 0, 4) instead of (1, 0, 0).",
 )
 def approximating_pulses() -> Evidence:
     keys = (
@@ -137,7 +134,7 @@ def only_at_the_extremes() -> Evidence:
     def argument() -> Steps:
         room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
         inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
-        yield "|h0| < ρ0 but at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
+        yield "|h0| < ρ0 except at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
         h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
         weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
         yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1

@@ -104,9 +104,9 @@ def acceleration_is_torque_and_disturbance() -> Evidence:
 
     def argument() -> Steps:
         rates = sp.symbols("omega_2:4", real=True)
-        yield "what is not control is free of the control torque", not rest.has(applied)
+        yield "the rest of the acceleration does not depend on the control torque", not rest.has(applied)
         yield "it holds the product of the other two rates", rest.diff(*rates) != 0
-        yield "and the external torque", vanishes(rest.diff(external) - 1 / inertia)
+        yield "it holds the external torque", vanishes(rest.diff(external) - 1 / inertia)
 
     return Proof(argument, Equality({r"\varepsilon(t)": torque(t) + disturbance(t)}, derived))
 
@@ -148,7 +148,7 @@ def torque_is_continuous() -> Evidence:
             "over a time δ the torque changes by at most the integral of |u|",
             vanishes(grown - bound * instant),
         )
-        yield "which goes to zero with δ", sp.limit(grown, instant, 0) == 0
+        yield "that bound goes to zero with δ", sp.limit(grown, instant, 0) == 0
 
     def counterexample() -> Steps:
         rest = sp.zeros(3, 1)
@@ -157,7 +157,7 @@ def torque_is_continuous() -> Evidence:
         state = channel.drive(channel.kick(state, middle), T / 2, sp.S.Zero)
         end = channel.kick(state, first)
         yield "(4.9) performs the turn of example 1", vanishes(end - sp.Matrix([kappa, 0, 0]))
-        yield "and starts with a jump of m from 0 to 4γ/T²", channel.kick(rest, first)[2] == first
+        yield "(4.9) starts with a jump of m from 0 to 4γ/T²", channel.kick(rest, first)[2] == first
 
     return Conditional(argument, counterexample=counterexample)
 
@@ -204,7 +204,10 @@ def triple_integrator() -> Evidence:
 def bound_on_the_control() -> Evidence:
     def argument() -> Steps:
         yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
-        yield "and with no smaller u0", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+        yield (
+            "no smaller u0 suffices: the bound by a dual function",
+            peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32,
+        )
         least_energy = energy.minimum_energy_control().subs(unit_turn())
         yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
 
@@ -238,6 +241,9 @@ def nontrivial() -> Evidence:
     def argument() -> Steps:
         gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
         yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
-        yield "and the gap can be anything: it is onto in xf", gap.jacobian(channel.final) == sp.eye(3)
+        yield (
+            "every gap occurs: its derivative by xf is the identity",
+            gap.jacobian(channel.final) == sp.eye(3),
+        )
 
     return Proof(argument)

@@ -155,7 +155,7 @@ def effect_of_the_disturbance() -> Evidence:
         first = sp.integrate(sp.expand((T - tau) * force), (tau, 0, T))
         yield "g1 is where a quadratic disturbance takes the channel from rest", vanishes(moved[0] - first)
         yield "g2 likewise", vanishes(moved[1] - sp.integrate(force, (tau, 0, T)))
-        yield "for each of its three coefficients", all(moved[0].has(f) for f in coefficients)
+        yield "this holds for each of its three coefficients", all(moved[0].has(f) for f in coefficients)
 
     return Proof(argument, Equality(printed, derived))
 
@@ -172,7 +172,7 @@ def moment_equation() -> Evidence:
         gap = channel.required_moments(force) - moments
         yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
         solved = sp.solve(list(gap), coefficients[:3], dict=True)
-        yield "and controls with the moments c exist", len(solved) == 1
+        yield "controls with the moments c exist", len(solved) == 1
 
     return Proof(
         argument,

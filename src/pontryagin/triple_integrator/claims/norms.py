@@ -100,10 +100,8 @@ def moment_equalities() -> Evidence:
     "every bounded functional on L_p is an integral with some u in L_q",
     verdict="conditional",
     remark="True for 1 ≤ p < ∞ (Riesz). For p = ∞ (q = 1, problem 3) it is false: the value at one instant, "
-    "extended "
-    "from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. It is "
-    "just "
-    "such functionals that solve problem 3, (4.9).",
+    "extended from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. "
+    "It is just such functionals that solve problem 3, (4.9).",
 )
 def form_of_the_functional() -> Evidence:
     def argument() -> Steps:
@@ -117,7 +115,10 @@ def form_of_the_functional() -> Evidence:
         )
         for n in (sp.S(2), R(3, 2), sp.oo):
             size = conjugate_norm(n).subs(represented, simultaneous=True)
-            yield f"of finite norm in L_{n}", size.has(w1) and not size.has(sp.zoo, sp.nan)
+            yield (
+                f"the step function has a finite norm in L_{n}",
+                size.has(w1) and not size.has(sp.zoo, sp.nan),
+            )
 
     def counterexample() -> Steps:
         order, bound = sp.symbols("n U", positive=True)
@@ -129,7 +130,7 @@ def form_of_the_functional() -> Evidence:
             "its integral with any u of bound U is at most U T/(n + 1)",
             vanishes(paired - bound / (order + 1)),
         )
-        yield "which goes to 0, not 1; bounded u are dense in L_1", sp.limit(paired, order, sp.oo) == 0
+        yield "that bound goes to 0, not 1; bounded u are dense in L_1", sp.limit(paired, order, sp.oo) == 0
 
     return Conditional(
         argument,
@@ -171,6 +172,6 @@ def dual_set() -> Evidence:
         spanned = sp.expand((multipliers.T * impulse_response())[0] - energy.minimal_element())
         found = sp.solve(sp.Poly(spanned, s).coeffs(), list(multipliers), dict=True)[0]
         yield "the least element of P is a combination of the h_k", len(found) == 3
-        yield "with l'c = 1", vanishes((multipliers.subs(found).T * c)[0] - 1)
+        yield "the least element has l'c = 1", vanishes((multipliers.subs(found).T * c)[0] - 1)
 
     return Proof(argument, Equality({r"\sum_k l_k c_k": sp.S.One}, derived))

@@ -77,7 +77,7 @@ def solvable_where_norm_is_positive() -> Evidence:
             "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0",
             ((witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0),
         )
-        yield "and no control has those moments", vanishes((witness.T * moments)[0])
+        yield "no control has the moments that belong to such h_k", vanishes((witness.T * moments)[0])
 
     return Proof(argument)
 
@@ -142,8 +142,7 @@ def norm_of_the_optimum() -> Evidence:
     "the dual of L_p is isometric to L_q, so min ‖u‖ = min ‖Φ‖ = 1/ρ0, for all 1 ≤ q ≤ ∞",
     verdict="conditional",
     remark="True for 1 < q ≤ ∞. For q = 1 the dual of L_∞ is larger than L_1: already in example 1 the "
-    "infimum "
-    "16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
+    "infimum 16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
 )
 def isometry() -> Evidence:
     def argument() -> Steps:
@@ -161,11 +160,11 @@ def isometry() -> Evidence:
         yield "unit turn: ∫ h u = 1 for every u that makes it", (IMPULSE_DUAL.T * TURN)[0] == 1
         room = sp.factor(R(1, 16) ** 2 - h**2)
         touching = sp.Poly(room, s).real_roots()
-        yield "and |h| touches 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
+        yield "|h| = 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
         between = [room.subs(s, x) for x in (R(1, 4), R(3, 4))]
-        yield "being smaller between: hence 1 < ‖u‖/16, for every integrable u", min(between) > 0
+        yield "|h| is smaller between them: hence 1 < ‖u‖/16 for every integrable u", min(between) > 0
         turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
-        yield "but impulses of total 16 make the turn, and narrow pulses come near", turned == TURN
+        yield "impulses of total 16 make the turn, and narrow pulses approach them", turned == TURN
         width = sp.Symbol("epsilon", positive=True)
         pulses = sum(
             (
@@ -175,7 +174,7 @@ def isometry() -> Evidence:
             sp.zeros(3, 1),
         ).subs(T, 1)
         reached = pulses.applyfunc(lambda x: sp.limit(x, width, 0))
-        yield "as their width goes to 0", reached == TURN
+        yield "the pulses reach the target as their width goes to 0", reached == TURN
 
     return Conditional(
         argument,
@@ -224,10 +223,10 @@ def krasovskii_principle() -> Evidence:
         paired = (T1 * v1 * best[0] + T2 * v2 * best[1]).subs(numbers)
         yield "u = ρ0^(−p) |h0|^(p−1) sign h0 has ∫ h0 u = 1 (h0 of two levels, p = 3)", paired == 1
         powers = sum(n * sp.Abs(u) ** q for n, u in zip(lengths, best, strict=True)).subs(numbers)
-        yield "and ‖u‖ = 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
+        yield "its norm is 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
         paired = energy.stationary()[1].T * moments_of(energy.minimum_energy_control())
         yield "q = 2: ∫ h0 u* = 1", vanishes(paired[0] - 1)
-        yield "and u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
+        yield "u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
         h = dual_function_of(PEAK_DUAL)
         signs = [sp.sign(h.subs(s, x)) for x in (R(1, 8), R(1, 2), R(7, 8))]
         yield (
@@ -247,8 +246,7 @@ def krasovskii_principle() -> Evidence:
     "for J = ‖u‖ in L_q the problem is solved by (1.13) and then (1.14)",
     verdict="conditional",
     remark="True for 1 < q ≤ ∞, where (1.14) has one solution. For q = 1 it has many (or none in L_1) and "
-    "does "
-    "not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
+    "does not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
 )
 def two_problems_in_turn() -> Evidence:
     def argument() -> Steps:
@@ -266,6 +264,9 @@ def two_problems_in_turn() -> Evidence:
         yield "q = 1, unit turn: one impulse of 16 at τ = 0 has ∫ h0 u = 1", 16 * h.subs(s, 1) == 1
         yield "and norm 1/ρ0 = 16", 1 / peak_of(h, sp.S.One) == 16
         missed = drive(kick(sp.zeros(3, 1), sp.Integer(16)), sp.S.One, sp.S.Zero)
-        yield "but takes the craft to (8, 16, 16), not to (1, 0, 0)", missed == sp.Matrix([8, 16, 16])
+        yield (
+            "that impulse takes the craft to (8, 16, 16), not to (1, 0, 0)",
+            missed == sp.Matrix([8, 16, 16]),
+        )
 
     return Conditional(argument, counterexample=counterexample)

@@ -120,7 +120,7 @@ def problem_2() -> Evidence:
 def least_bound() -> Evidence:
     def argument() -> Steps:
         yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
-        yield "and nothing less: h proves it", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+        yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
 
     return Proof(argument)
 
@@ -149,16 +149,19 @@ def minimiser_in_l1() -> Evidence:
         spent = sum(duration * size for duration, size in pieces)
         yield "a control of one sign spends c3 (three pieces)", vanishes(piecewise_moments(pieces)[2] - spent)
         bound = impulse_bound(sp.Matrix([0, 0, 1]), sp.Matrix([0, 0, 1]), sp.S.One)
-        yield "and h = 1 proves that |c3| is the least: attained", bound == 1
+        yield "h = 1 proves that no control spends less than |c3|", bound == 1
 
     def counterexample() -> Steps:
         h = dual_function_of(IMPULSE_DUAL)
         room = sp.factor(1 - 256 * h**2)
         yield (
-            "example 1: 1 = ∫ h u with |h| < 1/16 but at three instants",
+            "example 1: 1 = ∫ h u with |h| < 1/16 except at three instants",
             set(sp.Poly(room, s).real_roots()) == {0, R(1, 2), 1},
         )
-        yield "so ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
-        yield "while 16 is approached", three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4))) == TURN
+        yield "hence ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
+        yield (
+            "narrow pulses approach 16",
+            three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4))) == TURN,
+        )
 
     return Conditional(argument, counterexample=counterexample)

@@ -172,9 +172,8 @@ def switches_on_the_curve() -> Evidence:
     "the problem (3.6) is now a one-dimensional search in λ~",
     verdict="conditional",
     remark="True for the global minimum of |S1 − S2 + S3| (with the modulus) over the λ~ with T + λ~c3 > 0, "
-    "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 "
-    "puts t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. "
-    "And "
+    "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 puts "
+    "t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. And "
     "for c2 = c3 = 0 (example 2) every λ~ gives the same t1, t2: λ~ is not found at all.",
 )
 def one_dimensional_search() -> Evidence:
@@ -189,9 +188,9 @@ def one_dimensional_search() -> Evidence:
             "the optimum of level v with switches a < b lies on the curve (3.19): t1 = a",
             vanishes(first - early),
         )
-        yield "and t2 = b, both at λ~ = −1/v", vanishes(second - late)
+        yield "there t2 = b, both at λ~ = −1/v", vanishes(second - late)
         width = sp.cancel(T + (slope * c3).subs(at).subs(slope, -1 / v))
-        yield "where T + λ~c3 = 2(b − a) > 0", vanishes(width - 2 * (late - early))
+        yield "there T + λ~c3 = 2(b − a) > 0", vanishes(width - 2 * (late - early))
 
     def counterexample() -> Steps:
         moments = sp.Matrix([0, 0, 1])
@@ -279,8 +278,7 @@ def curvature_from_the_search() -> Evidence:
     "(3.15) to (3.17) have an analytic solution, too bulky to print",
     verdict="holds",
     remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + "
-    "4c3³v "
-    "− c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
+    "4c3³v − c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
 )
 def closed_form() -> Evidence:
     def argument() -> Steps:
@@ -296,7 +294,7 @@ def closed_form() -> Evidence:
             vanishes(quartic.as_expr().subs(level, v).subs(at)),
         )
         yield (
-            "and −v for those of its negative",
+            "−v is a root for the moments of its negative",
             vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
         )
         remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3

@@ -73,8 +73,7 @@ def depth_of_the_parabola() -> Evidence:
     verdict="conditional",
     remark="α_m and β_m do have one sign, and c → −c changes it; but for a given c the sign is not free. For "
     "c = (−γ, 0, 0) condition (3.13) reads −2γα_m = 1: no α_m > 0. One has to solve for c and −c, or "
-    "minimise "
-    "|F| instead of F in (3.14).",
+    "minimise |F| instead of F in (3.14).",
 )
 def convex_parabola() -> Evidence:
     def argument() -> Steps:
@@ -98,7 +97,7 @@ def convex_parabola() -> Evidence:
         best = area.subs({apex: R(1, 2), half_width: R(1, 4)})
         lower_still = area.subs({apex: R(1, 2), half_width: R(1, 8)})
         yield "with α_m = −1/2 its F is −1/32", best == -R(1, 32)
-        yield "and is not the least F, but the least |F|", lower_still < best
+        yield "that is not the least F, but the least |F|", lower_still < best
 
     return Conditional(argument, counterexample=counterexample)
 

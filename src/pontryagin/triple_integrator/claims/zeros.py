@@ -158,11 +158,14 @@ def bounds_may_be_dropped() -> Evidence:
             "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
             vanishes(extra + 2 * between(early, late, early, late)),
         )
-        yield "and that is positive", sp.expand(extra).is_positive
+        yield "that integral is positive", sp.expand(extra).is_positive
         early, late = first, T + outside
         inside = between(early, late, 0, early) - between(early, late, early, T)
         extra = signed(early, late) - inside
-        yield "t2 after tf: likewise", vanishes(extra + 2 * between(early, late, T, late))
+        yield (
+            "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
+            vanishes(extra + 2 * between(early, late, T, late)),
+        )
         early, late = -outside, T + other
         extra = signed(early, late) + between(early, late, 0, T)
         ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
