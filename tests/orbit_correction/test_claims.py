@@ -8,13 +8,11 @@ import pytest
 import sympy as sp
 
 from pontryagin.ledger import Unsupported, counts
-from pontryagin.ledger.evidence import (
-    Misprint,
-    Refutation,
-)
-from pontryagin.orbit_correction import derivation, exact
+from pontryagin.ledger.evidence import Misprint, Refutation
+from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import ENTRIES, convexity, images, reduction, sums, tables, worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs
+from pontryagin.orbit_correction.derivation import exact
 
 R = sp.Rational
 

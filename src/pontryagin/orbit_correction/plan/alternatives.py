@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
-from pontryagin.orbit_correction.columns import Columns, mixture, whitened
-from pontryagin.orbit_correction.flight import single
-from pontryagin.orbit_correction.plan import Plan
+from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
+from pontryagin.orbit_correction.plan.correction import Plan, single
 
 ITERATIONS = 200
 CLOSED = 1e-10
@@ -106,7 +105,7 @@ def least_energy(plan: Plan) -> Alternative:
 
     Examples
     --------
-    >>> from pontryagin.orbit_correction.plan import correct
+    >>> from pontryagin.orbit_correction.plan.correction import correct
     >>> plan = correct([-0.0037787, -0.0039109, 0.0141512])
     >>> f"{least_energy(plan).energy:.4f} {least_peak(plan).energy:.4f}"
     '3.3991 3.4490'
@@ -137,7 +136,7 @@ def least_fuel(plan: Plan) -> Alternative:
 
     Examples
     --------
-    >>> from pontryagin.orbit_correction.plan import correct
+    >>> from pontryagin.orbit_correction.plan.correction import correct
     >>> plan = correct([-0.0037787, -0.0039109, 0.0141512], thrust="disc")
     >>> least_fuel(plan).fuel < least_peak(plan).fuel
     True

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.orbit_correction.columns import Columns, mixture, whitened
-from pontryagin.orbit_correction.satellite import step_factors
+from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
+from pontryagin.orbit_correction.system.satellite import step_factors
 from pontryagin.validation import finite, positive, vectors
 
 ITERATIONS = 200

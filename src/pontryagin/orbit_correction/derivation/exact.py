@@ -11,7 +11,7 @@ from random import Random
 
 import sympy as sp
 
-from pontryagin.orbit_correction.summands import backward_product
+from pontryagin.orbit_correction.derivation.summands import backward_product
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
 from pontryagin.numerics.jit import compiled
-from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.ellipsoids import gauge_of
-from pontryagin.orbit_correction.kinks import flat_gauge
-from pontryagin.orbit_correction.zonotope import zonotope_gauge
+from pontryagin.orbit_correction.gauges.ellipsoids import gauge_of
+from pontryagin.orbit_correction.gauges.kinks import flat_gauge
+from pontryagin.orbit_correction.gauges.zonotope import zonotope_gauge
+from pontryagin.orbit_correction.system import satellite
 
 THRUSTS = ("ball", "disc", "box")
 SIGNATURE = (

@@ -1,82 +1,47 @@
-"""Recordings that replay: the satellite beside its circle, its impulses, and the sets that shrink around it.
+"""What a recording of one plan shows: the orbit, the impulses, and the sets of states still within reach.
 
-`recordings` names them, each with the function that writes it; `record_plan` records any one plan. The
-orbit's radius and speed are units; a radian of the orbit takes `PACE` seconds.
+The orbit's radius and speed are units; a radian of the orbit takes `PACE` seconds.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    RED,
-    SKY,
-)
-from pontryagin.display.recording import (
-    Events,
-    Plot,
-    Point,
-    Recording,
-    Scene,
-    View,
-    record,
-)
-from pontryagin.orbit_correction import satellite, sets
-from pontryagin.orbit_correction.flight import fly_plan, single
-from pontryagin.orbit_correction.plan import Plan, correct
+from pontryagin.display.plotting import BLUE, GREEN, GREY, ORANGE, RED, SKY
+from pontryagin.display.recording import Events, Plot, Point, Recording, Scene, View, record
+from pontryagin.orbit_correction import sets
+from pontryagin.orbit_correction.flight import fly_plan
+from pontryagin.orbit_correction.plan.correction import Plan, single
+from pontryagin.orbit_correction.playback.remaining import Remaining, remaining
+from pontryagin.orbit_correction.system import satellite
 
-Z0 = (-0.0037787, -0.0039109, 0.0141512)
 SAMPLES = 13
+"""Instants that are recorded in each interval between impulses, its two ends included."""
+
 PACE = 10.0
+"""Seconds of the recording for a radian of the orbit."""
+
 BLINK = 0.06
-"""Seconds that a jump takes in a plot: the player averages the values of one pixel."""
+"""Seconds that a jump takes in a plot: the player averages the values that share a pixel."""
 
 HOLD = 0.5
-"""Seconds that an impulse is shown."""
+"""Seconds for which an impulse is shown."""
 
 RADIUS = 10.0
 """Radius of the orbit as drawn."""
 
 LENGTH = 4.0
-"""Length of an arrow for an impulse at its bound."""
+"""Length of the arrow of an impulse at its bound."""
 
-NEAR_THE_SET = ((1.1, -1.3, 0.7), (0.0, 0.0, 0.0))
+NEAR_THE_SET: tuple[Point, Point] = ((1.1, -1.3, 0.7), (0.0, 0.0, 0.0))
+"""The place of the camera that shows the sets, and the point that it looks at."""
 
 SIDES = (("radial", RED), ("transverse", GREEN))
+"""The components of an impulse and their colours."""
+
 STATES = (("dr", BLUE), ("dvR", RED), ("dvT", GREEN))
-GREY = "#9a9a9a"
-
-
-def recordings() -> dict[str, Callable[[Path], None]]:
-    """The recordings of this paper: name and the function that writes the file."""
-    return {"orbit-correction": orbit_correction, "orbit-correction-square": orbit_correction_square}
-
-
-def orbit_correction(path: Path) -> None:
-    """The worked example: six impulses of the paper's ball.
-
-    Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
-    Below, the states from which the impulses still to come lead back to the circle, a set that shrinks around
-    the state (red arrow, grey path); the state keeps its gauge until it is home.
-    """
-    record_plan(correct(Z0, thrust="ball"), path)
-
-
-def orbit_correction_square(path: Path) -> None:
-    """The same state corrected by five impulses of the square.
-
-    Above, the satellite on its true flight beside the circle, its deviation magnified, impulses as arrows.
-    Below, the zonotope of states from which the impulses still to come lead back, which loses one impulse's
-    parallelogram after the other; the state is the red arrow, its path grey.
-    """
-    record_plan(correct(Z0, thrust="box"), path)
+"""The deviations and their colours."""
 
 
 def record_plan(plan: Plan, path: Path) -> None:
@@ -163,43 +128,11 @@ def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
         recording.curve(f"impulse/{name}", dense[dense <= t[-1]], values[dense <= t[-1]], name, colour)
 
 
-def _flash(plan: Plan, t: NDArray) -> Array:
+def _flash(plan: Plan, t: Array) -> Array:
     """Impulses over their bound at the times (k,), each shown while it is held, (k, 2)."""
     since = t[:, None] - PACE * plan.thrust.interval * np.arange(len(plan.impulses))
     shown = (since > 0) & (since < HOLD + BLINK / 2)
     return np.asarray(shown @ (plan.impulses / plan.thrust.peak))
-
-
-@dataclass(frozen=True)
-class Remaining:
-    """What is still to come at an instant: whole steps, and what is left of one that has begun.
-
-    Attributes
-    ----------
-    factors : (steps, 3, m) array
-        Of the steps not begun, for the initial state.
-    rest : (3, c) array
-        Of the components still to come in the step that has begun, within what they have left of its ball.
-    """
-
-    factors: Array
-    rest: Array
-
-    def boundary(self, normals: Array, square: bool) -> Array:
-        """Support points for outward normals (..., 3)."""
-        whole = sets.support_points(self.factors, normals, square)
-        return whole + sets.support_points(self.rest[None], normals, False)
-
-
-def remaining(plan: Plan, fired: int) -> Remaining:
-    """What is still to come once so many impulses have been fired, for states carried back to the start."""
-    factors = plan.thrust.factors(int(plan.steps))
-    begun, spent = divmod(2 * fired, factors.shape[2])
-    if not spent or begun >= len(factors):
-        return Remaining(factors[begun:], np.zeros((3, 1)))
-    done = plan.step_controls[begun, :spent] / (plan.gauge * plan.thrust.peak)
-    left = np.sqrt(max(0.0, 1.0 - float(done @ done)))
-    return Remaining(factors[begun + 1 :], left * factors[begun, :, spent:])
 
 
 def _sets(recording: Recording, plan: Plan) -> None:
@@ -230,7 +163,7 @@ def _sets(recording: Recording, plan: Plan) -> None:
     recording.curve("gauge/alpha", times[: len(gauges)] + home, [*gauges, 0.0, 0.0], "alpha", BLUE)
 
 
-def _proved(plan: Plan, held: NDArray, left: Remaining, square: bool) -> float:
+def _proved(plan: Plan, held: Array, left: Remaining, square: bool) -> float:
     """The gauge that the plan's costate proves of a state carried back to the start."""
     psi = -plan.initial_costate
     return float(held @ psi) / float(left.boundary(psi, square) @ psi)

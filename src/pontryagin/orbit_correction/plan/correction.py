@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.orbit_correction.proof import CLOSED, require_closed, unit
-from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.gauges.proof import CLOSED, require_closed, unit
+from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
 from pontryagin.validation import positive, vectors
 
 ROUNDING = 1e-12
@@ -93,6 +93,13 @@ class Plan:
             costates[..., k, :] = current
             current = current @ np.linalg.inv(self.thrust.step_transition(k))
         return costates
+
+
+def single(plan: Plan) -> Plan:
+    """The plan itself, if it is that of one state; else `ValueError`."""
+    if plan.steps.shape:
+        raise ValueError(f"plan must be that of one state, got a stack of shape {plan.steps.shape}")
+    return plan
 
 
 def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: str = "ball") -> Plan:

@@ -200,11 +200,3 @@ def zonotope_gauge(segments, b, psi, controls):
     for k in range(count):
         peak = max(peak, fabs(controls[k]))
     return 1.0 / total, peak
-
-
-def zonotope_stack(segments, targets, costates, controls, results):
-    """`zonotope_gauge` for each row of targets (states, 3)."""
-    for row in range(targets.shape[0]):
-        results[row, 0], results[row, 1] = zonotope_gauge(
-            segments, targets[row], costates[row], controls[row]
-        )

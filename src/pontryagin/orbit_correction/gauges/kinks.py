@@ -9,8 +9,8 @@ from math import sqrt
 
 import numpy as np
 
-from pontryagin.orbit_correction.ellipsoids import GAP, bounds, continuation, gauge_of, support
-from pontryagin.orbit_correction.zonotope import cross, dot
+from pontryagin.orbit_correction.gauges.ellipsoids import GAP, bounds, continuation, gauge_of, support
+from pontryagin.orbit_correction.gauges.zonotope import cross, dot
 
 CANDIDATES = 8
 
