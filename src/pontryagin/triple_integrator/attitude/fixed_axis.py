@@ -7,7 +7,7 @@ actuators give it too; without, the body misses its target.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -22,8 +22,10 @@ from pontryagin.triple_integrator.problem.disturbance import Panels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Turn:
     """A body turned about a fixed axis by a programme; times (k,) as in the programme.
@@ -45,7 +47,7 @@ class Turn:
     axis: Array
     programme: Programme
     feedforward: bool
-    motion: Motion
+    motion: Motion = field(compare=False)
 
     def attitude(self, t: ArrayLike) -> Array:
         """Quaternion, scalar first, from body to inertial axes, (k, 4)."""

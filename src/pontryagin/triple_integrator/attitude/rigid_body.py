@@ -5,7 +5,7 @@ inertial axes; angular rates and torques are in body axes.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from typing import cast
@@ -18,6 +18,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.rotation import attitude_rate, cross
 from pontryagin.validation import finite, vectors
+from pontryagin.value import freeze, value_class
 
 TOLERANCE = 1e-13
 """Local error of the integration, relative and in scaled units."""
@@ -32,6 +33,7 @@ Torque = Callable[[float, Array, Array, Array], Array]
 """From (t, attitude, rate, commands) to the torque on the body in body axes, (3,)."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False, init=False)
 class RigidBody:
     """A rigid spacecraft.
@@ -76,7 +78,8 @@ class RigidBody:
                 f"got principal moments {listed}",
                 "inertia",
             )
-        object.__setattr__(self, "inertia", tensor)
+        freeze(tensor)
+        self.__dict__["inertia"] = tensor
 
     @cached_property
     def inverse(self) -> Array:
@@ -93,11 +96,13 @@ class RigidBody:
         return (torque - cross(rate, rate @ self.inertia)) @ self.inverse
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Motion:
     """A motion of the body, sampled on demand.
 
-    The commands jump at impulses and are continuous from the right.
+    The commands jump at impulses and are continuous from the right. Motions are compared by their edges and
+    ends.
 
     Attributes
     ----------
@@ -110,7 +115,7 @@ class Motion:
     """
 
     edges: Array
-    stretches: Sequence[OdeSolution]
+    stretches: Sequence[OdeSolution] = field(compare=False)
     start: Array
     end: Array
 

@@ -26,11 +26,13 @@ from pontryagin.triple_integrator.attitude.fixed_axis import disturbance_of, imp
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
 from pontryagin.triple_integrator.problem.disturbance import chebyshev_fit
 from pontryagin.triple_integrator.problem.programme import Programme
+from pontryagin.value import value_class
 
 DEGREE = 40
 """Degree of the Chebyshev series of f on each smooth stretch of the motion."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Coupling:
     """The cross-coupling f(t) of one channel, continuous from the right.

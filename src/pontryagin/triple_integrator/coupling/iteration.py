@@ -28,6 +28,7 @@ from pontryagin.triple_integrator.coupling.channels import Channels, Coupling
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import finite
+from pontryagin.value import value_class
 
 NOISE = 1e-11
 """A miss below this is an error of the integrator and says nothing about the iteration."""
@@ -39,6 +40,7 @@ Solver = Callable[[Maneuver], Programme]
 """What solves the moment problem of one channel, such as `minimum_energy`."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class CoupledManeuver:
     """A manoeuvre of all three channels that reaches its target through the full equations.

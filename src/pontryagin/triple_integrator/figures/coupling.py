@@ -16,11 +16,13 @@ from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple, spherical_factor
 from pontryagin.triple_integrator.norms.energy import minimum_energy
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.value import value_class
 
 TOLERANCE = 1e-6
 """Largest miss of the target that counts as reached, rad."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Attempt:
     """A coupled turn from rest to rest by an angle (degrees), or the reason why none was found."""

@@ -13,8 +13,10 @@ from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import common_shape, finite, positive, vectors
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class TimeSolution(BangBang):
     """Transfer of least duration under |u| <= peak.

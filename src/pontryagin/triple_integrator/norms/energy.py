@@ -14,6 +14,7 @@ from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme, normalise, over_stack, response
+from pontryagin.value import value_class
 
 
 def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
@@ -39,6 +40,7 @@ def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]
 solve_stack = batched(solve_energy, outputs=6)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class EnergySolution(Programme):
     """Control of least L2 norm, a parabola in the time to go.

@@ -26,6 +26,7 @@ from pontryagin.triple_integrator.norms.quadrature import (
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import normalise
+from pontryagin.value import value_class
 
 CONVERGED = 1e-10
 """Largest residual of the moments of a solution that is returned."""
@@ -37,6 +38,7 @@ CHUNK = 64
 """How many problems are solved side by side, such that their nodes fit a processor's cache."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class EntropySolution(QuadraticProgramme):
     """Control u = +-exp(k0 + k1 s + k2 s^2) in the time to go s.

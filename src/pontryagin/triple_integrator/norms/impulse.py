@@ -24,6 +24,7 @@ from pontryagin.triple_integrator.problem.programme import (
     over_stack,
     response,
 )
+from pontryagin.value import value_class
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
 """Where the impulses act: nowhere; anywhere with one sign; at both ends and in the middle with alternating
@@ -108,6 +109,7 @@ def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...
 solve_stack = batched(solve_impulse, outputs=8)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ImpulseSolution(Programme):
     """Control of least total impulse: at most three impulses.

@@ -25,11 +25,13 @@ from pontryagin.triple_integrator.norms.quadratic_programme import (
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule, logistic_rule, orthonormal
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import breakpoints
+from pontryagin.value import value_class
 
 CONVERGED = 1e-10
 """Largest residual of the moments and largest relative gap of a solution that is returned."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class NormSolution(QuadraticProgramme):
     """Control of least L_q norm: u = peak |h|^(p-1) sign h for a quadratic h whose largest modulus is 1.

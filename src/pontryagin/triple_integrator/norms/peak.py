@@ -21,6 +21,7 @@ from pontryagin.triple_integrator.kernels import (
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import over_stack
+from pontryagin.value import value_class
 
 EDGE = 1e-14
 """A piece of the control shorter than this share of T is left out: rounding of the moments hides it."""
@@ -131,6 +132,7 @@ def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
 solve_stack = batched(solve_peak, outputs=5)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class PeakSolution(BangBang):
     """Control of least peak: |u| constant, at most two switches.

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.value import value_class
 
 Integrand = Callable[[NDArray[np.intp], Array], Array]
 """From the index of each quadratic in its flat stack (m,) and its values (m, n) to the integrand (m, n)."""
@@ -53,6 +54,7 @@ def graded_rule() -> Rule:
     return Rule(np.append(near, 1 - near), np.append(1 - near, near), np.append(weights, weights), 0.0)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Quadratic:
     """h(s) = h0 + h1 s + h2 s^2 on [0, 1], or a stack of them.

@@ -1,7 +1,10 @@
 """The manoeuvre, (0.6) to (0.9): both ends, the time, the disturbance, and the moments c of (1.10)."""
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, fields
 from functools import cached_property
+from types import FunctionType
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,8 +13,9 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
-from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals
+from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals, named_after
 from pontryagin.validation import common_shape, finite, times, vectors
+from pontryagin.value import freeze, value_class
 
 moments_of_stack = batched(kernels.moments, outputs=3)
 
@@ -19,6 +23,7 @@ NUMBERS = "a number or an array (...)"
 """What the times, and a disturbance given as numbers, take."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False, init=False)
 class Maneuver:
     """A manoeuvre of x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
@@ -80,8 +85,34 @@ class Maneuver:
         if late.any():
             wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
             raise ArgumentValueError(f"tf must be later than t0, got {wrong}", "tf")
-        self.__dict__.update(x0=start, xf=end, tf=last, t0=first, disturbance=disturbance)
+        fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
+        freeze(fields)
+        self.__dict__.update(fields)
         _ = self._integrals  # A disturbance of the wrong kind is refused here.
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields, with a function that pickle cannot find by its name named after its argument."""
+        force = self.disturbance
+        named = named_after("disturbance", force) if isinstance(force, FunctionType) else force
+        return {**self._fields(), "disturbance": named, "name": getattr(force, "__qualname__", None)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        name, force = state.pop("name"), state["disturbance"]
+        if isinstance(force, FunctionType) and force.__qualname__ != name:
+            force.__qualname__, force.__name__ = name, name.rpartition(".")[2]
+        freeze(state)
+        self.__dict__.update(state)
+
+    def __copy__(self) -> Self:
+        copied = object.__new__(type(self))
+        copied.__dict__.update(self._fields())
+        return copied
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return copy(self)  # The arrays are read-only, and functions are not copied.
+
+    def _fields(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def shape(self) -> tuple[int, ...]:

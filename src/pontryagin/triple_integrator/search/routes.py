@@ -21,6 +21,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.triple_integrator.norms.peak import minimum_peak
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.value import value_class
 
 ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
 """The routes. "zeros" and "zeros within" minimise |F| over t1 and t2 from T/4 and 3T/4, free (BFGS) or
@@ -40,7 +41,8 @@ GRID = 201
 """How many points the grid of "multiplier within" has."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class SearchResult:
     """The point at which a route ends.
 
@@ -78,7 +80,8 @@ class SearchResult:
         return not self.reason
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Survey:
     """The results of the routes over directions of the moments.
 
