@@ -7,6 +7,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
+from pontryagin.io import json_io, rows
 from pontryagin.terminal import console
 from pontryagin.triple_integrator import transcript
 
@@ -168,7 +169,7 @@ def _print(solution: Any, json: bool, samples: int) -> None:
     if samples:
         report["samples"] = transcript.samples(solution, samples)
     if json:
-        typer.echo(console.to_json(report))
+        typer.echo(json_io.to_json(report))
     else:
         console.show(transcript.account(solution).title, report, transcript.conclusion(solution))
 
@@ -182,5 +183,5 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     start, end = problems.stack(batch.START), problems.stack(batch.END)
     ends = Ends(start, end, problems.columns.get("t0", 0.0), problems.columns.get("tf"))
     solution = _solved(goal, ends, force)
-    console.emit("--out", out, batch.to_csv(problems, solution))
+    console.emit("--out", out, rows.to_csv(problems, batch.answers(solution)))
     console.require_proof(solution.certificate)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.quadrature import gauss
 from pontryagin.value import value_class
 
 Integrand = Callable[[NDArray[np.intp], Array], Array]
@@ -46,11 +47,11 @@ def logistic_rule() -> Rule:
 @cache
 def graded_rule() -> Rule:
     """Sixteen Gauss-Legendre nodes on panels that shrink fourfold towards both ends."""
-    x, w = np.polynomial.legendre.leggauss(16)
+    x, w = gauss(16)
     edges = np.append(0.0, 0.5 * 4.0 ** np.arange(-27.0, 1.0))
     widths = np.diff(edges)
-    near = (edges[:-1, None] + widths[:, None] * (1 + x) / 2).ravel()
-    weights = (widths[:, None] * w / 2).ravel()
+    near = (edges[:-1, None] + widths[:, None] * x).ravel()
+    weights = (widths[:, None] * w).ravel()
     return Rule(np.append(near, 1 - near), np.append(1 - near, near), np.append(weights, weights), 0.0)
 
 

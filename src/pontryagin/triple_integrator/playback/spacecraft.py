@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, GREY, ORANGE, PURPLE, RED
 from pontryagin.display.recording import Recording
-from pontryagin.numerics.rotation import between, rotation_vector
+from pontryagin.numerics.rotation import between, rotated, rotation_vector
 from pontryagin.triple_integrator.attitude import RigidBody, impulses
 from pontryagin.triple_integrator.norms.energy import minimum_energy
 from pontryagin.triple_integrator.norms.impulse import minimum_impulse
@@ -54,13 +54,6 @@ def angle_between(attitude: ArrayLike, target: ArrayLike) -> Array:
     return np.asarray(np.linalg.norm(left, axis=1))
 
 
-def to_inertial(attitude: Array, vectors: Array) -> Array:
-    """Vectors (k, 3) in body axes, in inertial axes."""
-    scalar, axis = attitude[:, :1], attitude[:, 1:]
-    turned = 2 * np.cross(axis, vectors)
-    return vectors + scalar * turned + np.cross(axis, turned)
-
-
 def draw_spacecraft(
     recording: Recording, entity: str, t: Array, attitude: Array, position: Array, colour: str
 ) -> None:
@@ -78,5 +71,5 @@ def draw_spacecraft(
 def draw_target(recording: Recording, entity: str, t: Array, attitude: Array, position: Array) -> None:
     """Draw the target attitude as a triad."""
     for i, unit in enumerate(np.eye(3)):
-        arm = 2.2 * to_inertial(attitude[None], unit[None])[0]
+        arm = 2.2 * rotated(unit, attitude)
         recording.path(f"{entity}/{i + 1}", [position, position + arm], GREY, 0.03)

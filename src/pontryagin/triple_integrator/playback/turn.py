@@ -7,6 +7,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, INK, ORANGE, RED
 from pontryagin.display.recording import Events, Plot, Recording, Scene, View, record
+from pontryagin.numerics.rotation import rotated
 from pontryagin.triple_integrator.attitude import Turn, impulses, turn
 from pontryagin.triple_integrator.playback.spacecraft import (
     CHANNEL_COLOURS,
@@ -16,7 +17,6 @@ from pontryagin.triple_integrator.playback.spacecraft import (
     draw_target,
     rest_to_rest,
     sample_times,
-    to_inertial,
 )
 
 
@@ -80,8 +80,8 @@ def _turning(recording: Recording, label: str, made: Turn, t: Array, position: A
     recording.path(f"turn/{name}-axis", position + np.outer([-2.6, 2.6], made.axis), INK)
     origin = np.tile(position, (t.size, 1))
     largest = np.linalg.norm(made.torque(t), axis=1).max()
-    rotated = to_inertial(made.attitude(t), made.torque(t))
-    recording.arrow(f"turn/{name}-torque", t, 3 * rotated / largest, ORANGE, origin)
+    torque = rotated(made.torque(t), made.attitude(t))
+    recording.arrow(f"turn/{name}-torque", t, 3 * torque / largest, ORANGE, origin)
     error = np.linalg.norm(made.error(t), axis=1)
     recording.curve(f"error/{name}", t, error, label, colour)
     for i, values in enumerate(made.rate(t).T):
