@@ -46,7 +46,7 @@ def value_class(cls: type[Class]) -> type[Class]:
     for name in methods.keys() - vars(cls).keys():
         setattr(cls, name, methods[name])
     if cls.__dataclass_params__.init:  # type: ignore[attr-defined]
-        cls.__init__ = _initialiser(cls)  # type: ignore[misc]
+        setattr(cls, "__init__", _initialiser(cls))  # noqa: B010
     return cls
 
 

@@ -44,7 +44,7 @@ def named_after(argument: str, function: FunctionType) -> FunctionType:
     Plain pickle then refuses the copy with a message that names the argument; cloudpickle, which pickles such
     functions by value, takes it.
     """
-    found: Any = sys.modules.get(function.__module__)
+    found: object = sys.modules.get(function.__module__)
     for part in function.__qualname__.split("."):
         found = getattr(found, part, None)
     if found is function:
