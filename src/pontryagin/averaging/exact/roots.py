@@ -1,17 +1,19 @@
 """All extremals of the unaveraged problem: the roots of y1 over the family, bracketed and polished."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import (
     arrivals,
     fixed_ending,
 )
-from pontryagin.averaging.exact.certificate import Proof
+from pontryagin.averaging.exact.certificate import ExactCertificates
 from pontryagin.averaging.exact.extremal import (
     Extremal,
     Extremals,
@@ -32,12 +34,7 @@ from pontryagin.averaging.exact.shooting import (
     newton_step,
     shooting,
 )
-from pontryagin.averaging.system.anomaly import (
-    anomaly_at,
-    phase_at,
-)
 from pontryagin.errors import NotConverged
-from pontryagin.validation import finite, positive
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""
@@ -60,55 +57,57 @@ class Roots:
     slope: Array
 
 
-def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
-    """All exact extremals about the averaged one, the least cost first; see `AveragedSolution.exact`.
+def extremals(
+    reference: ReferenceExtremal,
+    epsilon: float,
+    phase: float,
+    *,
+    start: float,
+    end: float,
+    to_phase: Callable[[Array, Array], Array],
+) -> Extremals:
+    """All exact extremals about an averaged one, the least cost first; see `AveragedSolution.exact`.
+
+    Parameters
+    ----------
+    reference : ReferenceExtremal
+        The averaged extremal of one problem.
+    epsilon, phase : float
+        Positive; psi_0.
+    start, end : float
+        Anomaly at the start, and at the end of the averaged extremal.
+    to_phase : callable
+        psi of slow variables (k, n) and anomalies (k,).
 
     Raises
     ------
-    ValueError
-        If epsilon is not positive, phase is not a finite number, or the solution is a stack.
     NotConverged
         If no extremal is found; at a large epsilon the averaged one may be too far from any.
     """
-    small, begin = positive("epsilon", epsilon), finite("phase", phase, "a number")
-    for name, value in (("epsilon", small), ("phase", begin)):
-        if value.ndim:
-            raise ValueError(f"{name} must be one number, got an array of shape {value.shape}")
-    if solution.duration.shape:
-        raise ValueError(f"exact takes one problem, got a stack of shape {solution.duration.shape}")
-    if not solution.duration > 0:
-        raise ValueError("exact takes a problem that is not solved at the start: the target holds there")
-    start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
-    held = solution if solution.frame is None else solution.frame(solution)
-    problem = shooting(held, float(small), float(start))
-    centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
-    guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
-    traced, found = _found(problem, centre, guess)
-    proof = Proof(problem, found.shot)
-
-    def phase_of(slow: Array, anomaly: Array) -> Array:
-        return phase_at(solution.model, slow, anomaly, solution.numbers)
-
+    problem = shooting(reference, epsilon, start)
+    guess = np.concatenate([reference.costate([0.0])[0], np.atleast_1d(reference.multipliers)])
+    traced, found = _found(problem, end, guess)
+    certificates = ExactCertificates(problem, found.shot)
     starts = problem.starts(found.shot.unknowns)
     items = [
         Extremal(
             cost=float(found.shot.cost[i]),
             duration=float(found.shot.duration[i]),
             kind="minimum" if found.slope[i] > 0 else "maximum",
-            epsilon=float(small),
-            starting_anomaly=float(start),
+            epsilon=epsilon,
+            starting_anomaly=start,
             ending_anomaly=float(found.shot.theta[i]),
-            curvature=float(small * found.slope[i]),
+            curvature=float(epsilon * found.slope[i]),
             initial=starts[i],
             equations=problem.equations,
             parameters=problem.parameters,
-            certify=partial(proof.one, i),
-            turn_to_phase=phase_of,
-            view=None if solution.frame is None else held.seen,
+            certify=partial(certificates.one, int(i)),
+            turn_to_phase=to_phase,
+            view=getattr(reference, "to_slow_variables", None),
         )
         for i in np.argsort(found.shot.cost)
     ]
-    return Extremals(tuple(items), float(small), float(begin), traced)
+    return Extremals(tuple(items), epsilon, phase, traced)
 
 
 def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | None, Roots]:

@@ -1,5 +1,7 @@
 """Example 2, (3.3) to (3.9): the energy of an orbit is changed by small thrust."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -7,7 +9,7 @@ from pontryagin.averaging.averaged.solution import (
     AveragedSolution,
     solved,
 )
-from pontryagin.averaging.system import generated_systems
+from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.validation import finite, positive
 
 ROUND = 1e-6
@@ -69,11 +71,11 @@ def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> Average
     shape = np.broadcast_shapes(begin.shape, momentum.shape)
     start = np.stack([np.broadcast_to(begin, shape), np.broadcast_to(momentum, shape)], axis=-1)
     return solved(
-        generated_systems.model("kepler"),
+        example_model("kepler"),
         ("E", "K"),
         start,
         numbers,
-        lambda: generated_systems.system("kepler", numbers),
+        partial(example_system, "kepler", numbers),
     )
 
 

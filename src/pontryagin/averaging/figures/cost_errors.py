@@ -8,7 +8,6 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.correction import parts
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.exact.arrivals import fixed_ending
 from pontryagin.averaging.exact.canonical import canonical
@@ -38,7 +37,7 @@ class Errors:
     first : float
         J0.
     terms : dict
-        The parts of J1, by `correction.parts`: numbers, or (k,) arrays where J1 varies with the anomaly that
+        The parts of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 varies with the anomaly that
         the exact optimum ends at.
     """
 
@@ -131,7 +130,7 @@ def measured(
     best = np.array([some[0].cost for some in found])
     between = np.array([least_between(some) for some in found])
     ends = [some[0].ending_anomaly for some in found] if fixed_ending(canonical(solution.system)) else [None]
-    each = [parts(solution, begin, end) for end in ends]
+    each = [solution.correction_terms(begin, end) for end in ends]
     terms = {part: np.array([float(one[part]) for one in each]) for part in each[0]}
     if len(each) == 1:
         terms = {part: value[0] for part, value in terms.items()}
