@@ -49,7 +49,7 @@ TITLE = {"smooth": "Section 3, smooth example", "kepler": "Example 2", "spin_dow
 EXPRESSIONS = ("omega", "weight", "running_cost", "terminal_cost", "phase_rate", "control_set")
 
 
-class _PythonPrinter(StrPrinter):
+class _PythonPrinter(StrPrinter):  # type: ignore[misc]
     """SymPy's text, in which Python does not divide two integers."""
 
     def _print_Rational(self, expression: sp.Rational) -> str:

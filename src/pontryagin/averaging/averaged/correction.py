@@ -26,7 +26,7 @@ POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
 NODES = (12, 24, 48, 96)
 """Gauss points along the averaged solution."""
 SETTLED, ROUGH = 1e-11, 1e-6
-"""Relative changes of a term by a finer quadrature: the first is accepted at once, above the last is refused."""
+"""Relative changes of a term by a finer quadrature: that of a settled value, and the largest accepted one."""
 CANDIDATES = 4
 """Maxima of the primitive that are polished before the largest is taken."""
 

@@ -1,4 +1,4 @@
-"""The averaged extremal as the correction and the exact problem see it: in variables regular at the target."""
+"""The averaged extremal as the correction and the exact problem use it: regular at the target."""
 
 from typing import TYPE_CHECKING, Protocol
 

@@ -154,7 +154,7 @@ class AveragedSolution:
     def correction_terms(
         self, phase: ArrayLike | None = None, ending: ArrayLike | None = None
     ) -> dict[str, Array]:
-        """The terms that J_1 is the sum of, by name: those of the "start", of the "end" and of the "way", (...).
+        """The terms whose sum is J_1, (...) each, by name: "start", "end" and "way".
 
         Parameters and errors are those of `correction`. The term of the way vanishes for systems that a
         reversal of the anomaly reverses.
@@ -188,9 +188,13 @@ class AveragedSolution:
             raise ArgumentValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
         begin = self.initial_phase if phase is None else finite("phase", phase, "a number")
         if begin.ndim:
-            raise ArgumentValueError(f"phase must be one number, got an array of shape {begin.shape}", "phase")
+            raise ArgumentValueError(
+                f"phase must be one number, got an array of shape {begin.shape}", "phase"
+            )
         if not self.duration > 0:
-            raise ArgumentValueError("exact takes a problem that is not solved at the start: the target holds there")
+            raise ArgumentValueError(
+                "exact takes a problem that is not solved at the start: the target holds there"
+            )
         from pontryagin.averaging.exact.roots import extremals
 
         return extremals(
@@ -299,9 +303,7 @@ def solved(
             start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
         )
     except ValueError:
-        raise ArgumentValueError(
-            "leading shapes of start, kappa and the numbers do not broadcast"
-        ) from None
+        raise ArgumentValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
     n = len(names)
     each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
     begin = np.broadcast_to(start, (*shape, n))

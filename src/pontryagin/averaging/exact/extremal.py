@@ -70,9 +70,7 @@ class Extremal:
     parameters: Array = field(repr=False)
     certify: Callable[[], MaximumPrinciple] = field(repr=False, compare=False)
     turn_to_phase: Callable[[Array, Array], Array] = field(repr=False, compare=False)
-    view: Callable[[Array, Array], Array] | None = field(
-        default=None, repr=False, compare=False
-    )
+    view: Callable[[Array, Array], Array] | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def certificate(self) -> MaximumPrinciple:

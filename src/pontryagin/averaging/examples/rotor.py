@@ -1,6 +1,6 @@
 """Example 1, (3.1): a rotor with a mass and a potential that depend on its angle, sped up or braked."""
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -88,7 +88,7 @@ def rotor(
         ("a",),
         begin[..., None],
         (end, *(value for value in (bound, price) if value is not None)),
-        lambda: derived_systems.rotor(m, V, f, end, bound, price),
+        partial(derived_systems.rotor, m, V, f, end, bound, price),
     )
 
 

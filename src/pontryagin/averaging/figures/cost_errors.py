@@ -37,8 +37,8 @@ class Errors:
     first : float
         J0.
     terms : dict
-        The parts of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 varies with the anomaly that
-        the exact optimum ends at.
+        The terms of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 varies with
+        the anomaly that the exact optimum ends at.
     """
 
     name: str

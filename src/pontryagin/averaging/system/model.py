@@ -129,7 +129,7 @@ class Model:
         return find_switches(_over(self.switching, tuple(z.T), numbers), len(z))
 
     def _jumps(self, density: Density, switches: Array) -> Array:
-        """The Hessian's part from switches that move: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
+        """The Hessian from switches that move: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
         count = 2 * self.slow
         point, which = np.nonzero(~np.isnan(switches))
         at = switches[point, which][:, None]

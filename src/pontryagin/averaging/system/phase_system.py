@@ -7,8 +7,10 @@ from pontryagin.averaging.system.average import compiled_model
 from pontryagin.averaging.system.checks import checked
 from pontryagin.averaging.system.model import Model
 from pontryagin.averaging.system.standard_form import StandardForm
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class PhaseSystem(StandardForm):
     """Slow variables a driven by a control u through a rotating phase, (1.1) to (1.3).
