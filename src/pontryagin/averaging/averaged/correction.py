@@ -22,9 +22,9 @@ from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics import compile as compiler
 
 POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
-"""Points on a turn."""
+"""Numbers of points on a turn, tried in this order."""
 NODES = (12, 24, 48, 96)
-"""Gauss points along the averaged solution."""
+"""Numbers of Gauss points along the averaged solution, tried in this order."""
 SETTLED, ROUGH = 1e-11, 1e-6
 """Relative changes of a term by a finer quadrature: that of a settled value, and the largest accepted one."""
 CANDIDATES = 4
@@ -98,7 +98,7 @@ def _integral(reference: ReferenceExtremal, equations: Canonical, size: int) -> 
         second = columns[..., 1].mean(axis=-1)
         second = second - (np.moveaxis(swing, -1, -2) * primitives).sum(axis=-2).mean(axis=-1)
         frequency = 1 / columns[..., 2].mean(axis=-1)
-        return (weight * frequency * second).sum(axis=-1) * reference.duration / 2
+        return np.asarray((weight * frequency * second).sum(axis=-1) * reference.duration / 2)
 
     return _settled(values, "the integral along the averaged solution", NODES)
 
@@ -152,13 +152,14 @@ def _series(values: Array) -> Array:
     """Complex coefficients (..., harmonics) of the primitive of values (..., size) less their mean."""
     size = values.shape[-1]
     order = np.arange(1, size // 2)
-    return 2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order)
+    return np.asarray(2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order))
 
 
 def _sum(series: Array, x: Array) -> Array:
     """The primitive at x (...)."""
     order = np.arange(1, series.shape[-1] + 1)
-    return (series * np.exp(1j * order * np.asarray(x)[..., None])).real.sum(axis=-1)
+    waves = series * np.exp(1j * order * np.asarray(x)[..., None])
+    return np.asarray(waves.real.sum(axis=-1))
 
 
 def _primitive(values: Array) -> Array:
@@ -187,4 +188,4 @@ def _largest(series: Array) -> Array:
         step = np.divide(-slope, bend, out=np.zeros_like(slope), where=bend < 0)
         x = np.clip(x + step, (best - 1) * spacing, (best + 1) * spacing)
     polished = _sum(series[..., None, :], x).max(axis=-1)
-    return np.maximum(polished, values.max(axis=-1))
+    return np.asarray(np.maximum(polished, values.max(axis=-1)))

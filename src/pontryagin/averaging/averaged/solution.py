@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.mesh import evaluate as evaluate_series
 from pontryagin.averaging.averaged.solve import extremals
 from pontryagin.averaging.system.anomaly import (
     anomaly_at,
@@ -19,6 +18,7 @@ from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.numerics.collocation import evaluate as evaluate_series
 from pontryagin.validation import finite, times, vectors
 from pontryagin.value import value_class
 

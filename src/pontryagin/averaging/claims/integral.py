@@ -10,6 +10,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -21,7 +22,7 @@ R = sp.Rational
 
 
 @claim("(2.10)", "κ = −(ηf0)/ω is constant along (2.3)", verdict="holds", remark="With (2.3) as corrected.")
-def integral():
+def integral() -> Evidence:
     def argument() -> Steps:
         yield "its rate along (2.3) is 0", averaged.along(averaged.integral(), averaged.standard_rates()) == 0
 
@@ -39,7 +40,7 @@ def integral():
     verdict="holds",
     remark="f0 itself depends on η; the identity is the envelope's, or Euler's for the degree one.",
 )
-def envelope():
+def envelope() -> Evidence:
     def argument() -> Steps:
         product = sum(y * h0.diff(y) for y in eta)
         for i, y in enumerate(eta):
@@ -54,7 +55,7 @@ def envelope():
     "the mean of q is εκ, constant up to O(ε²) over times of the order of 1/ε",
     verdict="holds",
 )
-def mean_of_q():
+def mean_of_q() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             means = turn_means(eps)
@@ -82,7 +83,7 @@ def turn_means(eps: float) -> np.ndarray:
 
 
 @claim("(2.11)", "averaged system with κ as a parameter", verdict="holds")
-def with_kappa():
+def with_kappa() -> Evidence:
     forward, backward = r"\frac{d\xi_1}{d\tau}", r"\frac{d\eta_1}{d\tau}"
     return Equality(
         {forward: h0.diff(eta[0]), backward: -omega.diff(xi[0]) * kappa - h0.diff(xi[0])},
@@ -93,7 +94,7 @@ def with_kappa():
 
 
 @claim("after (2.10): equivalent", "(2.3) and (2.11) with (2.12) are the same", verdict="holds")
-def equivalent():
+def equivalent() -> Evidence:
     def argument() -> Steps:
         backward = averaged.rates()[1].subs(kappa, averaged.integral())
         yield "(2.11) with κ from (2.10) is (2.3)", vanishes(backward - averaged.standard_rates()[1])
@@ -108,17 +109,17 @@ def equivalent():
 
 
 @claim("(2.12)", "ωκ + (ηf0) = 0 at τ1 ties κ to τ1", verdict="holds")
-def end_level():
+def end_level() -> Evidence:
     key = r"\tau_1(\kappa)"
     rising = {ripple.rise: 1}
 
     def argument() -> Steps:
         xi_of, eta_of = smooth.averaged_solution()
-        level = ripple.v1 * kappa + smooth.averaged_hamiltonian().subs(
+        level = smooth.v1 * kappa + smooth.averaged_hamiltonian().subs(
             smooth.eta, eta_of.subs(smooth.tau, smooth.T)
         )
         length = ripple.of_kappa(ripple.duration()).subs(rising)
-        numbers = {smooth.gap: -1, ripple.v0: 1, ripple.v1: 2, smooth.k: 1, smooth.v1: 2}
+        numbers = {smooth.gap: -1, smooth.v0: 1, smooth.v1: 2, smooth.k: 1, smooth.v1: 2}
         tried = level.subs(smooth.T, length).subs(numbers).subs(kappa, R(7, 32))
         yield (
             "smooth example, v from 1 to 2, κ = 7/32: the level at τ1(κ) is 0",
@@ -127,7 +128,7 @@ def end_level():
         start = xi_of.subs(smooth.tau, 0).subs(numbers)
         yield "and the motion starts at v = 1", vanishes(start - 1)
 
-    closed = 2 * (ripple.v1 - ripple.v0) / (ripple.A0 + ripple.A1)
+    closed = 2 * (smooth.v1 - smooth.v0) / (ripple.A0 + ripple.A1)
     return Proof(
         argument,
         Equality({key: closed}, lambda: {key: ripple.duration().subs(rising)}),
@@ -143,7 +144,7 @@ def end_level():
     "dΨ/dκ > 0 and one root. In the paper's example 1, least time, (2.13) itself fails: the motion does not "
     "depend on κ, Ψ = (a1 − a0)/u0, and κ is no parameter at all.",
 )
-def roots_near_every_kappa():
+def roots_near_every_kappa() -> Evidence:
     def argument() -> Steps:
         Psi = ripple.of_kappa(ripple.turned()).subs(worked.NUMBERS)
         low, high = worked.window()
@@ -165,9 +166,9 @@ def roots_near_every_kappa():
         slope = sp.simplify(Psi.diff(kappa)).subs(kappa, R(7, 32))
         yield f"smooth example at κ = 7/32: dΨ/dκ = {sp.N(slope, 4)}", slope.is_positive
         flat = (
-            smooth.maximum().subs(smooth.eta, ripple.costate().subs(ripple.rise, 1)).subs(smooth.v, ripple.v1)
+            smooth.maximum().subs(smooth.eta, ripple.costate().subs(ripple.rise, 1)).subs(smooth.v, smooth.v1)
         )
-        left = sp.simplify(flat).subs({kappa: R(7, 32), ripple.v1: 2})
+        left = sp.simplify(flat).subs({kappa: R(7, 32), smooth.v1: 2})
         yield f"but h* at the end is {left} for every ε, and 0 at κ = 0 alone", left == R(-7, 16)
         turned = sp.integrate(1, (rotor.a, instances.a0, instances.a1))
         yield (
@@ -191,14 +192,14 @@ def roots_near_every_kappa():
     "εu, "
     "s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
 )
-def over_kappa():
+def over_kappa() -> Evidence:
     def argument() -> Steps:
         rising = {ripple.rise: 1}
         T = ripple.of_kappa(ripple.duration()).subs(rising)
-        slope = T.diff(kappa).subs({ripple.v0: 1, ripple.v1: 2, ripple.k: 1})
+        slope = T.diff(kappa).subs({smooth.v0: 1, smooth.v1: 2, smooth.k: 1})
         yield "smooth example: dτ1/dκ > 0, at κ = 0 it is 3/4", vanishes(slope.subs(kappa, 0) - R(3, 4))
         J, Psi = (ripple.of_kappa(form()).subs(rising) for form in (ripple.cost, ripple.turned))
-        numbers = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1}
+        numbers = {smooth.v0: 1, smooth.v1: 2, smooth.k: 1}
         yield (
             "and dJ0/dτ1 = κ(dΨ/dκ)/(dτ1/dκ) is 0 where dJ0/dκ is",
             vanishes(sp.simplify((J.diff(kappa) - kappa * Psi.diff(kappa)).subs(numbers))),

@@ -31,10 +31,10 @@ from pontryagin.averaging.exact.refinement import (
 from pontryagin.averaging.exact.shooting import (
     Shooting,
     Shot,
-    newton_step,
     shooting,
 )
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.newton import solved
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""
@@ -158,7 +158,10 @@ def _sign_changes(current: Family) -> NDArray[np.intp]:
 def _polished(
     problem: Shooting, theta: Array, w: Array, low: Array, high: Array, y: Array
 ) -> tuple[Roots, NDArray[np.bool_]]:
-    """Newton's method for w and theta together from k guesses: the roots found, and which were."""
+    """Newton's method for w and theta together from k guesses, each Jacobian used up to four times.
+
+    Returns the roots found, and which of the guesses led to one.
+    """
     n, size = w.shape[1], float(np.ptp(y))
     theta, w = theta.copy(), w.copy()
     good, slope, open_ = np.zeros(len(theta), bool), np.zeros(len(theta)), np.ones(len(theta), bool)
@@ -168,23 +171,23 @@ def _polished(
         if len(i) == 0:
             break
         shot, slopes = problem.slopes(theta[i], w[i])
-        whole = np.empty((len(i), n + 1, n + 1))
-        whole[:, :n, :n], whole[:, :n, n] = slopes.residual_w, slopes.residual_theta
-        whole[:, n, :n], whole[:, n, n] = slopes.y_w / size, slopes.y_theta / size
+        jacobians = np.empty((len(i), n + 1, n + 1))
+        jacobians[:, :n, :n], jacobians[:, :n, n] = slopes.residual_w, slopes.residual_theta
+        jacobians[:, n, :n], jacobians[:, n, n] = slopes.y_w / size, slopes.y_theta / size
         slope[i] = slopes.along[1]
-        left = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+        residual = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
         for _ in range(4):
-            step = newton_step(whole, left)
+            step = solved(jacobians, -residual)
             w[i] += step[:, :n]
             theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])
-            before, left = left, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
-            error = np.abs(left).max(axis=1)
+            before, residual = residual, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+            error = np.abs(residual).max(axis=1)
             shots.put(i, shot)
             done = error <= POLISHED
             good[i[done]], open_[i[done]] = True, False
             keep = ~done & (error <= 0.2 * np.abs(before).max(axis=1))
-            i, whole, left = i[keep], whole[keep], left[keep]
+            i, jacobians, residual = i[keep], jacobians[keep], residual[keep]
             if len(i) == 0:
                 break
     return Roots(shots[good], slope[good]), good

@@ -23,11 +23,8 @@ from pontryagin.averaging.exact.canonical import (
 )
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    TOLERANCE,
-    Ends,
-    ends,
-)
+from pontryagin.numerics.flow import TOLERANCE, Ends, ends
+from pontryagin.numerics.newton import solved
 
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which serves Newton's matrices only and not the residuals."""
@@ -65,7 +62,7 @@ class Shot:
     @property
     def error(self) -> Array:
         """Largest entry of the residual, (k,)."""
-        return np.abs(self.residual).max(axis=-1)
+        return np.asarray(np.abs(self.residual).max(axis=-1))
 
     def __getitem__(self, index: Selection) -> "Shot":
         """The shots of some of the guesses."""
@@ -82,14 +79,6 @@ class Shot:
         return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
 
 
-def newton_step(matrices: Array, residuals: Array) -> Array:
-    """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
-    try:
-        return -np.linalg.solve(matrices, residuals[..., None])[..., 0].astype(np.float64)
-    except np.linalg.LinAlgError:
-        return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
-
-
 @dataclass(frozen=True)
 class Slopes:
     """Derivatives of residual and y of a `Shot` in w and theta."""
@@ -102,7 +91,7 @@ class Slopes:
     @property
     def along(self) -> tuple[Array, Array]:
         """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
-        w = newton_step(self.residual_w, self.residual_theta)
+        w = solved(self.residual_w, -self.residual_theta)
         return w, self.y_theta + (self.y_w * w).sum(axis=-1)
 
 

@@ -124,4 +124,5 @@ def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
     from pontryagin.numerics import compile as compiler
 
     angles = 2 * np.pi * np.arange(LOOK) / LOOK
-    return compiler.function("values", [derivation.x], {"value": expression})(angles)[0]
+    (values,) = compiler.function("values", [derivation.x], {"value": expression})(angles)
+    return np.asarray(values)

@@ -22,7 +22,7 @@ X = sp.Symbol("x", real=True)
 
 
 @dataclass(frozen=True)
-class Errors:
+class CostErrors:
     """Errors of the least cost of one problem at the epsilons (k).
 
     Attributes
@@ -51,7 +51,7 @@ class Errors:
     @property
     def correction(self) -> Array:
         """J1."""
-        return np.add.reduce([*self.terms.values()])
+        return np.asarray(np.add.reduce([*self.terms.values()]))
 
     @property
     def averaged(self) -> Array:
@@ -86,7 +86,7 @@ def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]
 
 
 @cache
-def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> Errors:
+def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
     """Solve one of `problems` exactly at each epsilon and compare.
 
     Raises
@@ -105,7 +105,7 @@ def measured(
     epsilons: Sequence[float] = EPSILONS,
     phase: float | None = None,
     name: str = "",
-) -> Errors:
+) -> CostErrors:
     """Solve a problem exactly at each epsilon and compare.
 
     Parameters
@@ -134,7 +134,7 @@ def measured(
     terms = {part: np.array([float(one[part]) for one in each]) for part in each[0]}
     if len(each) == 1:
         terms = {part: value[0] for part, value in terms.items()}
-    return Errors(name, np.array(epsilons), best, between, float(solution.cost), terms)
+    return CostErrors(name, np.array(epsilons), best, between, float(solution.cost), terms)
 
 
 def least_between(found: Sequence[Extremal]) -> float:

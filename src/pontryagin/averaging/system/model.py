@@ -16,13 +16,13 @@ from pontryagin.averaging.system.jets import (
     jet,
     width,
 )
-from pontryagin.averaging.system.means import (
+from pontryagin.numerics.periodic_means import (
     SOLVING,
-    Density,
-    Rule,
+    MeanRule,
     find_switches,
     mean,
 )
+from pontryagin.numerics.quadrature import Density
 
 BESIDE = 1e-9
 """Distance from a switch at which one-sided derivatives are taken; they enter Newton's matrix only."""
@@ -73,7 +73,7 @@ class Model:
         """Pickles and copies hold what the model is made from, since compiled kernels do not pickle."""
         return self.origin.func, self.origin.args
 
-    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: Rule = SOLVING) -> tuple[Jet, Jet]:
+    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule = SOLVING) -> tuple[Jet, Jet]:
         """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
         shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
         flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
@@ -91,7 +91,7 @@ class Model:
             h = h / turn
         return _shaped(h, shape), _shaped(omega, shape)
 
-    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Jet, Jet | None]:
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule) -> tuple[Jet, Jet | None]:
         """Means of the density, and of 1 / r where the frequency is an integral."""
         assert self.density is not None
         n = self.slow
@@ -107,7 +107,7 @@ class Model:
         turn = None if self.frequency is not None else jet(columns[:, own + 1 :], n).padded(2 * n)
         return h, turn
 
-    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
+    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule) -> tuple[Array, Array]:
         """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
         a = tuple(z[:, : self.slow].T)
         control = _over(self.control, tuple(z.T), numbers)
