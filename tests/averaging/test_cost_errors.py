@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from pontryagin.averaging import rotor, smooth_example
 from pontryagin.averaging.exact.count import window
 from pontryagin.averaging.figures.cost_errors import (
+    CostErrors,
     errors,
     least_between,
     measured,

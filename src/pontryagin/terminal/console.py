@@ -4,7 +4,6 @@ Every `Refusal` names the option as it was typed; `pontryagin.cli` prints it in 
 """
 
 import csv
-import json
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -15,19 +14,14 @@ from typing import Any
 import numpy as np
 import typer
 
-from pontryagin.certificate import Certificate
+from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.io import files
 from pontryagin.io import formula as formulas
-
-Report = Mapping[str, Mapping[str, Any]]
-"""Headings, and under each its quantities: what a table shows and JSON holds."""
+from pontryagin.io.json_io import Report
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
-
-ACCEPTED = 1e-8
-"""Largest residual and gap of an answer that is handed out."""
 
 
 class Refusal(typer.TyperException):
@@ -192,45 +186,13 @@ def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> N
 def require_proof(proof: Certificate) -> None:
     """Refuse to end well where a certificate, or one of a stack, is not closed to `ACCEPTED`."""
     with np.errstate(all="ignore"):
-        left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+        left = proof.residual
     open_ones = ~(left <= ACCEPTED)
     if open_ones.any():
         count = (
             f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
         )
         raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
-
-
-def plain(value: Any) -> Any:
-    """Arrays as lists and numbers as Python's own, for JSON; what is not finite becomes None.
-
-    Examples
-    --------
-    >>> plain({"t": np.array([0.5, np.nan]), "unique": np.True_})
-    {'t': [0.5, None], 'unique': True}
-    """
-    if isinstance(value, Mapping):
-        return {key: plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value if isinstance(value, bool | int | float | str | None) else str(value)
-
-
-def to_json(report: Report) -> str:
-    """A JSON object of objects, a quantity a line; numbers with all their digits."""
-    headings = []
-    for heading, quantities in report.items():
-        lines = (f"  {_dumped(name)}: {_dumped(value)}" for name, value in quantities.items())
-        headings.append(f" {_dumped(heading)}: {{\n" + ",\n".join(lines) + "\n }")
-    return "{\n" + ",\n".join(headings) + "\n}"
-
-
-def _dumped(value: Any) -> str:
-    return json.dumps(plain(value), ensure_ascii=False, allow_nan=False)
 
 
 def words(value: Any) -> str:

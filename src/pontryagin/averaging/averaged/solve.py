@@ -30,8 +30,6 @@ TAIL = 1e-13
 """Largest last coefficients on a panel, relative to the variable, at which it is not halved."""
 LAST_TAIL, MOST_PANELS = 1e-9, 40
 """Largest last coefficients that are accepted, and the number of panels from which none is halved."""
-RESIDUAL = 1e-7
-"""Largest residual of the maximum principle of an accepted solution."""
 LEAST_SHARE = 1e-3
 """Shortest step of the continuation, as a share of the distance to the target."""
 AT_ONCE = 64
@@ -145,7 +143,7 @@ def _extremals(
     """The extremals of paths on one mesh, certified."""
     n, mesh = problem.model.slow, path.mesh
     certificate = certify(problem, path, names, members)
-    if not certificate.holds(RESIDUAL):
+    if not certificate.holds():
         worst = int(np.argmax(np.nan_to_num(certificate.residual, nan=np.inf)))
         raise NotConverged(
             f"the averaged extremal does not satisfy the maximum principle{_which(problem, members[worst])}",
