@@ -123,8 +123,7 @@ def gronwall() -> sp.Expr:
     remark="True where the second limit is uniform in r_k too. For each r_k by itself it follows from the "
     "first and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = 0, and x moves from 2 to "
     "about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in t, as division by ψ' gives, has "
-    "the "
-    "uniform limit if ∫(X − X0)dt is Lipschitz in x.",
+    "the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
 )
 def averaging_theorem() -> Evidence:
     def argument() -> Steps:
@@ -197,8 +196,7 @@ def no_order() -> Evidence:
     "with ∫Z dt differentiable in x and |N| ≤ d0/T, |x − ξ| ≤ dε",
     verdict="conditional",
     remark="True where the derivative of ∫Z dt by x is bounded, as it is for X periodic in t. It need not "
-    "be: "
-    "X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
+    "be: X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
     "|x − ξ| is of the order √ε.",
 )
 def sharper_estimate() -> Evidence:

@@ -111,9 +111,9 @@ def remainders() -> Evidence:
     "t1 as the parameter: for each t1 the problem without (2.2) has one solution",
     verdict="conditional",
     remark="An assumption of the paper, not met by its own example 1: there the motion of least time does "
-    "not "
-    "depend on the member at all, and a solution exists for one t1 only. In the smooth example, rippled or "
-    "not, it is met as long as v does not overshoot. A parameter that always runs is the phase at the end.",
+    "not depend on the member at all, and a solution exists for one t1 only. In the smooth example, rippled "
+    "or not, it is met as long as v does not overshoot. A parameter that always runs is the phase at the "
+    "end.",
 )
 def one_solution_for_each_end() -> Evidence:
     def argument() -> Steps:
@@ -169,9 +169,8 @@ def condition() -> Evidence:
     "where the root is unique, the solution of the boundary value problem is the optimum",
     verdict="conditional",
     remark="True where an optimum exists and is normal, as the form of (1.6) supposes: it is an extremal, "
-    "and "
-    "there is one. An abnormal optimum is no root: a1' = εu², a2' = ε(1 + 2u), |u| ≤ 1, least time from 0 to "
-    "a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, and the one root has J = 3.",
+    "and there is one. An abnormal optimum is no root: a1' = εu², a2' = ε(1 + 2u), |u| ≤ 1, least time from "
+    "0 to a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, and the one root has J = 3.",
 )
 def one_root() -> Evidence:
     control, first_costate, second_costate = sp.symbols("u p_1 p_2", real=True)

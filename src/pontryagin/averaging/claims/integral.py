@@ -189,8 +189,7 @@ def roots_near_every_kappa() -> Evidence:
     "to minimise J0 over τ1 is to minimise it over κ with (2.12)",
     verdict="conditional",
     remark="Where τ1(κ) is one function. (2.12) can have several branches, and κ = 0 a root on each: v' = "
-    "εu, "
-    "s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
+    "εu, s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
 )
 def over_kappa() -> Evidence:
     def argument() -> Steps:

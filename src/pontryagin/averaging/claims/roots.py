@@ -91,8 +91,7 @@ def mean_is_slow() -> Evidence:
     "h* against τ1 oscillates about ⟨h*⟩, with an amplitude of the order of one and a frequency of 1/ε",
     verdict="holds",
     remark="The paper names no system; ours is its smooth example with the ripple cos(x)/2 in the force, "
-    "since "
-    "without a ripple nothing oscillates.",
+    "since without a ripple nothing oscillates.",
 )
 def first_figure() -> Evidence:
     def argument() -> Steps:
@@ -129,8 +128,7 @@ def turns(eps: float) -> list[tuple[int, float, float, float]]:
     verdict="holds",
     remark="Ours, as Figure 1. The reference to section 3, example 1, does not show it: J of the smooth "
     "example has no ripples. dJ = q(t1)dψ(t1) on H* = 0, so J is stationary at every root of (2.2), and "
-    "minima "
-    "and maxima alternate.",
+    "minima and maxima alternate.",
 )
 def second_figure() -> Evidence:
     def argument() -> Steps:

@@ -153,8 +153,7 @@ def constants_of_motion() -> Evidence:
     verdict="conditional",
     remark="Never shorter, as |a'| ≤ εC. Not longer where the averaged problem, at ε = 0, has an optimum. "
     "f, M and g may depend on ε, and then it can be longer: the smooth example with k = ε² has its one "
-    "optimum "
-    "at t1 = |Δv|/ε².",
+    "optimum at t1 = |Δv|/ε².",
 )
 def duration_of_the_order_of_one_over_epsilon() -> Evidence:
     def argument() -> Steps:
