@@ -3,6 +3,7 @@
 import numpy as np
 import sympy as sp
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import averaged, ripple, rotor, smooth
 from pontryagin.averaging.derivation.averaged import eta, h0, kappa, omega, xi
@@ -71,7 +72,7 @@ def mean_of_q() -> Evidence:
     return Proof(argument)
 
 
-def turn_means(eps: float) -> np.ndarray:
+def turn_means(eps: float) -> Array:
     """Time means of q/epsilon = -h*/v over the whole turns of the optimal motion."""
     motion = worked.optimum(eps)
     rate = -worked.level(motion["x"], motion["p"]) / motion["v"]
@@ -79,7 +80,7 @@ def turn_means(eps: float) -> np.ndarray:
     total = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * steps)])
     turns = 2 * np.pi * np.arange(int(motion["x"][-1] // (2 * np.pi)) + 1)
     work, time = (np.interp(turns, motion["x"], values) for values in (total, motion["tau"]))
-    return np.diff(work) / np.diff(time)
+    return np.asarray(np.diff(work) / np.diff(time))
 
 
 @claim("(2.11)", "averaged system with κ as a parameter", verdict="holds")

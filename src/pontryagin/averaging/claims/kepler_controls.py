@@ -164,7 +164,7 @@ def radial_control() -> Evidence:
                 sp.limit(radial / e, e, 0) - kepler_optimum.direction * sp.sqrt(price) * sp.sin(anomaly)
             ),
         )
-        excess = kepler_phase.from_eccentric(kepler_optimum.ripple().diff(kepler_phase.eccentric))
+        excess = kepler_phase.from_eccentric(kepler_optimum.ripple().diff(kepler.eccentric))
         yield "h* is O(e) on the optimum, which makes up for 1/e in ψ'", vanishes(excess.subs(e, 0))
 
     return Proof(argument, display=r"u_r^* \sim e")

@@ -123,7 +123,7 @@ def phase_runs() -> Evidence:
     w, path = sp.Function("omega"), sp.Function("xi")(time, end)
     named = sp.Symbol("omega'")
 
-    def printed() -> dict[str, sp.Expr]:
+    def printed() -> sp.Expr:
         slope = sp.Derivative(w(path), path).doit()
         return w(path).subs(time, end) + sp.Integral(slope * path.diff(end), (time, 0, end))
 

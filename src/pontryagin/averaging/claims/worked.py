@@ -136,7 +136,7 @@ def kappa_of(duration: ArrayLike) -> Array:
     """The averaged member of a duration: tau_1(kappa) rises, and is inverted by a table."""
     low, high = window()
     kappa = np.linspace(2 * low, (high + PAY / END) / 2, 20001)
-    return np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa)
+    return np.asarray(np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa))
 
 
 def in_window(epsilon: float) -> Members:

@@ -208,7 +208,7 @@ class Model(NamedTuple):
 
 @functools.cache
 def model() -> Model:
-    """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 in the form that `PhaseSystem` takes.
+    """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as `PhaseSystem` takes it.
 
     The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
     anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps

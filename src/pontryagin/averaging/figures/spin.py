@@ -1,5 +1,7 @@
 """Example 3: the precession dies away, and where the control runs in its ellipse."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -51,7 +53,7 @@ def braking(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float
 def _rates(ax: Axes, flight: Braking) -> None:
     ax.plot(*flight.rates[:, :2].T, color=EXACT, linewidth=0.9)
     ax.plot(*flight.rates[0, :2], "o", color=INK)
-    ax.annotate("start", flight.rates[0, :2], (5, 4), textcoords="offset points")
+    ax.annotate("start", tuple(flight.rates[0, :2]), (5, 4), textcoords="offset points")
     ax.set(aspect="equal", xlabel=r"$\omega_x$", ylabel=r"$\omega_y$")
 
 
@@ -61,7 +63,7 @@ def _controls(ax: Axes, flight: Braking, semiaxes: Array) -> None:
     ax.fill(lx * np.cos(turn), ly * np.sin(turn), color=SKY, alpha=0.35)
     ax.plot(*flight.control[:, :2].T, color=EXACT, linewidth=1.4)
     ax.plot(*_printed(flight, semiaxes), color=MEAN, linewidth=1.3)
-    words = {"ha": "center", "va": "center", "fontsize": 9.5}
+    words: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9.5}
     ax.text(0, 0, "admissible", color=INK, **words)
     ax.text(0, ly + 0.17, "derived", color=EXACT, **words)
     ax.text(0, 1.17, "printed", color=MEAN, **words)
