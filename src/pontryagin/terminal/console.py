@@ -108,7 +108,7 @@ def refusing(options: Mapping[str, str]) -> Iterator[None]:
         raise
     except (ArgumentTypeError, ArgumentValueError) as reason:
         name = reason.argument
-        if name not in options:
+        if name is None or name not in options:
             raise
         raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
 
