@@ -11,6 +11,7 @@ from pontryagin.averaging.averaged.solution import (
     solved,
 )
 from pontryagin.averaging.examples.models import example_model, example_system
+from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import positive, vectors
 
 if TYPE_CHECKING:
@@ -54,9 +55,11 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
     positive("semiaxes", axes)
     d = positive("ratio", ratio)
     if (d == 1).any():
-        raise ValueError("ratio must differ from 1: omega = (ratio - 1) w_z vanishes on a body like a sphere")
+        message = "ratio must differ from 1: omega = (ratio - 1) w_z vanishes on a body like a sphere"
+        raise ArgumentValueError(message, "ratio")
     if (w[..., 2] == 0).any():
-        raise ValueError("omega0 must have w_z other than 0: omega = (ratio - 1) w_z vanishes")
+        message = "omega0 must have w_z other than 0: omega = (ratio - 1) w_z vanishes"
+        raise ArgumentValueError(message, "omega0")
     sense = np.sign((d - 1) * w[..., 2])
     numbers = (*np.moveaxis(axes, -1, 0), d, sense)
     start = np.stack([np.hypot(w[..., 0], w[..., 1]), w[..., 2]], axis=-1)
