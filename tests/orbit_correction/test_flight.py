@@ -89,7 +89,7 @@ def test_a_loop_that_does_not_close_ends_with_what_is_left(monkeypatch):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: fly(np.zeros((2, 3)), np.zeros((1, 2)), 0.25), "z0 and impulses"),
+        (lambda: fly(np.zeros((2, 3)), np.zeros((1, 2)), 0.25), "z0 must be"),
         (lambda: fly(Z0, [[0.0, np.nan]], 0.25), "impulses must be"),
         (lambda: fly(Z0, [[0.0, 0.0]], -1.0), "interval must be positive"),
         (lambda: fly_plan(correct([Z0, Z0])), "plan must be that of one state"),

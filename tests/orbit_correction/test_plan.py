@@ -143,7 +143,7 @@ def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
         ({"z0": [np.nan, 0, 0]}, ValueError, "z0 must be .* finite"),
         ({"z0": None}, TypeError, "z0 must be"),
         ({"peak": -1.0}, ValueError, "peak must be positive, got -1.0"),
-        ({"peak": [0.1]}, ValueError, "single numbers"),
+        ({"peak": [0.1]}, ValueError, "peak must be a single number"),
         ({"interval": 0.0}, ValueError, "interval must be positive"),
         ({"interval": np.inf}, ValueError, "interval must be .* finite"),
         ({"thrust": "cone"}, ValueError, "thrust must be one of ball, disc, box, got 'cone'"),

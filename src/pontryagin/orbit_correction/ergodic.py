@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
-from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.plan.thrust import thrust_of
 from pontryagin.orbit_correction.system import satellite
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import vectors
 
 PHASES = 1 << 14
 LARGEST_PERIOD = 64
@@ -105,18 +106,12 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     >>> abs(many - limit(z0)) < 1e-3
     True
     """
-    state = vectors("z0", z0, 3)
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    if thrust not in THRUSTS:
-        raise ValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}")
-    spacing, bound = float(positive("interval", interval)), float(positive("peak", peak))
+    state, engine = arguments.state(z0), thrust_of(thrust, interval, peak)
     if not state.any():
         return 0.0
-    period = _period(spacing)
+    period = _period(engine.interval)
     if period:
         count = 2 * lcm(period, 3) // 3 if thrust == "ball" else period
-        engine = Thrust(thrust, spacing, bound)
         count *= -(-engine.fewest // count)
         return count * float(engine.gauges(state[None], np.array([count])).lower[0])
     oscillation, rest = modes(state)
@@ -124,7 +119,7 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     def proved(angle: float) -> float:
         across, along = np.cos(angle), np.sin(angle)
         paired = oscillation * across + rest * along
-        return paired / float(mean_support(across, along, spacing, bound, thrust))
+        return paired / float(mean_support(across, along, engine.interval, engine.peak, thrust))
 
     from scipy.optimize import minimize_scalar
 
@@ -148,5 +143,5 @@ def approach(
     steps = np.asarray(counts, dtype=np.int64)
     correct(z0, interval, peak, thrust)
     state = np.broadcast_to(vectors("z0", z0, 3), (len(steps), 3))
-    engine = Thrust(thrust, float(interval), float(peak))
+    engine = thrust_of(thrust, interval, peak)
     return np.array([engine.gauges(state[:1], steps[i : i + 1]).lower[0] for i in range(len(steps))]) * steps

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.flow import Flow, flow
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import Plan, correct, single
 from pontryagin.validation import positive, vectors
 
@@ -98,10 +99,10 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
     >>> f"{fly(plan.z0, plan.impulses, 0.25).residual:.1e}"
     '1.1e-04'
     """
-    start, kicks = vectors("z0", z0, 3), vectors("impulses", impulses, 2)
-    if start.ndim != 1 or kicks.ndim != 2:
-        raise ValueError(f"z0 and impulses must be (3,) and (M, 2), got {start.shape} and {kicks.shape}")
-    step = float(positive("interval", interval))
+    start, kicks = arguments.state(z0), vectors("impulses", impulses, 2)
+    if kicks.ndim != 2:
+        raise ArgumentValueError(f"impulses must be (M, 2), got shape {kicks.shape}", "impulses")
+    step = arguments.positive_number("interval", interval)
     states, angles = [start], [float(angle)]
     for kick in kicks:
         kicked = np.append(states[-1] + CIRCLE + np.array([0.0, *kick]), angles[-1])
@@ -179,10 +180,8 @@ def close_loop(
     >>> loop.impulse_counts.tolist()
     [6, 2, 2]
     """
-    state, angle = vectors("z0", z0, 3), 0.0
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    bound = float(positive("tolerance", tolerance))
+    state, angle = arguments.state(z0), 0.0
+    bound = arguments.positive_number("tolerance", tolerance)
     plans: list[Plan] = []
     flights: list[Flight] = []
     while np.linalg.norm(state) > bound:
@@ -205,7 +204,7 @@ def residuals(
 
     Scaled together, all of them have the same plan but for the scale, and only the sky's curvature differs.
     """
-    start, factors = vectors("z0", z0, 3), np.atleast_1d(positive("scales", scales))
+    start, factors = arguments.state(z0), np.atleast_1d(positive("scales", scales))
     plan = single(correct(start, interval, peak, thrust))
     left = [fly(s * start, s * plan.impulses, interval).residual for s in factors]
     return factors * float(np.linalg.norm(start)), np.array(left)

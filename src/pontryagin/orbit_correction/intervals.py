@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.system.satellite import impulse_columns, step_factors
 from pontryagin.validation import positive, vectors
@@ -33,10 +34,9 @@ def singular_values(intervals: ArrayLike, impulses: int) -> Array:
     >>> singular_values([np.pi, 2 * np.pi], 2).round(9)[:, -1].tolist()
     [0.794155604, 0.0]
     """
-    if not isinstance(impulses, int | np.integer) or impulses < 2:
-        raise ValueError(f"impulses must be a whole number, at least 2, got {impulses!r}")
+    instants = arguments.count("impulses", impulses, least=2)
     spacings = positive("intervals", intervals)
-    stacked = [np.hstack(list(impulse_columns(int(impulses), float(h)))) for h in spacings.ravel()]
+    stacked = [np.hstack(list(impulse_columns(instants, float(h)))) for h in spacings.ravel()]
     return np.linalg.svd(np.array(stacked), compute_uv=False).reshape(*spacings.shape, 3)
 
 

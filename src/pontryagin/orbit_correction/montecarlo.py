@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from pontryagin.validation import finite
@@ -52,13 +54,16 @@ def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Arra
     """
     matrix = finite("covariance", covariance, "a symmetric (3, 3) matrix")
     if matrix.shape != (3, 3) or not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0):
-        raise ValueError(f"covariance must be a symmetric (3, 3) matrix, got {matrix.tolist()}")
-    if not isinstance(samples, int | np.integer) or samples < 1:
-        raise ValueError(f"samples must be a positive whole number, got {samples!r}")
+        raise ArgumentValueError(
+            f"covariance must be a symmetric (3, 3) matrix, got {matrix.tolist()}", "covariance"
+        )
+    number = arguments.count("samples", samples)
     values, axes = np.linalg.eigh(matrix)
     if values[0] < -1e-12 * max(values[-1], 0.0) or values[-1] < 0:
-        raise ValueError(f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}")
-    normal = np.random.default_rng(seed).standard_normal((int(samples), 3))
+        raise ArgumentValueError(
+            f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}", "covariance"
+        )
+    normal = np.random.default_rng(seed).standard_normal((number, 3))
     return normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T
 
 

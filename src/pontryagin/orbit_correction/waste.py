@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import vectors
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +68,5 @@ def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
     >>> random_states(500).shape
     (500, 3)
     """
-    if not isinstance(count, int | np.integer) or count < 1:
-        raise ValueError(f"count must be a positive whole number, got {count!r}")
-    return float(positive("size", size)) * np.random.default_rng(seed).standard_normal((int(count), 3))
+    number, spread = arguments.count("count", count), arguments.positive_number("size", size)
+    return spread * np.random.default_rng(seed).standard_normal((number, 3))

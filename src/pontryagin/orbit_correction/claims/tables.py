@@ -52,7 +52,7 @@ def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = work
     remark="Printed for system (7); (12) is meant, for (7) is built from N_min. Four steps fire six "
     "impulses.",
 )
-def number_of_steps():
+def number_of_steps() -> Decimals:
     return Decimals(
         {r"N_{\min}": FEWEST_STEPS},
         lambda: {r"N_{\min}": float(worked.ball_plan().steps)},
@@ -61,7 +61,7 @@ def number_of_steps():
 
 
 @claim("after (12): α", "the Minkowski functional of X(4, 0) at z0 is 0.9286", verdict="holds")
-def gauge_of_the_example():
+def gauge_of_the_example() -> Decimals:
     key = r"\alpha = \mu(z_0, X(4, 0))"
     return Decimals({key: GAUGE}, lambda: {key: float(worked.ball_plan().gauge)}, worked.ball_certificate)
 
@@ -72,7 +72,7 @@ def gauge_of_the_example():
     verdict="holds",
     remark="To the printed digits: the gauge is 0.928574, so z0 is inside by 3 parts in 100,000.",
 )
-def on_the_scaled_boundary():
+def on_the_scaled_boundary() -> Proof:
     def argument() -> Steps:
         yield from worked.ball_certificate()
         share = float(worked.ball_plan().gauge) / 0.9286
@@ -89,7 +89,7 @@ def on_the_scaled_boundary():
     "no solution: z0 is an inner point of X(4, 0), with the gauge 0.9286, and every sum in (11) is on the "
     "boundary.",
 )
-def costate_of_the_example():
+def costate_of_the_example() -> Conditional:
     def argument() -> Steps:
         plan, G = worked.ball_plan(), worked.factors(4)
         psi, alpha = plan.initial_costate, float(plan.gauge)
@@ -118,7 +118,7 @@ def costate_of_the_example():
     remark="With the factor α of Theorem 4, which Lemma 10 leaves out and the table holds: without it "
     "u2*(0) would be −0.26686·10⁻², printed −0.24779·10⁻².",
 )
-def controls_of_the_example():
+def controls_of_the_example() -> Conditional:
     printed = float(CONTROLS[0][1])
 
     def argument() -> Steps:
@@ -186,7 +186,7 @@ for k in range(4):
     remark="All 39 numbers agree to one unit of the last digit, five are off by more than half a unit. z0 "
     "was rounded for print too: a z0 within half a unit of it rounds to every printed digit.",
 )
-def rounded_tables():
+def rounded_tables() -> Conditional:
     def argument() -> Steps:
         off = units_off()
         yield f"the worst number is off by {off.max():.2f} of a unit", off.max() <= 1
@@ -211,7 +211,7 @@ def rounded_tables():
     verdict="holds",
     remark="With A(k) and the corrected B(k).",
 )
-def consistent_tables():
+def consistent_tables() -> Proof:
     def argument() -> Steps:
         states, costates, controls = (
             np.array([[float(number) for number in numbers] for numbers in table])

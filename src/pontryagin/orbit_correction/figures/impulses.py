@@ -9,6 +9,7 @@ from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
 
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, RED, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.plan.alternatives import Alternative, least_energy, least_fuel, least_peak
 from pontryagin.orbit_correction.plan.correction import Plan, single
@@ -33,7 +34,7 @@ def plan_figure(plan: Plan) -> Figure:
     """
     count = int(single(plan).impulse_count)
     if count == 0:
-        raise ValueError("plan must have an impulse, got that of no deviation")
+        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
     figure, (above, below) = subplots(2, height=4.6, sharex=True, height_ratios=(1.5, 1))
     times, states = linear_path(plan)
     for values, colour, name in zip(states.T, (BLUE, RED, GREEN), labels.STATES, strict=True):

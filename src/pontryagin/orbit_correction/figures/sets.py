@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.plan.correction import Plan, single
 
@@ -87,7 +88,7 @@ def remaining_sets(plan: Plan) -> Figure:
     """
     steps = _steps(plan)
     if steps > 6:
-        raise ValueError(f"plan must be of at most 6 steps, got {steps}")
+        raise ArgumentValueError(f"plan must be of at most 6 steps, got {steps}", "plan")
     figure, grid = subplots(1, steps, height=3.25, sharey=True, squeeze=False)
     axes, square = grid[0], plan.thrust.name == "box"
     for k, ax in enumerate(axes):
@@ -152,7 +153,7 @@ def _at_step(plan: Plan, steps: int, k: int) -> Array:
 def _steps(plan: Plan) -> int:
     steps = int(single(plan).steps)
     if steps == 0:
-        raise ValueError("plan must have a step, got that of no deviation")
+        raise ArgumentValueError("plan must have a step, got that of no deviation", "plan")
     return steps
 
 

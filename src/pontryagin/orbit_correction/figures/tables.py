@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import ergodic, printed
 from pontryagin.orbit_correction.figures.impulses import same_length
 from pontryagin.orbit_correction.flight import ClosedLoop
@@ -41,7 +42,9 @@ def controls(plan: Plan) -> Columns:
 def _beside(numbers: Sequence[Sequence[str]], ours: Array, symbol: str, digits: int) -> Columns:
     """A printed table, without its common factor 10^-2, beside our numbers in the same units."""
     if ours.shape != (len(numbers), 3):
-        raise ValueError(f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}")
+        raise ArgumentValueError(
+            f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}", "plan"
+        )
     columns: Columns = {"$k$": list(range(len(numbers)))}
     for i in range(3):
         texts, name = [row[i].removesuffix("e-2") for row in numbers], f"{symbol}_{i + 1}"

@@ -7,8 +7,9 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible
+from pontryagin.errors import ArgumentTypeError, Infeasible
 from pontryagin.numerics.jit import compiled
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
 from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.system.discrete import DiscreteSystem
@@ -68,11 +69,9 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
         If the controls span less than the whole space.
     """
     if not isinstance(system, DiscreteSystem):
-        raise TypeError(f"system must be a DiscreteSystem, got {type(system).__name__}")
-    if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 1:
-        raise ValueError(f"steps must be a positive whole number, got {steps!r}")
-    n = system.step(0)[0].shape[0]
-    return gauge_of_factors(system.factors(int(steps)), vectors("x0", x0, n))
+        raise ArgumentTypeError(f"system must be a DiscreteSystem, got {type(system).__name__}", "system")
+    number, n = arguments.count("steps", steps), system.step(0)[0].shape[0]
+    return gauge_of_factors(system.factors(number), vectors("x0", x0, n))
 
 
 def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
@@ -120,5 +119,6 @@ def _require_reachable(left: Array, x0: Array) -> None:
         state = x0.reshape(left.shape)[int(np.argmax(outside))]
         raise Infeasible(
             f"the controls do not span the state space: x0 = {state.tolist()} is out of their reach, "
-            "whatever their size"
+            "whatever their size",
+            "x0",
         )

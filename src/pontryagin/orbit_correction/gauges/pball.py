@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
 from pontryagin.orbit_correction.system.satellite import step_factors
-from pontryagin.validation import finite, positive, vectors
+from pontryagin.validation import finite
 
 ITERATIONS = 200
 CLOSED = 5e-10
@@ -90,30 +91,24 @@ def power_gauge(
     >>> [round(power_gauge(z0, 4, p).alpha, 4) for p in (2, 8, 16)]
     [0.9286, 0.6944, 0.6585]
     """
-    state = vectors("z0", z0, 3)
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    if not isinstance(steps, int | np.integer) or steps < 1:
-        raise ValueError(f"steps must be a positive whole number, got {steps!r}")
+    state, number = arguments.state(z0), arguments.count("steps", steps)
     exponent = float(finite("p", p, "a number greater than 1"))
     if exponent <= 1:
-        raise ValueError(f"p must be greater than 1, got {p}")
-    size = float(np.linalg.norm(state))
-    plain = float(positive("peak", peak)) * step_factors(int(steps), float(positive("interval", interval)))
-    if np.linalg.matrix_rank(np.hstack(list(plain)), tol=1e-9 * float(peak)) < 3:
-        raise Infeasible(f"{steps} steps of interval {interval} do not span the space of states")
+        raise ArgumentValueError(f"p must be greater than 1, got {p}", "p")
+    spacing, bound = arguments.positive_number("interval", interval), arguments.positive_number("peak", peak)
+    size, plain = float(np.linalg.norm(state)), bound * step_factors(number, spacing)
+    if np.linalg.matrix_rank(np.hstack(list(plain)), tol=1e-9 * bound) < 3:
+        raise Infeasible(f"{number} steps of interval {spacing} do not span the space of states", "steps")
     if size == 0:
         zero = np.array(0.0)
-        return PowerGauge(exponent, int(steps), state, 0 * plain[:, 0], Certificate(zero, zero, zero))
+        return PowerGauge(exponent, number, state, 0 * plain[:, 0], Certificate(zero, zero, zero))
     factors, target = whitened(plain, -state / size)
-    controls, psi, bound = _generate(factors, target, exponent)
+    controls, psi, proved = _generate(factors, target, exponent)
     missed = np.abs(np.einsum("kij,kj->i", plain, controls) + state / size).max()
     alpha = np.linalg.norm(controls, ord=exponent, axis=1).max()
     normal = np.linalg.lstsq(_root(plain).T, psi, rcond=None)[0]
-    certificate = Certificate(np.array(missed), np.array(size * alpha), np.array(size * bound))
-    return PowerGauge(
-        exponent, int(steps), normal / np.linalg.norm(normal), float(peak) * size * controls, certificate
-    )
+    certificate = Certificate(np.array(missed), np.array(size * alpha), np.array(size * proved))
+    return PowerGauge(exponent, number, normal / np.linalg.norm(normal), bound * size * controls, certificate)
 
 
 def fewest_power_steps(
@@ -149,7 +144,7 @@ def fewest_power_steps(
         following = int(np.ceil(guess * min(lower, 1e3)))
         guess = min(max(following, too_few + 1), enough - 1, MOST_STEPS)
     if best is None:
-        raise Infeasible(f"z0 = {np.asarray(z0).tolist()} is not corrected in {MOST_STEPS} steps")
+        raise Infeasible(f"z0 = {np.asarray(z0).tolist()} is not corrected in {MOST_STEPS} steps", "z0")
     return best, proof
 
 

@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.orbit_correction.gauges.proof import CLOSED, require_closed, unit
-from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
-from pontryagin.validation import positive, vectors
+from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
+from pontryagin.validation import vectors
 
 ROUNDING = 1e-12
 """A gauge this much above 1 is 1, rounded."""
@@ -98,7 +98,9 @@ class Plan:
 def single(plan: Plan) -> Plan:
     """The plan itself, if it is that of one state; else `ValueError`."""
     if plan.steps.shape:
-        raise ValueError(f"plan must be that of one state, got a stack of shape {plan.steps.shape}")
+        raise ArgumentValueError(
+            f"plan must be that of one state, got a stack of shape {plan.steps.shape}", "plan"
+        )
     return plan
 
 
@@ -138,14 +140,7 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     (4, 0.9286, 6)
     """
     states = vectors("z0", z0, 3)
-    if thrust not in THRUSTS:
-        raise ValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}")
-    spacing, bound = positive("interval", interval), positive("peak", peak)
-    if spacing.ndim or bound.ndim:
-        raise ValueError(
-            f"interval and peak must be single numbers, got shapes {spacing.shape} and {bound.shape}"
-        )
-    engine = Thrust(thrust, float(spacing), float(bound))
+    engine = thrust_of(thrust, interval, peak)
     rows = states.reshape(-1, 3)
     steps, shorter = fewest_steps(engine, rows)
     found = engine.gauges(rows, steps)
@@ -190,7 +185,8 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         if (too_few >= MOST_STEPS).any():
             worst = rows[int(np.argmax(too_few))]
             raise Infeasible(
-                f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}"
+                f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}",
+                "z0",
             )
         following[open_rows] = count * np.minimum(lower, 100.0)
         between = _between(too_few, proof, enough, reaching, middle=tries > 9 and tries % 3 == 0)

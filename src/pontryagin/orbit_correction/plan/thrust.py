@@ -10,11 +10,12 @@ from functools import lru_cache
 from math import fabs
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import Infeasible
+from pontryagin.errors import ArgumentValueError, Infeasible
 from pontryagin.numerics.jit import compiled
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_of
 from pontryagin.orbit_correction.gauges.kinks import flat_gauge
 from pontryagin.orbit_correction.gauges.zonotope import zonotope_gauge
@@ -236,7 +237,8 @@ class Thrust:
             raise Infeasible(
                 f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
                 f"of the orbit and leave the radius as it is; z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
-                "cannot be corrected"
+                "cannot be corrected",
+                "interval",
             )
         speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), FIRST)
         if self.name == "ball":
@@ -252,6 +254,14 @@ class Thrust:
             costates = np.where(np.abs(share) == alpha[:, None], share, 0.0)
         controls = share[:, None] * acting[..., None]
         return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)
+
+
+def thrust_of(thrust: str, interval: ArrayLike, peak: ArrayLike) -> Thrust:
+    """The set of impulses that a user names, with its interval and peak checked."""
+    if thrust not in THRUSTS:
+        raise ArgumentValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}", "thrust")
+    spacing = arguments.positive_number("interval", interval)
+    return Thrust(thrust, spacing, arguments.positive_number("peak", peak))
 
 
 def scaled(factors: Array, fewest: int) -> Scaled:

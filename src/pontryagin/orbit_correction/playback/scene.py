@@ -10,6 +10,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, GREY, ORANGE, RED, SKY
 from pontryagin.display.recording import Events, Plot, Point, Recording, Scene, View, record
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.flight import fly_plan
 from pontryagin.orbit_correction.plan.correction import Plan, single
@@ -60,7 +61,7 @@ def record_plan(plan: Plan, path: Path) -> None:
         If the plan is that of a stack, or of no impulse.
     """
     if int(single(plan).impulse_count) == 0:
-        raise ValueError("plan must have an impulse, got that of no deviation")
+        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
     factor = magnification(plan)
     plots: list[View] = [
         Plot("deviation of the true flight, thousandths", "state"),
