@@ -12,6 +12,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.arcs import (
     COLUMNS,
@@ -33,7 +34,6 @@ from pontryagin.rendezvous.elements.elements import (
 )
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
 
 SWITCHES = 200

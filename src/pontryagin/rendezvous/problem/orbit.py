@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.checks import by_value, number, unit_quaternion
-from pontryagin.rendezvous.quaternions import product
 
 
 @dataclass(frozen=True, eq=False)

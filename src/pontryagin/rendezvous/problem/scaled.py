@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.orbit import Orbit
-from pontryagin.rendezvous.quaternions import conjugate, product
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +96,7 @@ class Scaled:
     def target(self, anomaly: float, orientation: Array | None = None) -> tuple[Array, Array]:
         """r*, v1*, c* and lambda0~ o lambda* of (5) and (6) at an anomaly, (7,), and their rates, (7,)."""
         place = self.orientation if orientation is None else orientation
-        step = 1e-30j
-        values = np.array(kernels.target(anomaly + step, 1.0, self.eccentricity, 1.0, *place))
-        rate = values[3].real
-        goal = np.delete(values, 3)
-        return goal.real, goal.imag / step.imag * rate
+        values, slopes = derivative(
+            lambda phi: np.array(kernels.target(phi, 1.0, self.eccentricity, 1.0, *place)), anomaly
+        )
+        return np.delete(values, 3), np.delete(slopes, 3) * values[3]
