@@ -118,8 +118,8 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
 
     def proved(angle: float) -> float:
         across, along = np.cos(angle), np.sin(angle)
-        paired = oscillation * across + rest * along
-        return paired / float(mean_support(across, along, engine.interval, engine.peak, thrust))
+        mean = mean_support(across, along, engine.interval, engine.peak, thrust)
+        return float((oscillation * across + rest * along) / mean)
 
     from scipy.optimize import minimize_scalar
 

@@ -16,6 +16,7 @@ from pontryagin.numerics.flow import Flow, flow
 from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import Plan, correct, single
 from pontryagin.validation import positive, vectors
+from pontryagin.value import value_class
 
 CIRCLE = np.array([1.0, 0.0, 1.0])
 ROUNDING = 1e-14
@@ -33,6 +34,7 @@ def motion() -> Flow:
     return flow([d.r, d.v_radial, d.v_transverse, sp.Symbol("theta", real=True)], rates)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Flight:
     """A sequence of impulses flown on the true equations.
@@ -59,7 +61,7 @@ class Flight:
         """Length of the deviation at the end."""
         return float(np.linalg.norm(self.states[-1]))
 
-    def path(self, samples: int) -> tuple[NDArray, NDArray, NDArray]:
+    def path(self, samples: int) -> tuple[Array, Array, Array]:
         """Times, deviations and places with so many samples an interval, (k,), (k, 3), (k,).
 
         Every instant of an impulse appears twice, before and after it.
@@ -124,6 +126,7 @@ def fly_plan(plan: Plan) -> Flight:
     return fly(plan.z0, plan.impulses, plan.thrust.interval)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ClosedLoop:
     """Plans one after the other, each for what the flight before it left.
@@ -199,7 +202,7 @@ def residuals(
     interval: float = 0.25,
     peak: float = 0.0035,
     thrust: str = "ball",
-) -> tuple[NDArray, NDArray]:
+) -> tuple[Array, Array]:
     """Sizes |z0| and what the true flight leaves of them, when state and peak grow together, (k,) each.
 
     Scaled together, all of them have the same plan but for the scale, and only the sky's curvature differs.

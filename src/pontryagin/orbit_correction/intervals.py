@@ -15,6 +15,7 @@ from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.system.satellite import impulse_columns, step_factors
 from pontryagin.validation import positive, vectors
+from pontryagin.value import value_class
 
 
 def singular_values(intervals: ArrayLike, impulses: int) -> Array:
@@ -50,9 +51,10 @@ def step_condition(intervals: ArrayLike) -> Array:
     """
     spacings = positive("intervals", intervals)
     stacked = np.array([step_factors(2, float(h)) for h in spacings.ravel()])
-    return np.linalg.cond(stacked).reshape(*spacings.shape, 2)
+    return np.asarray(np.linalg.cond(stacked)).reshape(*spacings.shape, 2)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Sweep:
     """Plans of one state for many intervals.

@@ -1,6 +1,7 @@
 """How many impulses an injection will need, before it is flown: Gaussian errors, counted."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,10 +12,16 @@ from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from pontryagin.validation import finite
+from pontryagin.value import value_class
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 CHUNK = 250
+"""States that are planned between two moves of the progress bar."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Distribution:
     """Numbers of impulses over random injection errors.
@@ -64,7 +71,7 @@ def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Arra
             f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}", "covariance"
         )
     normal = np.random.default_rng(seed).standard_normal((number, 3))
-    return normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T
+    return np.asarray(normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T)
 
 
 def impulse_distribution(
@@ -113,7 +120,7 @@ def impulse_distribution(
     return Distribution(errors, counts)
 
 
-def _progress(verbose: bool):
+def _progress(verbose: bool) -> "Progress":
     from rich.console import Console
     from rich.progress import Progress
 

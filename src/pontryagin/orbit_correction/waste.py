@@ -10,8 +10,10 @@ from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Waste:
     """Fewest impulses of the same states under the three sets of impulses.

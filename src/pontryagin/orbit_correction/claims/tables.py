@@ -1,7 +1,6 @@
 """The worked example: N_min, alpha and the two tables, number by number."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.ledger import Entry, Page
@@ -21,8 +20,8 @@ ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
 
 
 def example(
-    inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0
-) -> tuple[NDArray, NDArray, NDArray]:
+    inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0
+) -> tuple[Array, Array, Array]:
     """States, costates and controls of Theorem 4 by Lemmas 9 and 10, with alpha, for some B(k)."""
     found = worked.gauge_with(4, inputs, z0=z0)
     alpha, state, costate = float(found.alpha), z0, np.asarray(found.costate)
@@ -37,12 +36,12 @@ def example(
     return np.array(states), np.array(costates), np.array(controls)
 
 
-def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0) -> Array:
+def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0) -> Array:
     """How far the 36 numbers other than 0 are from the printed ones, in units of their last digits."""
     states, costates, controls = example(inputs, z0)
     computed = np.concatenate([states[:4].ravel(), costates.ravel(), controls.ravel()])
     scales = np.array([unit(number) for number in NUMBERS])
-    return np.abs(computed - np.array([float(number) for number in NUMBERS])) / scales
+    return np.asarray(np.abs(computed - np.array([float(number) for number in NUMBERS])) / scales)
 
 
 @claim(

@@ -5,7 +5,6 @@ from collections.abc import Callable
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from pontryagin.arrays import Array
@@ -71,9 +70,7 @@ def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0)
     return np.array(result)
 
 
-def gauge_with(
-    steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0, z0: NDArray = Z0
-) -> Gauge:
+def gauge_with(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0, z0: Array = Z0) -> Gauge:
     """alpha(steps) of z0 and its costate for some B(k), between bounds from both sides."""
     found = gauge_of_factors(factors(steps, inputs, shift), z0)
     if not found.certificate.holds(1e-9):

@@ -4,7 +4,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
@@ -127,13 +126,13 @@ def edge_on(factors: Array, normal: Array) -> Array:
     return np.stack([along, across * np.sign(across[np.abs(across).argmax()])])
 
 
-def _outline(factors: NDArray, plane: NDArray, square: bool) -> Array:
+def _outline(factors: Array, plane: Array, square: bool) -> Array:
     """Support points (361, 3) with normals in a plane: where a set, seen across the plane, ends."""
     turn = np.linspace(0, 2 * np.pi, 361)
     return sets.support_points(factors, np.column_stack([np.cos(turn), np.sin(turn)]) @ plane, square)
 
 
-def _plane(ax: Axes, path: NDArray, towards: NDArray) -> None:
+def _plane(ax: Axes, path: Array, towards: Array) -> None:
     ax.plot(*path.T, "o-", color=INK, markersize=3, linewidth=1.1)
     for k, (start, step) in enumerate(zip(path, towards, strict=False)):
         look = {"arrowstyle": "-|>", "color": ORANGE, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0}

@@ -24,7 +24,7 @@ class Columns:
     points: Array
     costs: Array
 
-    def joined(self, owners: NDArray, points: NDArray, costs: NDArray) -> "Columns":
+    def joined(self, owners: NDArray[np.int64], points: Array, costs: Array) -> "Columns":
         """These and more."""
         return Columns(
             np.append(self.owners, owners),
@@ -81,7 +81,8 @@ def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tu
     return float(found.fun), found.eqlin.marginals, controls + np.einsum("kij,i->kj", factors, miss)
 
 
-def whitened(factors: Array, target: Array) -> tuple[NDArray, NDArray]:
+def whitened(factors: Array, target: Array) -> tuple[Array, Array]:
     """G_k and b in the coordinates in which the sum of G G' is the identity."""
-    root = np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
-    return np.linalg.solve(root, factors), np.linalg.solve(root, target)
+    root: Array = np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
+    solved: tuple[Array, Array] = (np.linalg.solve(root, factors), np.linalg.solve(root, target))
+    return solved

@@ -9,12 +9,14 @@ from math import fabs, sqrt
 
 import numpy as np
 
+from pontryagin.arrays import Array
+
 STEPS = 80
 GAP = 1e-12
 CONTINUATION = 12
 
 
-def cholesky_solve(matrix, right):
+def cholesky_solve(matrix: Array, right: Array) -> bool:
     """Solve a positive definite system in place of its right-hand side; False if it is not definite."""
     n = matrix.shape[0]
     for j in range(n):
@@ -34,7 +36,7 @@ def cholesky_solve(matrix, right):
     return True
 
 
-def forward_backward(factor, right):
+def forward_backward(factor: Array, right: Array) -> None:
     """Solve L L' x = right in place, given L."""
     n = factor.shape[0]
     for i in range(n):
@@ -47,7 +49,7 @@ def forward_backward(factor, right):
         right[i] /= factor[i, i]
 
 
-def support(factors, psi, smoothing):
+def support(factors: Array, psi: Array, smoothing: float) -> float:
     """S(psi), each term |g| rounded off to sqrt(|g|^2 + smoothing^2)."""
     steps, n, m = factors.shape
     total = 0.0
@@ -62,7 +64,9 @@ def support(factors, psi, smoothing):
     return total
 
 
-def support_derivatives(factors, psi, smoothing, gradient, hessian):
+def support_derivatives(
+    factors: Array, psi: Array, smoothing: float, gradient: Array, hessian: Array
+) -> float:
     """`support`, its gradient (the support point) and its second derivative (lower triangle), in place."""
     steps, n, m = factors.shape
     total = 0.0
@@ -95,7 +99,9 @@ def support_derivatives(factors, psi, smoothing, gradient, hessian):
     return total
 
 
-def gauge_of(factors, gram_factor, b, psi, controls):
+def gauge_of(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
     """Lower bound on the gauge of b, and peak of controls (steps, m) that reach b; psi ends as the costate.
 
     ``gram_factor`` is the Cholesky factor of the sum of G_k G_k'.
@@ -107,13 +113,15 @@ def gauge_of(factors, gram_factor, b, psi, controls):
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def gauge_by_continuation(factors, gram_factor, b, psi, controls):
+def gauge_by_continuation(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
     """`gauge_of` for sets that are all but flat, where Newton's method alone ends short."""
     continuation(factors, gram_factor, b, psi)
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def continuation(factors, gram_factor, b, psi):
+def continuation(factors: Array, gram_factor: Array, b: Array, psi: Array) -> None:
     """Newton's method on support functions rounded off less and less."""
     least_energy_start(factors, gram_factor, b, psi)
     smoothing = support(factors, psi, 0.0) / factors.shape[0]
@@ -123,7 +131,7 @@ def continuation(factors, gram_factor, b, psi):
     newton(factors, b, psi, 0.0)
 
 
-def least_energy_start(factors, gram_factor, b, psi):
+def least_energy_start(factors: Array, gram_factor: Array, b: Array, psi: Array) -> bool:
     """The costate of the least-energy controls, scaled to the best value of the dual; False if b = 0."""
     n = b.shape[0]
     size = 0.0
@@ -142,7 +150,7 @@ def least_energy_start(factors, gram_factor, b, psi):
     return True
 
 
-def newton(factors, b, psi, smoothing):
+def newton(factors: Array, b: Array, psi: Array, smoothing: float) -> None:
     """Minimise S(psi)^2/2 - (b, psi) from psi, in place."""
     n = b.shape[0]
     gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
@@ -185,7 +193,7 @@ def newton(factors, b, psi, smoothing):
                 break
 
 
-def bounds(factors, gram_factor, b, psi, parts):
+def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Array) -> tuple[float, float]:
     """What psi proves from below, and the peak of the controls it chooses once they reach b exactly."""
     steps, n, m = factors.shape
     total, pairing = support(factors, psi, 0.0), 0.0
@@ -217,7 +225,7 @@ def bounds(factors, gram_factor, b, psi, parts):
     return lower, sqrt(upper)
 
 
-def gauge_stack(factors, targets, costates, results):
+def gauge_stack(factors: Array, targets: Array, costates: Array, results: Array) -> None:
     """Bounds on the gauge and what the controls miss, for each row of targets (states, n).
 
     Factors are whitened: the sum of G_k G_k' is the identity. Results are (states, 3), costates (states, n).

@@ -14,6 +14,7 @@ from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
 from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.system.discrete import DiscreteSystem
 from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
 
@@ -30,6 +31,7 @@ VANISHING = 1e-100
 """Steps that add less than this share of the reach are set to zero: their squares would underflow."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Gauge:
     """How much of its peak a system needs to bring states to the origin in given steps.

@@ -9,13 +9,16 @@ from math import sqrt
 
 import numpy as np
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction.gauges.ellipsoids import GAP, bounds, continuation, gauge_of, support
 from pontryagin.orbit_correction.gauges.zonotope import cross, dot
 
 CANDIDATES = 8
 
 
-def flat_gauge(factors, gram_factor, b, psi, controls):
+def flat_gauge(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
     """Lower bound and peak of controls (steps, m) with sum of G_k w_k = b; psi ends as the costate."""
     lower, upper = gauge_of(factors, gram_factor, b, psi, controls)
     if upper - lower <= GAP * upper:
@@ -28,7 +31,7 @@ def flat_gauge(factors, gram_factor, b, psi, controls):
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def at_a_kink(factors, b, psi, controls):
+def at_a_kink(factors: Array, b: Array, psi: Array, controls: Array) -> bool:
     """Whether the optimum is the kink of one of the steps, the nearest first; then psi is moved there."""
     steps = factors.shape[0]
     sizes = np.empty(steps)
@@ -46,7 +49,7 @@ def at_a_kink(factors, b, psi, controls):
     return False
 
 
-def bounds_at(factors, b, psi, controls):
+def bounds_at(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
     """What psi proves, and the peak of the controls."""
     upper = 0.0
     for k in range(factors.shape[0]):
@@ -57,7 +60,7 @@ def bounds_at(factors, b, psi, controls):
     return dot(b, psi) / support(factors, psi, 0.0), sqrt(upper)
 
 
-def length_along(factors, k, psi):
+def length_along(factors: Array, k: int, psi: Array) -> float:
     """|G_k'psi|."""
     square = 0.0
     for j in range(factors.shape[2]):
@@ -66,7 +69,7 @@ def length_along(factors, k, psi):
     return sqrt(square)
 
 
-def normal_of(factors, k, normal):
+def normal_of(factors: Array, k: int, normal: Array) -> None:
     """Normal of the plane of the two most independent columns of G_k."""
     best = -1.0
     trial = np.empty(3)
@@ -80,7 +83,7 @@ def normal_of(factors, k, normal):
                     normal[i] = trial[i]
 
 
-def kink(factors, b, psi, controls):
+def kink(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
     """Bound proved by a psi at which some steps vanish, and the peak when those share the rest.
 
     They share it with the least energy, which is the least peak where they are the same plane's.
@@ -128,7 +131,7 @@ def kink(factors, b, psi, controls):
     return alpha, alpha * peak
 
 
-def in_plane(gram, normal, target):
+def in_plane(gram: Array, normal: Array, target: Array) -> Array:
     """x of the plane with gram x = target, gram being singular along the normal."""
     first, second, result = np.zeros(3), np.empty(3), np.empty(3)
     axis = 0
@@ -146,7 +149,7 @@ def in_plane(gram, normal, target):
     return result
 
 
-def form(matrix, left, right):
+def form(matrix: Array, left: Array, right: Array) -> float:
     """left' matrix right."""
     total = 0.0
     for i in range(3):

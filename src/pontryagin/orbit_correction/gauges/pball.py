@@ -8,7 +8,7 @@ that the paper proves of strictly convex sets applies; the support function of G
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
@@ -17,6 +17,7 @@ from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
 from pontryagin.orbit_correction.system.satellite import step_factors
 from pontryagin.validation import finite
+from pontryagin.value import value_class
 
 ITERATIONS = 200
 CLOSED = 5e-10
@@ -25,6 +26,7 @@ CLOSED = 5e-10
 MOST_STEPS = 2000
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class PowerGauge:
     """How much of its peak a satellite needs, for impulses in p-balls.
@@ -148,11 +150,11 @@ def fewest_power_steps(
     return best, proof
 
 
-def _root(factors: NDArray) -> Array:
+def _root(factors: Array) -> Array:
     return np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
 
 
-def _generate(factors: NDArray, target: NDArray, p: float) -> tuple[NDArray, NDArray, float]:
+def _generate(factors: Array, target: Array, p: float) -> tuple[Array, Array, float]:
     """Controls (steps, 3) of the least largest p-norm, the costate and its bound."""
     steps = len(factors)
     axes = np.tile(np.concatenate([np.eye(3), -np.eye(3)]), (steps, 1))
@@ -171,7 +173,7 @@ def _generate(factors: NDArray, target: NDArray, p: float) -> tuple[NDArray, NDA
     raise NotConverged("the gauge of p-balls was not found", peak / bound - 1)
 
 
-def _support_points(along: NDArray, p: float) -> tuple[NDArray, NDArray]:
+def _support_points(along: Array, p: float) -> tuple[Array, Array]:
     """u of the unit p-ball with the largest (v, u), and that value |v|_q."""
     q = p / (p - 1)
     largest = np.abs(along).max(axis=1, keepdims=True)

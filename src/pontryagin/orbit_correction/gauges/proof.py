@@ -20,7 +20,7 @@ def unit(rows: Array) -> Array:
     """
     largest = np.abs(rows).max(axis=-1, keepdims=True, initial=0.0)
     scaled = np.divide(rows, largest, out=np.zeros_like(rows), where=largest > 0)
-    return scaled / np.maximum(np.linalg.norm(scaled, axis=-1, keepdims=True), 0.5)
+    return np.asarray(scaled / np.maximum(np.linalg.norm(scaled, axis=-1, keepdims=True), 0.5))
 
 
 def require_closed(proof: Certificate, what: str) -> None:

@@ -8,23 +8,27 @@ linear. At the end the multipliers of the two segments are their controls: prima
 from math import fabs
 
 import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
 
 PIVOTS = 10_000
 
 
-def cross(u, v, result):
+def cross(u: Array, v: Array, result: Array) -> None:
     """u x v."""
     result[0] = u[1] * v[2] - u[2] * v[1]
     result[1] = u[2] * v[0] - u[0] * v[2]
     result[2] = u[0] * v[1] - u[1] * v[0]
 
 
-def dot(u, v):
+def dot(u: Array, v: Array) -> float:
     """u . v in space."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    product: float = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    return product
 
 
-def turning_place(times, rates, crossed, used, slope):
+def turning_place(times: Array, rates: Array, crossed: NDArray[np.int64], used: int, slope: float) -> int:
     """Place in ``crossed[:used]`` of the segment at which the slope stops being negative, or -1.
 
     Crossing segment k adds 2 |rates[k]|. ``crossed`` is rearranged: what is crossed earlier comes first. A
@@ -59,19 +63,28 @@ def turning_place(times, rates, crossed, used, slope):
     return high - 1 if high < used else -1
 
 
-def slide(segments, psi, direction, slope, held, leaving, values, signs):
+def slide(
+    segments: Array,
+    psi: Array,
+    direction: Array,
+    slope: float,
+    fixed: int,
+    leaving: int,
+    values: Array,
+    signs: Array,
+) -> int:
     """Move psi along an edge to the least of the sum; returns the segment that stops it, or -1.
 
     ``slope`` (negative) is the sum's rate at the start. ``values`` holds g_k.psi and ``signs`` the side on
     which each segment counts, also where it is zero (more than two segments vanish at many vertices: all
-    radial impulses lie in one plane); both are kept up to date. ``held`` stays orthogonal; ``leaving`` has
+    radial impulses lie in one plane); both are kept up to date. ``fixed`` stays orthogonal; ``leaving`` has
     just been let go.
     """
     count = segments.shape[0]
     rates, times, crossed = np.empty(count), np.empty(count), np.empty(count, np.int64)
     size, largest = 0.0, 0.0
     for k in range(count):
-        rates[k] = 0.0 if k == held else dot(segments[k], direction)
+        rates[k] = 0.0 if k == fixed else dot(segments[k], direction)
         size, largest = max(size, fabs(rates[k])), max(largest, fabs(values[k]))
     used = 0
     for k in range(count):
@@ -86,7 +99,7 @@ def slide(segments, psi, direction, slope, held, leaving, values, signs):
     last = turning_place(times, rates, crossed, used, slope)
     if last < 0:
         return -1
-    stop = crossed[last]
+    stop: int = crossed[last]
     for place in range(last):
         signs[crossed[place]] = -signs[crossed[place]]
     length = times[stop]
@@ -98,20 +111,20 @@ def slide(segments, psi, direction, slope, held, leaving, values, signs):
     return stop
 
 
-def descend(segments, psi, direction, held, values, signs):
+def descend(segments: Array, psi: Array, direction: Array, fixed: int, values: Array, signs: Array) -> int:
     """`slide` in whichever sense of the direction lowers the sum."""
     slope = 0.0
     for k in range(segments.shape[0]):
-        if k != held:
+        if k != fixed:
             slope += signs[k] * dot(segments[k], direction)
     if slope > 0.0:
         slope = -slope
         for i in range(3):
             direction[i] = -direction[i]
-    return slide(segments, psi, direction, slope, held, -1, values, signs)
+    return slide(segments, psi, direction, slope, fixed, -1, values, signs)
 
 
-def multipliers(segments, b, first, second, signs, result):
+def multipliers(segments: Array, b: Array, first: int, second: int, signs: Array, result: Array) -> bool:
     """Solve sum of signs g + x g_first + y g_second = z b for (x, y, z); False if the three are dependent."""
     total, right = np.zeros(3), np.empty(3)
     for k in range(segments.shape[0]):
@@ -133,7 +146,7 @@ def multipliers(segments, b, first, second, signs, result):
     return True
 
 
-def zonotope_gauge(segments, b, psi, controls):
+def zonotope_gauge(segments: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
     """Lower bound and peak of the controls (count,) whose sum of controls times segments is b.
 
     ``psi`` (3,) ends as the costate with (b, psi) = 1. The peak is infinite if no vertex was reached.

@@ -7,19 +7,20 @@ cost over its set of impulses, (b, psi) - sum |G_k'psi|* is a bound from below f
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
 from pontryagin.orbit_correction.plan.correction import Plan, single
+from pontryagin.value import value_class
 
 ITERATIONS = 200
 CLOSED = 1e-10
 """Gap, relative to the value, at which an iteration ends."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Alternative:
     """A plan with the impulses of another, spread to make another measure least.
@@ -152,29 +153,29 @@ def least_fuel(plan: Plan) -> Alternative:
     return _alternative(plan, "fuel", controls, _fuel(plan, controls), value)
 
 
-def _alternative(plan: Plan, least: str, controls: NDArray, value: float, bound: float) -> Alternative:
+def _alternative(plan: Plan, least: str, controls: Array, value: float, bound: float) -> Alternative:
     residual = plan.thrust.miss(plan.z0[None], plan.steps[None], controls[None])[0]
     certificate = Certificate(np.array(residual), np.array(value), np.array(bound))
     return Alternative(plan, least, plan.thrust.peak * controls, certificate)
 
 
-def _whitened(plan: Plan) -> tuple[NDArray, NDArray]:
+def _whitened(plan: Plan) -> tuple[Array, Array]:
     """G_k and b = -z0, whitened."""
     if not int(single(plan).steps):
         return np.zeros((0, 3, plan.step_controls.shape[-1])), np.zeros(3)
     return whitened(plan.thrust.factors(int(plan.steps)), -plan.z0)
 
 
-def _sizes(plan: Plan, controls: NDArray) -> Array:
+def _sizes(plan: Plan, controls: Array) -> Array:
     return np.abs(controls) if plan.thrust.name == "box" else np.linalg.norm(controls, axis=1)
 
 
-def _fuel(plan: Plan, controls: NDArray) -> float:
+def _fuel(plan: Plan, controls: Array) -> float:
     measure = _length if plan.thrust.name == "disc" else _total
     return float(measure(controls).sum())
 
 
-def _least_energy(factors: NDArray, target: NDArray, square: bool) -> tuple[NDArray, float]:
+def _least_energy(factors: Array, target: Array, square: bool) -> tuple[Array, float]:
     project = _onto_box if square else _onto_balls
     psi = target.copy()
     for _ in range(ITERATIONS):
@@ -200,24 +201,24 @@ def _least_energy(factors: NDArray, target: NDArray, square: bool) -> tuple[NDAr
     return controls, value
 
 
-def _energy_bound(psi: NDArray, along: NDArray, controls: NDArray, target: NDArray) -> float:
+def _energy_bound(psi: Array, along: Array, controls: Array, target: Array) -> float:
     """What psi proves: 2 (b, psi) - sum of max over the set of 2 (G_k'psi, u) - |u|^2."""
     return float(2 * (target @ psi) - (2 * along * controls - controls**2).sum())
 
 
-def _onto_box(along: NDArray) -> tuple[NDArray, NDArray]:
+def _onto_box(along: Array) -> tuple[Array, Array]:
     inside = (np.abs(along) <= 1).astype(float)
     return np.clip(along, -1, 1), inside[:, :, None] * np.eye(along.shape[1])
 
 
-def _onto_balls(along: NDArray) -> tuple[NDArray, NDArray]:
+def _onto_balls(along: Array) -> tuple[Array, Array]:
     size = np.maximum(np.linalg.norm(along, axis=1), 1.0)[:, None]
     unit = along / size
     outward = np.where(size[:, :, None] > 1, unit[:, :, None] * unit[:, None, :], 0.0)
     return unit, (np.eye(along.shape[1]) - outward) / size[:, :, None]
 
 
-def _generate(factors: NDArray, target: NDArray, start: NDArray, turning: bool) -> tuple[NDArray, float]:
+def _generate(factors: Array, target: Array, start: Array, turning: bool) -> tuple[Array, float]:
     """Least sum of fuel by generated columns: controls (N, m) and the best bound."""
     steps, width = start.shape
     if not steps:
@@ -238,25 +239,25 @@ def _generate(factors: NDArray, target: NDArray, start: NDArray, turning: bool) 
     raise NotConverged("the least fuel was not found", value - bound)
 
 
-def _length(points: NDArray) -> Array:
+def _length(points: Array) -> Array:
     return np.asarray(np.linalg.norm(points, axis=1))
 
 
-def _total(points: NDArray) -> Array:
+def _total(points: Array) -> Array:
     return np.asarray(np.abs(points).sum(axis=1))
 
 
-def _longest(along: NDArray) -> tuple[NDArray, NDArray]:
+def _longest(along: Array) -> tuple[Array, Array]:
     """The impulse u of the unit disc with the most (v, u) - |u|, and how much that is."""
     unit, size = _directions(along)
     return unit, np.maximum(size - 1, 0.0)
 
 
-def _beyond(along: NDArray) -> tuple[NDArray, NDArray]:
+def _beyond(along: Array) -> tuple[Array, Array]:
     """The same for the unit ball with the sum of the components for fuel."""
     return _directions(np.sign(along) * np.maximum(np.abs(along) - 1, 0.0))
 
 
-def _directions(along: NDArray) -> tuple[NDArray, NDArray]:
+def _directions(along: Array) -> tuple[Array, Array]:
     size = np.linalg.norm(along, axis=1)
     return along / np.maximum(size, 1e-300)[:, None], size

@@ -12,6 +12,7 @@ from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.orbit_correction.gauges.proof import CLOSED, require_closed, unit
 from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
 from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 ROUNDING = 1e-12
 """A gauge this much above 1 is 1, rounded."""
@@ -19,6 +20,7 @@ ROUNDING = 1e-12
 MOST_STEPS = 1_000_000
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Plan:
     """A correction in the fewest steps and, among those, of the least peak.
@@ -74,7 +76,7 @@ class Plan:
         inputs = np.zeros((self.step_controls.shape[-2], 3, self.step_controls.shape[-1]))
         for k in range(len(inputs)):
             inputs[k] = self.thrust.step_input(k)
-        return np.einsum("kij,...kj->...ki", inputs, self.step_controls)
+        return np.asarray(np.einsum("kij,...kj->...ki", inputs, self.step_controls))
 
     @cached_property
     def states(self) -> Array:
@@ -196,9 +198,9 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
     return enough, proof
 
 
-def _between(low: NDArray, above: NDArray, high: NDArray, below: NDArray, middle: bool) -> Array:
+def _between(low: Array, above: Array, high: Array, below: Array, middle: bool) -> Array:
     """Where log alpha, linear in log N, is 0 between alpha(low) > 1 and alpha(high) <= 1; or the middle."""
     with np.errstate(all="ignore"):
         share = np.log(above) / np.log(above / below)
         found = np.exp(np.log(low) + share * np.log(high / low))
-    return np.where(np.isfinite(found) & np.logical_not(middle), found, (low + high) / 2)
+    return np.asarray(np.where(np.isfinite(found) & np.logical_not(middle), found, (low + high) / 2))

@@ -30,19 +30,28 @@ MISS_SIGNATURE = (
     "void(float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],float64[:,:,::1],float64[::1])"
 )
 COMPILE_FROM = 60
-"""States times steps from which loading the compiled kernel pays."""
+"""The compiled kernels are loaded when the number of states times that of steps exceeds this."""
 
-FIRST = 2
-"""Steps whose impulses span the space, for every thrust."""
+SPANNING = 2
+"""The impulses of this many steps span the space, whatever the set of impulses."""
 
 KEPT = 1024
-"""Up to this many steps the factors are kept for the next call: they are most of what one state costs."""
+"""Factors of at most this many steps are kept for the next call: they take most of the time of one state."""
 
 CHUNK = 1_000_000
-"""States times steps for which controls are kept at a time."""
+"""A stack is solved in pieces of at most this many states times steps, to limit the memory for controls."""
 
 
-def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, results):
+def gauges_of(
+    kind: int,
+    factors: Array,
+    gram_factors: Array,
+    counts: NDArray[np.int64],
+    targets: Array,
+    costates: Array,
+    controls: Array,
+    results: Array,
+) -> None:
     """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`."""
     width = factors.shape[2]
     for row in range(targets.shape[0]):
@@ -67,7 +76,14 @@ def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, 
         results[row, 0], results[row, 1] = found
 
 
-def misses_of(transitions, inputs, counts, states, controls, results):
+def misses_of(
+    transitions: Array,
+    inputs: Array,
+    counts: NDArray[np.int64],
+    states: Array,
+    controls: Array,
+    results: Array,
+) -> None:
     """What remains of each state (rows, 3) after its steps, flown one by one, relative to its start.
 
     ``transitions`` and ``inputs`` hold the matrices of an even and an odd step.
@@ -121,8 +137,8 @@ class Scaled:
     factors: Array
     gram_factors: Array
 
-    def first(self, steps: int) -> "Scaled":
-        """The same for fewer steps."""
+    def up_to(self, steps: int) -> "Scaled":
+        """The first of the steps."""
         return Scaled(self.reach, self.factors[:steps], self.gram_factors[:steps])
 
 
@@ -181,15 +197,16 @@ class Thrust:
             return satellite.step_input(k, self.phase)
         return satellite.transition(self.phase)[:, 1:]
 
-    def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> Array:
+    def miss(self, z0: Array, counts: NDArray[np.int64], controls: Array) -> Array:
         """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
         transitions, inputs = _motion(self)
         results = np.empty(len(z0))
         run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
-        run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
+        writable = (np.require(array, requirements=["C", "W"]) for array in (counts, z0, controls))
+        run(transitions, inputs, *writable, results)
         return results
 
-    def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+    def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[Array, Array]:
         """Lower and upper bounds on the gauges, as `gauges` gives them, whatever the size of the stack."""
         lower, upper = np.empty(len(z0)), np.empty(len(z0))
         order = np.argsort(counts, kind="stable")
@@ -206,12 +223,12 @@ class Thrust:
         with np.errstate(all="ignore"):
             if self.whole_revolutions:
                 return self._gauges_of_speeds(z0, counts)
-            most = max(int(counts.max(initial=0)), FIRST)
+            most = max(int(counts.max(initial=0)), SPANNING)
             if most > KEPT:
                 return self._gauges(z0, counts, scaled(self.unit_factors(most), self.fewest))
-            return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).first(most))
+            return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).up_to(most))
 
-    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
+    def _gauges(self, z0: Array, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
         """Solved in units of the state and of the impulses' reach along each axis: both may be tiny."""
         reach, factors, gram_factors = steps.reach, steps.factors, steps.gram_factors
         most = len(factors)
@@ -231,7 +248,7 @@ class Thrust:
             controls * scale[:, None, None],
         )
 
-    def _gauges_of_speeds(self, z0: NDArray, counts: NDArray[np.int64]) -> Gauges:
+    def _gauges_of_speeds(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
         """Impulses that all act at one place: they change the speeds alone, and share the work equally."""
         if z0[:, 0].any():
             raise Infeasible(
@@ -240,7 +257,7 @@ class Thrust:
                 "cannot be corrected",
                 "interval",
             )
-        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), FIRST)
+        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), SPANNING)
         if self.name == "ball":
             found = self._gauges(speeds, counts, scaled(self.unit_factors(most)[:, 1:], self.fewest))
             costates = np.pad(found.costates, ((0, 0), (1, 0)))
@@ -266,7 +283,7 @@ def thrust_of(thrust: str, interval: ArrayLike, peak: ArrayLike) -> Thrust:
 
 def scaled(factors: Array, fewest: int) -> Scaled:
     """What the gauges need of the factors (steps, n, components), with Gramians from `fewest` steps on."""
-    reach = np.maximum(np.abs(factors[:FIRST]).max(axis=(0, 2)), 1e-300)
+    reach = np.maximum(np.abs(factors[:SPANNING]).max(axis=(0, 2)), 1e-300)
     units = np.ascontiguousarray(factors / reach[:, None])
     gram = np.cumsum(np.einsum("kij,klj->kil", units, units), axis=0)
     gram_factors = np.zeros_like(gram)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite
+from pontryagin.value import value_class
 
 Matrices = Sequence[ArrayLike] | Array | Callable[[int], ArrayLike]
 
@@ -18,6 +19,7 @@ SINGULAR = 1e14
 """A matrix A(k) whose condition is above this counts as singular."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class DiscreteSystem:
     """x(k+1) = A(k) x(k) + u(k) with (u(k), H(k) u(k)) <= 1, system (1) with the ellipsoids of section 6.

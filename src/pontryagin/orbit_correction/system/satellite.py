@@ -21,7 +21,7 @@ def transition(time: ArrayLike) -> Array:
            [0., 0., 1.]])
     """
     time = np.asarray(time, dtype=float)[..., None, None]
-    return np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR)
+    return np.asarray(np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR))
 
 
 def phase(interval: float) -> float:
