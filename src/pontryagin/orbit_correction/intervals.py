@@ -1,7 +1,8 @@
-"""What the interval between impulses does: controllability, the gauge, and the number of impulses.
+"""How controllability, the gauge and the number of impulses depend on the interval between impulses.
 
-At whole revolutions every impulse acts at one place and the radius is out of reach. At half revolutions
-all radial impulses are parallel, so that H(k) of the paper does not exist; the states are still reached.
+At whole revolutions every impulse acts at one place of the orbit, and the radius cannot be changed. At half
+revolutions all radial impulses are parallel, so that H(k) of (12) does not exist; the states can still be
+corrected.
 """
 
 from dataclasses import dataclass
@@ -19,16 +20,21 @@ from pontryagin.value import value_class
 
 
 def singular_values(intervals: ArrayLike, impulses: int) -> Array:
-    """Singular values of the controllability matrix of so many impulses, (..., 3), the largest first.
+    """Singular values of the controllability matrix, (..., 3), the largest first.
 
-    Its columns are what unit impulses do to the initial state.
+    The columns of the matrix are the effects of unit impulses on the initial state.
 
     Parameters
     ----------
     intervals : (...) array_like
         Times between impulses, rad.
     impulses : int
-        At least two.
+        Number of impulses, at least two.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
 
     Examples
     --------
@@ -42,7 +48,9 @@ def singular_values(intervals: ArrayLike, impulses: int) -> Array:
 
 
 def step_condition(intervals: ArrayLike) -> Array:
-    """Condition numbers of the paper's B for an even and an odd step, (..., 2); infinite where H is not.
+    """Condition numbers of B(k) of (12) for an even and an odd step, (..., 2).
+
+    A condition number beyond rounding says that H(k) does not exist.
 
     Examples
     --------
@@ -64,9 +72,9 @@ class Sweep:
     intervals : (k,) array
         Times between impulses, rad.
     impulses : (k,) array
-        Fewest impulses; nan where none suffice.
+        Fewest impulses; nan where no number suffices.
     gauge : (k,) array
-        alpha of the plan; nan likewise.
+        alpha of the plan; nan where there is none.
     """
 
     intervals: Array
@@ -80,7 +88,7 @@ class Sweep:
 
 
 def sweep(z0: ArrayLike, intervals: ArrayLike, peak: float = 0.0035, thrust: str = "ball") -> Sweep:
-    """Correct one state with impulses at each of the intervals.
+    """Correct one state at each of the intervals between impulses.
 
     Parameters
     ----------

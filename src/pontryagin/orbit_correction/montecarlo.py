@@ -1,4 +1,4 @@
-"""How many impulses an injection will need, before it is flown: Gaussian errors, counted."""
+"""The distribution of the number of impulses over random injection errors."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -24,12 +24,12 @@ CHUNK = 250
 @value_class
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """Numbers of impulses over random injection errors.
+    """The fewest impulses of random injection errors, for each set of impulses.
 
     Attributes
     ----------
     z0 : (samples, 3) array
-        The errors drawn.
+        The injection errors.
     counts : dict of (samples,) int arrays
         Fewest impulses by the name of the set, "ball", "disc", "box".
     """
@@ -42,12 +42,12 @@ class Distribution:
         return float(self.counts[thrust].mean())
 
     def quantile(self, thrust: str, share: float) -> int:
-        """The least number of impulses that suffices for this share of the errors."""
+        """The least number of impulses that suffices for a given share of the errors."""
         return int(np.quantile(self.counts[thrust], share, method="inverted_cdf"))
 
 
 def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Array:
-    """Normal deviations with mean zero and a given covariance, (samples, 3), seeded.
+    """Normally distributed deviations of mean zero and given covariance, (samples, 3), from a seed.
 
     Raises
     ------
@@ -87,13 +87,13 @@ def impulse_distribution(
     Parameters
     ----------
     covariance : (3, 3) array_like
-        Of (dr, dv_R, dv_T), in units of the orbit; symmetric, not indefinite.
+        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric, not indefinite.
     samples : int
-        How many errors are drawn.
+        Number of errors.
     interval, peak : float
         As in `correct`.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     verbose : bool
         Whether to show a progress bar on standard error.
 
@@ -121,6 +121,7 @@ def impulse_distribution(
 
 
 def _progress(verbose: bool) -> "Progress":
+    """A progress bar on standard error, which is hidden unless `verbose`."""
     from rich.console import Console
     from rich.progress import Progress
 

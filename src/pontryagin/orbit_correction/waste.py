@@ -1,4 +1,4 @@
-"""How many impulses the paper's ball wastes: counted against the disc and the square it stands for."""
+"""The impulses that the paper's ball wastes, counted against the disc and against the square it replaces."""
 
 from dataclasses import dataclass
 
@@ -30,15 +30,15 @@ class Waste:
     counts: dict[str, NDArray[np.int64]]
 
     def wasted(self, thrust: str = "box") -> NDArray[np.int64]:
-        """Impulses that the ball fires more than another set, (...)."""
+        """How many impulses more than another set the ball needs, (...)."""
         return self.counts["ball"] - self.counts[thrust]
 
 
 def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
     """Count the impulses that ball, disc and box need for the same states.
 
-    The ball lies in the square, so that the square never needs more; a ball's odd step also leaves half of
-    its last impulse unused. Neither of ball and disc contains the other.
+    The square holds the ball and the disc, so that it never needs more impulses. After an odd number of steps
+    of the ball, half of the last impulse is unused. Neither of ball and disc contains the other.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) 
 
 
 def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
-    """Normal deviations with the same standard deviation in every component, (count, 3), seeded.
+    """Normally distributed deviations, (count, 3), from a seed; `size` is every component's standard deviation.
 
     Examples
     --------

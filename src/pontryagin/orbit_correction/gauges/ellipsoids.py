@@ -1,8 +1,10 @@
-"""The gauge of the sum of ellipsoids E_k = G_k B (B the unit ball): how much of the peak a state needs.
+"""The gauge of a sum of ellipsoids E_k = G_k B, B the unit ball, by Newton's method: Lemma 9 and (8) to (11).
 
-The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b is the largest (b, psi)/S(psi); its
-square is twice the largest value of the smooth concave (b, psi) - S(psi)^2/2, found by Newton's method.
-Any psi proves a lower bound; the controls that it chooses, corrected to reach b exactly, an upper one.
+The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b = -x0 is the largest (b, psi)/S(psi). Its
+square is twice the largest value of the concave function (b, psi) - S(psi)^2/2. Where the gradient of this
+function vanishes, b = S(psi) sum G_k G_k'psi/|G_k'psi|, which is the equation of Lemma 9 with the factor
+alpha = S(psi). Any psi proves the lower bound (b, psi)/S(psi). The controls that psi chooses (Lemma 10),
+corrected so that they reach b, prove an upper bound.
 """
 
 from math import fabs, sqrt
@@ -12,12 +14,17 @@ import numpy as np
 from pontryagin.arrays import Array
 
 STEPS = 80
+"""Most iterations of Newton's method."""
+
 GAP = 1e-12
+"""Relative gap between the bounds above which a harder method is tried."""
+
 CONTINUATION = 12
+"""Rounds of the continuation, each with a tenth of the smoothing of the round before."""
 
 
 def cholesky_solve(matrix: Array, right: Array) -> bool:
-    """Solve a positive definite system in place of its right-hand side; False if it is not definite."""
+    """Overwrite the right-hand side by the solution; False if the matrix is not positive definite."""
     n = matrix.shape[0]
     for j in range(n):
         pivot = matrix[j, j]
@@ -37,7 +44,7 @@ def cholesky_solve(matrix: Array, right: Array) -> bool:
 
 
 def forward_backward(factor: Array, right: Array) -> None:
-    """Solve L L' x = right in place, given L."""
+    """Overwrite ``right`` by the solution x of L L' x = right, given L."""
     n = factor.shape[0]
     for i in range(n):
         for k in range(i):
@@ -50,7 +57,7 @@ def forward_backward(factor: Array, right: Array) -> None:
 
 
 def support(factors: Array, psi: Array, smoothing: float) -> float:
-    """S(psi), each term |g| rounded off to sqrt(|g|^2 + smoothing^2)."""
+    """S(psi), with each term |g| smoothed to sqrt(|g|^2 + smoothing^2)."""
     steps, n, m = factors.shape
     total = 0.0
     for k in range(steps):
@@ -67,7 +74,7 @@ def support(factors: Array, psi: Array, smoothing: float) -> float:
 def support_derivatives(
     factors: Array, psi: Array, smoothing: float, gradient: Array, hessian: Array
 ) -> float:
-    """`support`, its gradient (the support point) and its second derivative (lower triangle), in place."""
+    """`support`; in place, its gradient, the support point rho(psi), and the lower half of its Hessian."""
     steps, n, m = factors.shape
     total = 0.0
     gradient[:] = 0.0
@@ -102,9 +109,10 @@ def support_derivatives(
 def gauge_of(
     factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
 ) -> tuple[float, float]:
-    """Lower bound on the gauge of b, and peak of controls (steps, m) that reach b; psi ends as the costate.
+    """Lower bound on the gauge of b, and the peak of controls that reach b.
 
-    ``gram_factor`` is the Cholesky factor of the sum of G_k G_k'.
+    ``psi`` is overwritten by the costate and ``controls`` (steps, m) by the controls. ``gram_factor`` is the
+    Cholesky factor of the sum of G_k G_k'.
     """
     if not least_energy_start(factors, gram_factor, b, psi):
         controls[:, :] = 0.0
@@ -116,13 +124,13 @@ def gauge_of(
 def gauge_by_continuation(
     factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
 ) -> tuple[float, float]:
-    """`gauge_of` for sets that are all but flat, where Newton's method alone ends short."""
+    """`gauge_of` for sets that are nearly flat, where Newton's method alone stops before the optimum."""
     continuation(factors, gram_factor, b, psi)
     return bounds(factors, gram_factor, b, psi, controls)
 
 
 def continuation(factors: Array, gram_factor: Array, b: Array, psi: Array) -> None:
-    """Newton's method on support functions rounded off less and less."""
+    """Newton's method on support functions that are smoothed less from round to round."""
     least_energy_start(factors, gram_factor, b, psi)
     smoothing = support(factors, psi, 0.0) / factors.shape[0]
     for _ in range(CONTINUATION):
@@ -132,7 +140,7 @@ def continuation(factors: Array, gram_factor: Array, b: Array, psi: Array) -> No
 
 
 def least_energy_start(factors: Array, gram_factor: Array, b: Array, psi: Array) -> bool:
-    """The costate of the least-energy controls, scaled to the best value of the dual; False if b = 0."""
+    """Set psi to the costate of the least-energy controls, scaled to the best dual value; False if b = 0."""
     n = b.shape[0]
     size = 0.0
     for i in range(n):
@@ -151,7 +159,7 @@ def least_energy_start(factors: Array, gram_factor: Array, b: Array, psi: Array)
 
 
 def newton(factors: Array, b: Array, psi: Array, smoothing: float) -> None:
-    """Minimise S(psi)^2/2 - (b, psi) from psi, in place."""
+    """Minimise S(psi)^2/2 - (b, psi), starting from psi and overwriting it."""
     n = b.shape[0]
     gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
     polish = 3
@@ -194,7 +202,10 @@ def newton(factors: Array, b: Array, psi: Array, smoothing: float) -> None:
 
 
 def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Array) -> tuple[float, float]:
-    """What psi proves from below, and the peak of the controls it chooses once they reach b exactly."""
+    """The lower bound that psi proves, and the peak of its controls of Lemma 10, corrected so as to reach b.
+
+    The correction is the least-energy control for what the controls miss.
+    """
     steps, n, m = factors.shape
     total, pairing = support(factors, psi, 0.0), 0.0
     for i in range(n):
@@ -226,9 +237,10 @@ def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Arra
 
 
 def gauge_stack(factors: Array, targets: Array, costates: Array, results: Array) -> None:
-    """Bounds on the gauge and what the controls miss, for each row of targets (states, n).
+    """Both bounds on the gauge and what the controls miss of b, for each row of targets (states, n).
 
-    Factors are whitened: the sum of G_k G_k' is the identity. Results are (states, 3), costates (states, n).
+    Factors are whitened: the sum of G_k G_k' is the identity. The results fill ``results`` (states, 3) and
+    ``costates`` (states, n).
     """
     steps, n, m = factors.shape
     controls = np.empty((steps, m))

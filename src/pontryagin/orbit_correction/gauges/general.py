@@ -1,4 +1,4 @@
-"""The gauge of the 0-controllable set of any system with ellipsoidal controls, Lemmas 7 and 9."""
+"""The gauge of the 0-controllable set of any system with ellipsoidal controls, Lemma 7 and Lemma 9."""
 
 from dataclasses import dataclass
 
@@ -34,16 +34,17 @@ VANISHING = 1e-100
 @value_class
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """How much of its peak a system needs to bring states to the origin in given steps.
+    """The share of its peak that a system needs to bring states to the origin in given steps.
 
     Attributes
     ----------
     alpha : (...) array
-        Minkowski functional of the 0-controllable set at the state: at most 1 where it can be done.
+        Minkowski functional of the 0-controllable set X(N, 0) at the state: at most 1 if and only if N steps
+        suffice.
     costate : (..., n) array
         psi_0, unit; zeros for the zero state.
     certificate : Certificate
-        alpha of controls that reach the origin exactly, and the bound that psi_0 proves.
+        The value is alpha of controls that reach the origin; the bound is the one that psi_0 proves.
     """
 
     alpha: Array
@@ -52,7 +53,10 @@ class Gauge:
 
 
 def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
-    """The gauge of the set of states that the system brings to the origin in `steps` steps, Lemmas 7 and 9.
+    """The gauge of the set of states that the system brings to the origin in `steps` steps.
+
+    It is the alpha of Lemma 7, found with the costate psi_0 of Lemma 9 by maximising a concave function
+    instead of solving the system (11), which has no solution for states inside the set.
 
     Parameters
     ----------
@@ -61,14 +65,27 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
     x0 : (..., n) array_like
         States.
     steps : int
-        Number of steps, at least one.
+        Number of steps N, at least one.
+
+    Returns
+    -------
+    Gauge
+        alpha, costate and certificate of every state.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is invalid, with its name.
     pontryagin.Infeasible
-        If the controls span less than the whole space.
+        If the controls do not span the space and a state lies outside what they span.
+    pontryagin.NotConverged
+        If rounding leaves a gap between the bounds.
+
+    Examples
+    --------
+    >>> system = DiscreteSystem(np.eye(2), np.eye(2))
+    >>> gauge(system, [[3.0, 4.0], [0.0, 5.0]], steps=5).alpha.round(9).tolist()
+    [1.0, 1.0]
     """
     if not isinstance(system, DiscreteSystem):
         raise ArgumentTypeError(f"system must be a DiscreteSystem, got {type(system).__name__}", "system")
@@ -79,7 +96,7 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
 def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
 
-    A flat sum is taken as a set of the plane that it spans: states there have a gauge, others none.
+    A flat sum is taken as a set of the subspace that it spans: states there have a gauge, others have none.
     """
     n, shape = factors.shape[1], x0.shape[:-1]
     reach = np.abs(factors).max(axis=(0, 2))
@@ -116,6 +133,7 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
 
 
 def _require_reachable(left: Array, x0: Array) -> None:
+    """Refuse states of which something is left outside the span of the controls."""
     outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
     if outside.any():
         state = x0.reshape(left.shape)[int(np.argmax(outside))]

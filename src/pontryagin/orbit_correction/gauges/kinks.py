@@ -1,8 +1,8 @@
-"""The gauge of a sum of ellipses in space that may be flat, G_k (3, m): impulses in a disc, kinks included.
+"""The gauge of a sum of flat ellipses in space, G_k (3, m): impulses in a disc.
 
-The support function is not smooth where psi is orthogonal to a flat G_j: then step j does not matter to
-first order and need not be at its bound. If Newton's method ends short, the optimum is at such a psi, and
-the steps that vanish there take up whatever the others leave.
+The support function S(psi) = sum |G_k'psi| has a kink where psi is orthogonal to a flat G_j; there step j
+need not be at its bound. If Newton's method stops before the optimum, the optimum is at such a psi: the steps
+whose G_j'psi vanishes there reach what the other steps leave of b.
 """
 
 from math import sqrt
@@ -14,12 +14,16 @@ from pontryagin.orbit_correction.gauges.ellipsoids import GAP, bounds, continuat
 from pontryagin.orbit_correction.gauges.zonotope import cross, dot
 
 CANDIDATES = 8
+"""Steps whose kinks are tried, those nearest to psi first."""
 
 
 def flat_gauge(
     factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
 ) -> tuple[float, float]:
-    """Lower bound and peak of controls (steps, m) with sum of G_k w_k = b; psi ends as the costate."""
+    """Lower bound on the gauge of b, and the peak of controls w_k with sum of G_k w_k = b.
+
+    ``psi`` is overwritten by the costate and ``controls`` (steps, m) by the controls.
+    """
     lower, upper = gauge_of(factors, gram_factor, b, psi, controls)
     if upper - lower <= GAP * upper:
         return lower, upper
@@ -32,7 +36,7 @@ def flat_gauge(
 
 
 def at_a_kink(factors: Array, b: Array, psi: Array, controls: Array) -> bool:
-    """Whether the optimum is the kink of one of the steps, the nearest first; then psi is moved there."""
+    """Whether the optimum is at the kink of one of the steps; if so, psi is moved there."""
     steps = factors.shape[0]
     sizes = np.empty(steps)
     for k in range(steps):
@@ -50,7 +54,7 @@ def at_a_kink(factors: Array, b: Array, psi: Array, controls: Array) -> bool:
 
 
 def bounds_at(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
-    """What psi proves, and the peak of the controls."""
+    """The lower bound that psi proves, and the peak of the controls."""
     upper = 0.0
     for k in range(factors.shape[0]):
         square = 0.0
@@ -84,9 +88,10 @@ def normal_of(factors: Array, k: int, normal: Array) -> None:
 
 
 def kink(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
-    """Bound proved by a psi at which some steps vanish, and the peak when those share the rest.
+    """Lower bound proved by a psi at which G_k'psi of some steps vanishes, and the peak of the controls.
 
-    They share it with the least energy, which is the least peak where they are the same plane's.
+    The other steps are at their bounds. What they leave of b is shared among the steps that vanish, with the
+    least energy, which is also the least peak where those steps act in the same plane.
     """
     steps, _, m = factors.shape
     pairing = dot(b, psi)
@@ -132,7 +137,7 @@ def kink(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, 
 
 
 def in_plane(gram: Array, normal: Array, target: Array) -> Array:
-    """x of the plane with gram x = target, gram being singular along the normal."""
+    """The x orthogonal to the normal with gram x = target, where gram maps the normal to 0."""
     first, second, result = np.zeros(3), np.empty(3), np.empty(3)
     axis = 0
     for i in range(3):

@@ -1,4 +1,4 @@
-"""What makes a gauge handed out a proved one."""
+"""The check that a gauge must pass before it is handed out: its two bounds agree."""
 
 import numpy as np
 

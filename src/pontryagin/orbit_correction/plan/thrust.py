@@ -1,8 +1,8 @@
-"""The three sets of admissible impulses, and their gauges for states and numbers of steps side by side.
+"""The three sets of admissible impulses, and the gauges of stacks of states, each for its number of steps.
 
-ball    the paper's: three impulse components in succession, together in a ball of the peak's radius
-disc    each impulse (radial, transverse) in a disc: an engine that turns
-box     each component within the peak: two engines, and the paper's own constraint before its last step
+ball    the paper's (12): three successive impulse components together in a ball whose radius is the peak
+disc    each impulse (radial, transverse) in a disc: one engine that turns
+box     each component within the peak: two engines, the constraint that the paper replaces by the ball
 """
 
 from dataclasses import dataclass
@@ -52,7 +52,10 @@ def gauges_of(
     controls: Array,
     results: Array,
 ) -> None:
-    """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`."""
+    """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`.
+
+    Targets of two components are speeds, reached by impulses that all act at one place of the orbit.
+    """
     width = factors.shape[2]
     for row in range(targets.shape[0]):
         n = counts[row]
@@ -84,7 +87,7 @@ def misses_of(
     controls: Array,
     results: Array,
 ) -> None:
-    """What remains of each state (rows, 3) after its steps, flown one by one, relative to its start.
+    """What remains of each state (rows, 3) after its steps, flown one by one, relative to the initial state.
 
     ``transitions`` and ``inputs`` hold the matrices of an even and an odd step.
     """
@@ -112,7 +115,17 @@ def misses_of(
 
 @dataclass(frozen=True)
 class Gauges:
-    """Gauges of states, each for its own number of steps: bounds, costates and controls."""
+    """Gauges of a stack of states, each for its own number of steps.
+
+    Attributes
+    ----------
+    lower, upper : (rows,) arrays
+        Bounds on the gauges: what the costates prove, and the peaks of the controls.
+    costates : (rows, 3) array
+        Of any length.
+    controls : (rows, steps, components) array
+        In units of the peak.
+    """
 
     lower: Array
     upper: Array
@@ -122,13 +135,15 @@ class Gauges:
 
 @dataclass(frozen=True)
 class Scaled:
-    """Factors of steps in units of their reach along each axis, and what their sums need.
+    """Factors of steps in units of their reach along each axis, and their Gramians.
 
     Attributes
     ----------
     reach : (n,) array
-        That of the first steps: a state's answer does not depend on what else is in the stack.
+        Largest entry of the first steps along each axis. It does not depend on the number of steps, so that
+        the answer for a state does not depend on the rest of its stack.
     factors : (steps, n, components) array
+        G_k / reach.
     gram_factors : (steps, n, n) array
         Cholesky factors of the Gramians after each step, zero where they are singular.
     """
@@ -144,7 +159,7 @@ class Scaled:
 
 @dataclass(frozen=True)
 class Thrust:
-    """What the impulses of a step do to the initial state, for as many steps as asked.
+    """A set of admissible impulses with their interval and peak, and the system that they make.
 
     Attributes
     ----------
@@ -160,24 +175,24 @@ class Thrust:
 
     @property
     def phase(self) -> float:
-        """The interval less whole revolutions."""
+        """The interval minus the nearest number of whole revolutions."""
         return satellite.phase(self.interval)
 
     @property
     def whole_revolutions(self) -> bool:
-        """Whether every impulse acts at the same place of the orbit; then none changes the radius there.
+        """Whether the interval is whole revolutions, to the precision of a floating number of its size.
 
-        An interval is that when no number of its size is closer to whole revolutions.
+        Then every impulse acts at the same place of the orbit, and none changes the radius there.
         """
         return abs(self.phase) <= min(np.finfo(float).eps * self.interval, 1e-9)
 
     @property
     def fewest(self) -> int:
-        """Steps below which the impulses span less than the space."""
+        """The fewest steps whose impulses span the space of states."""
         return 1 if self.name == "ball" or self.whole_revolutions else 2
 
     def factors(self, steps: int) -> Array:
-        """G_k, (steps, 3, components)."""
+        """G_k of Lemma 1 for unit balls (discs, squares) of impulses, (steps, 3, components)."""
         return self.peak * self.unit_factors(steps)
 
     def unit_factors(self, steps: int) -> Array:
@@ -186,19 +201,19 @@ class Thrust:
         return make(steps, self.phase)
 
     def step_transition(self, k: int) -> Array:
-        """A(k), (3, 3)."""
+        """A(k) of (12), or of the system with one impulse a step, (3, 3)."""
         if self.name == "ball":
             return satellite.step_transition(k, self.phase)
         return satellite.transition(self.phase)
 
     def step_input(self, k: int) -> Array:
-        """B(k), (3, components)."""
+        """B(k) of (12), or of the system with one impulse a step, (3, components)."""
         if self.name == "ball":
             return satellite.step_input(k, self.phase)
         return satellite.transition(self.phase)[:, 1:]
 
     def miss(self, z0: Array, counts: NDArray[np.int64], controls: Array) -> Array:
-        """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
+        """What remains, relative to the states (rows, 3), after controls in units of the peak."""
         transitions, inputs = _motion(self)
         results = np.empty(len(z0))
         run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
@@ -207,7 +222,7 @@ class Thrust:
         return results
 
     def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[Array, Array]:
-        """Lower and upper bounds on the gauges, as `gauges` gives them, whatever the size of the stack."""
+        """The bounds that `gauges` finds, computed in pieces so that large stacks fit into memory."""
         lower, upper = np.empty(len(z0)), np.empty(len(z0))
         order = np.argsort(counts, kind="stable")
         while order.size:
@@ -229,7 +244,7 @@ class Thrust:
             return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).up_to(most))
 
     def _gauges(self, z0: Array, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
-        """Solved in units of the state and of the impulses' reach along each axis: both may be tiny."""
+        """The gauges, solved in units of the state and of the impulses' reach, since both may be tiny."""
         reach, factors, gram_factors = steps.reach, steps.factors, steps.gram_factors
         most = len(factors)
         size = np.abs(z0).max(axis=1, initial=0.0)
@@ -249,7 +264,7 @@ class Thrust:
         )
 
     def _gauges_of_speeds(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
-        """Impulses that all act at one place: they change the speeds alone, and share the work equally."""
+        """The gauges where all impulses act at one place: equal impulses, which change the speeds alone."""
         if z0[:, 0].any():
             raise Infeasible(
                 f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
@@ -282,7 +297,7 @@ def thrust_of(thrust: str, interval: ArrayLike, peak: ArrayLike) -> Thrust:
 
 
 def scaled(factors: Array, fewest: int) -> Scaled:
-    """What the gauges need of the factors (steps, n, components), with Gramians from `fewest` steps on."""
+    """The factors (steps, n, components) scaled, with Gramians from `fewest` steps on."""
     reach = np.maximum(np.abs(factors[:SPANNING]).max(axis=(0, 2)), 1e-300)
     units = np.ascontiguousarray(factors / reach[:, None])
     gram = np.cumsum(np.einsum("kij,klj->kil", units, units), axis=0)
