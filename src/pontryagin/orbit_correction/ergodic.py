@@ -7,8 +7,8 @@ sum over k tends to N times the mean over the phase:
     alpha N  ->  max over psi of (-z0, psi) / mean of |G(phi)'psi|.
 
 The mean does not depend on the phase at which the circle begins. It therefore depends on psi through two
-numbers only: the component of psi along the constant part of the motion, and the length of its component along
-the oscillation.
+numbers only: the component of psi along the constant part of the motion, and the length of its component
+along the oscillation.
 """
 
 from math import lcm

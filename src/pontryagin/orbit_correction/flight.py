@@ -216,8 +216,8 @@ def residuals(
 ) -> tuple[Array, Array]:
     """Sizes |z0| and lengths of what flights leave, (k,) each, for multiples of one state.
 
-    State and peak are multiplied by the same factors, so that the plans are multiples of one plan and only the
-    nonlinear terms differ.
+    State and peak are multiplied by the same factors, so that the plans are multiples of one plan and only
+    the nonlinear terms differ.
     """
     start, factors = arguments.state(z0), np.atleast_1d(positive("scales", scales))
     plan = single(correct(start, interval, peak, thrust))

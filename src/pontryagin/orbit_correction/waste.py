@@ -63,7 +63,7 @@ def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) 
 
 
 def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
-    """Normally distributed deviations, (count, 3), from a seed; `size` is every component's standard deviation.
+    """Normal deviations whose components have the standard deviation `size`, (count, 3), from a seed.
 
     Examples
     --------
