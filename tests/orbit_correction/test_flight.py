@@ -1,4 +1,4 @@
-"""The true flight: against an integrator of its own, its quadratic residual, and the closed loop."""
+"""Flights on the nonlinear equations: against Cartesian coordinates, quadratic residuals, the closed loop."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ Z0 = np.array(printed.Z0)
 
 
 def cartesian_flight(z0, impulses, interval):
-    """The same in Cartesian coordinates, x'' = -x/|x|^3, by SciPy: deviations at the end."""
+    """The flight in Cartesian coordinates, x'' = -x/|x|^3, by SciPy: deviation and angle at the end."""
     position, speed = np.array([1 + z0[0], 0.0]), np.array([z0[1], 1 + z0[2]])
     for radial, transverse in impulses:
         along = position / np.linalg.norm(position)

@@ -1,4 +1,4 @@
-"""Section 3, Lemmas 3 and 4: images and sums stay strictly convex."""
+"""Section 3, Lemma 3 and Lemma 4: images and sums stay strictly convex."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Section 4, Theorems 2 and 3: adjoint vectors and the maximum principle."""
+"""Section 4, Theorem 2 and Theorem 3: adjoint vectors and the maximum principle."""
 
 import sympy as sp
 

@@ -22,7 +22,7 @@ ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
 def example(
     inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0
 ) -> tuple[Array, Array, Array]:
-    """States, costates and controls of Theorem 4 by Lemmas 9 and 10, with alpha, for some B(k)."""
+    """States, costates and controls of Theorem 4 by Lemma 9 and Lemma 10, with alpha, for given B(k)."""
     found = worked.gauge_with(4, inputs, z0=z0)
     alpha, state, costate = float(found.alpha), z0, np.asarray(found.costate)
     states, costates, controls = [state], [], []
@@ -144,7 +144,7 @@ def controls_of_the_example() -> Conditional:
 
 
 def row(table: int, k: int, columns: dict[str, tuple[str, str, str]], remark: str = "") -> Entry:
-    """The entry of one row: its numbers by name, the column 0 states, 1 costates, 2 controls of `example`."""
+    """The entry of one row of a table, with its numbers by the symbol that they belong to."""
     keys = [f"{name}_{i}({k})" for name in columns for i in (1, 2, 3)]
     printed = dict(zip(keys, (number for numbers in columns.values() for number in numbers), strict=True))
 
@@ -169,7 +169,7 @@ OFF = {
     (2, 2): "u2 = −0.524756·10⁻², printed −0.52475·10⁻²: 0.59 of a unit off.",
     (2, 3): "u2 = −0.388775·10⁻², printed −0.38877·10⁻²: 0.50 of a unit off.",
 }
-"""The rows with numbers off by more than half a unit of the last digit."""
+"""Remarks on the rows in which a number is off by more than half a unit of its last digit."""
 
 for k in range(4):
     row(1, k, {"x^*": STATES[k], r"\psi": COSTATES[k]}, OFF.get((1, k), ""))
