@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from pontryagin.io import rows
+from pontryagin.io import json_io, rows
 from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
 
@@ -73,7 +73,7 @@ def solve(
     if samples:
         report["samples"] = transcript.samples(plan, samples)
     if json:
-        typer.echo(console.to_json(report))
+        typer.echo(json_io.to_json(report))
     else:
         console.show(transcript.TITLES[thrust], report, transcript.conclusion(plan))
 
