@@ -107,7 +107,7 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     Examples
     --------
     >>> z0 = [-0.0037787, -0.0039109, 0.0141512]
-    >>> thrust = Thrust("ball", 0.25, 0.0035)
+    >>> thrust = thrust_of("ball", 0.25, 0.0035)
     >>> many = float(thrust.gauges(np.array([z0]), np.array([20_000])).lower[0]) * 20_000
     >>> abs(many - limit(z0)) < 1e-3
     True

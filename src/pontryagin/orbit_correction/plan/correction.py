@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.certificate import ACCEPTED, Certificate
+from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
-from pontryagin.orbit_correction.gauges.proof import require_closed, unit
+from pontryagin.orbit_correction.gauges.proof import PROVED, require_closed, unit
 from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
 from pontryagin.validation import vectors
 from pontryagin.value import value_class
@@ -181,7 +181,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         count = guess[open_rows]
         lower, upper = thrust.bounds(rows[open_rows], count)
         reached = ~(lower > 1 + ROUNDING)
-        if (reached & ~(upper <= 1 + ACCEPTED)).any():
+        if (reached & ~(upper <= 1 + PROVED)).any():
             raise NotConverged("the gauge could not be proved: lost to rounding", float(upper[reached].max()))
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
