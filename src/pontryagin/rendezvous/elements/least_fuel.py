@@ -8,32 +8,25 @@ as events.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements.flight import switching
+from pontryagin.rendezvous.elements.flight import ElementFlight, switching
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import (
-    Root,
-    Setting,
-    follow_round,
-    newton,
-)
-from pontryagin.rendezvous.elements.solution import (
-    ElementsExtremal,
-    largest_thrust,
-    require,
-)
+from pontryagin.rendezvous.elements.shooting import SHOOTING, ElementsSetting, lead_round, meet
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.start import (
     energy,
     led,
-    marched,
 )
+from pontryagin.rendezvous.estimate import orbit_change_duration, require_solvable
+from pontryagin.rendezvous.families import freed
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.first_extremal import first_duration
+from pontryagin.rendezvous.root import Root
 from pontryagin.validation import integer
 
 WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
@@ -84,7 +77,7 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     >>> found.modes, found.certificate.holds(1e-10)
     (('saturated', 'coast', 'saturated'), True)
     """
-    require(problem)
+    require_solvable(problem)
     integer("revolutions", revolutions)
     if problem.energy_weight == 0:
         raise ValueError("energy_weight must be greater than 0, got 0: nothing but time would cost")
@@ -102,7 +95,9 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     return ElementsExtremal(problem, sharp, value, tuple(smoothed))
 
 
-def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
+def _freed(
+    scaled: Scaled, law: Law, wide: Root[ElementFlight]
+) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
     """As `_sharpened`, with the terminal law in place of the duration.
 
     With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
@@ -112,48 +107,52 @@ def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
         return _sharpened(scaled, law, wide, None)
     except NotConverged:
         smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
-        return smoothed, marched(scaled, law, sharp)
+        return smoothed, freed(SHOOTING, ElementsSetting(scaled, law), sharp)
 
 
 def _duration(scaled: Scaled) -> float:
     """Of a problem with a free one, to start from: with half the peak one orbit becomes the other."""
-    return 1.5 * first_duration(scaled, (scaled.peak / 2) ** 2)
+    return 1.5 * orbit_change_duration(scaled, (scaled.peak / 2) ** 2)
 
 
-def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
+def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[ElementFlight]:
     """The extremal of the widest smoothed jump."""
     gentle = energy(scaled, duration, revolutions)
-    wide = law.but(width=WIDTHS[0], peak=max(law.peak, ROOM * largest_thrust(gentle.flight)))
-    root = led(Setting(scaled, wide, duration), scaled_to(gentle, wide))
+    wide = replace(
+        law, width=WIDTHS[0], peak=max(law.peak, ROOM * float(SHOOTING.thrust(gentle.flight).max()))
+    )
+    root = led(ElementsSetting(scaled, wide, duration), scaled_to(gentle, wide))
     fixed = scaled.duration
     if fixed is None:
-        root = marched(scaled, wide, root)
+        root = freed(SHOOTING, ElementsSetting(scaled, wide), root)
 
-    def lowered(logarithm: float) -> Setting:
-        return Setting(scaled, wide.but(peak=math.exp(logarithm)), fixed)
+    def lowered(logarithm: float) -> ElementsSetting:
+        return ElementsSetting(scaled, replace(wide, peak=math.exp(logarithm)), fixed)
 
-    return follow_round(lowered, root, math.log(wide.peak), math.log(law.peak))
+    return lead_round(lowered, root, math.log(wide.peak), math.log(law.peak))
 
 
-def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> tuple[list[Root], Root]:
+def _sharpened(
+    scaled: Scaled, law: Law, wide: Root[ElementFlight], duration: float | None
+) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
     """The smoothed extremals, widest first, and the one with the jump itself that the last leads to."""
 
-    def narrowed(logarithm: float) -> Setting:
-        return Setting(scaled, law.but(width=math.exp(logarithm)), duration)
+    def narrowed(logarithm: float) -> ElementsSetting:
+        return ElementsSetting(scaled, replace(law, width=math.exp(logarithm)), duration)
 
     found = [wide]
     for width in WIDTHS[1:]:
         last = found[-1]
-        found.append(follow_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
+        found.append(lead_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
         if width <= SHARPENED_FROM:
             try:
-                return found, newton(Setting(scaled, law, duration), found[-1].unknowns)
+                return found, meet(ElementsSetting(scaled, law, duration), found[-1].unknowns)
             except NotConverged:
                 continue
     raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
 
 
-def scaled_to(gentle: Root, law: Law) -> Array:
+def scaled_to(gentle: Root[ElementFlight], law: Law) -> Array:
     """Unknowns of an extremal of the first functional, scaled to a smoothed thrust about as large."""
     flight = gentle.flight
     grid = np.linspace(0.0, flight.phi, 201)

@@ -18,18 +18,22 @@ from pontryagin.rendezvous.elements.elements import (
     place,
 )
 from pontryagin.rendezvous.elements.flight import (
+    ElementFlight,
     fly_elements,
     start_of,
 )
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.elements.shooting import (
-    Root,
-    Setting,
+    SHOOTING,
+    ElementsSetting,
     equations,
-    follow,
-    newton,
+    lead,
+    meet,
 )
+from pontryagin.rendezvous.estimate import orbit_change_duration
+from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.root import Root
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
 UNBOUNDED = Law("square", 1.0, np.inf)
@@ -73,7 +77,23 @@ def aligned(orbit: Elements, other: Elements) -> tuple[Array, float]:
     return np.asarray(nearest), -math.atan2(sin_phase, cos_phase)
 
 
-def cold(scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None) -> Root:
+def unbounded(setting: ElementsSetting, revolutions: int = 0) -> Root[ElementFlight]:
+    """The extremal without bound, of the fixed duration or of a free one.
+
+    Raises
+    ------
+    NotConverged
+        When the families do not lead to it.
+    """
+    if setting.duration is not None:
+        return meet(setting, energy(setting.scaled, setting.duration, revolutions).unknowns)
+    duration = orbit_change_duration(setting.scaled, setting.ratio)
+    return freed(SHOOTING, setting, energy(setting.scaled, duration, revolutions))
+
+
+def cold_start(
+    scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
+) -> Root[ElementFlight]:
     """The unbounded extremal of alpha1 + alpha2 p^2 and a fixed time that coasting leads to.
 
     Parameters
@@ -92,34 +112,32 @@ def cold(scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | N
     NotConverged
         When the goal gets no farther with the extremal behind it.
     """
-    setting = Setting(scaled, UNBOUNDED, duration, taylor=taylor)
+    setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
     phi = coasted(start_of(scaled), duration)
     return led(setting, np.append(np.zeros(6), phi), revolutions)
 
 
-def energy(scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None) -> Root:
-    """`cold`, or where that fails at a shorter duration, which is then stretched.
+def energy(
+    scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
+) -> Root[ElementFlight]:
+    """`cold_start`, or where that fails at a shorter duration, which is then stretched.
 
     Raises
     ------
     NotConverged
         When neither reaches the target.
     """
-
-    def stretched(share: float) -> Setting:
-        return Setting(scaled, UNBOUNDED, share * duration, taylor=taylor)
-
+    setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
     reason: NotConverged | None = None
     for share in SHARES:
         try:
-            root = cold(scaled, share * duration, revolutions, taylor)
-            return follow(stretched, root, share, 1.0)
+            return stretched(SHOOTING, setting, cold_start(scaled, share * duration, revolutions, taylor))
         except NotConverged as failure:
             reason = reason or failure
     raise reason or NotConverged("no first extremal was found", float("inf"))
 
 
-def led(setting: Setting, unknowns: Array, revolutions: int = 0) -> Root:
+def led(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -> Root[ElementFlight]:
     """The meeting to which the goal is led from where an extremal ends, the duration along with it."""
     scaled, duration = setting.scaled, float(setting.duration or 0)
     flight = fly_elements(scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor)
@@ -132,10 +150,10 @@ def led(setting: Setting, unknowns: Array, revolutions: int = 0) -> Root:
     if phi <= 0:
         raise NotConverged("the target cannot be reached in so few revolutions", 1.0)
 
-    def family(share: float) -> Setting:
+    def family(share: float) -> ElementsSetting:
         between = here + share * (there - here)
         goal = place(between[:4], between[4:], flight.phi + share * (phi - flight.phi))
-        return Setting(
+        return ElementsSetting(
             scaled,
             setting.law,
             begin + share * (duration - begin),
@@ -143,42 +161,5 @@ def led(setting: Setting, unknowns: Array, revolutions: int = 0) -> Root:
             setting.taylor,
         )
 
-    root = follow(family, Root(unknowns, equations(family(0.0), unknowns)), 0.0, 1.0)
-    return newton(setting, root.unknowns)
-
-
-def marched(scaled: Scaled, law: Law, root: Root, taylor: bool | None = None) -> Root:
-    """The duration changed until the terminal law holds.
-
-    Raises
-    ------
-    NotConverged
-        Where it does not within the durations looked at.
-    """
-
-    def family(logarithm: float) -> Setting:
-        return Setting(scaled, law, math.exp(logarithm), taylor=taylor)
-
-    def law_at(root: Root) -> float:
-        free = Setting(scaled, law, taylor=taylor)
-        return float(equations(free, root.unknowns).residual[-1])
-
-    at = math.log(root.flight.duration)
-    value = law_at(root)
-    sense, step = math.copysign(1.0, value), 0.1
-    for _ in range(40):
-        try:
-            there = follow(family, root, at, at + sense * step)
-        except NotConverged:
-            step /= 4
-            if step < 1e-3:
-                break
-            continue
-        following = law_at(there)
-        if following * value <= 0:
-            share = value / (value - following)
-            guess = root.unknowns + share * (there.unknowns - root.unknowns)
-            return newton(Setting(scaled, law, taylor=taylor), guess)
-        root, at, value = there, at + sense * step, following
-        step = min(0.3, 1.5 * step)
-    raise NotConverged("the terminal law was not met along the durations", abs(value))
+    root = lead(family, Root(unknowns, equations(family(0.0), unknowns)), 0.0, 1.0)
+    return meet(setting, root.unknowns)

@@ -18,11 +18,8 @@ from pontryagin.rendezvous.reduced.flight import (
     Flight,
     switching,
 )
-from pontryagin.rendezvous.reduced.homotopy import (
-    Root,
-    scales,
-)
 from pontryagin.rendezvous.reduced.quadrature import energy
+from pontryagin.rendezvous.root import Root, scales
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     fly_cartesian,
@@ -89,7 +86,7 @@ class RendezvousCertificate(MaximumPrinciple):
         return np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0)
 
 
-def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousCertificate:
+def certify(root: Root[Flight], weights: tuple[float, float], free: bool) -> RendezvousCertificate:
     """Evaluate every condition anew; weights are alpha1 and alpha2 in the solver's units."""
     flight = root.flight
     times = np.linspace(0, flight.duration, SAMPLES)
@@ -199,6 +196,6 @@ def apart(flight: Flight, reduced: Array, inertial: Array) -> float:
     return float(max(np.abs(places).max(), np.abs(n).max() / largest))
 
 
-def condition(root: Root) -> float:
+def condition(root: Root[Flight]) -> float:
     """Condition number, costates measured by the largest and the duration by itself."""
     return float(np.linalg.cond(root.equations.jacobian * scales(root.unknowns)))

@@ -1,4 +1,4 @@
-"""The equations of a meeting, with their exact derivatives.
+"""The equations of a meeting with their exact derivatives, Newton's method for them, and their families.
 
 Unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k where it is free. Equations: (5), the attitude (6) by nu
 and chi, and at a free time the terminal law, written for |n|: unsaturated it is 2 sqrt(alpha1 alpha2),
@@ -6,24 +6,41 @@ saturated alpha1/p_max + alpha2 p_max.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import derivative, jacobian
+from pontryagin.numerics.continuation import Family, Point, follow
 from pontryagin.numerics.rotation import about_third, product
 from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.families import Shooting, fine_grid
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
     switching,
 )
+from pontryagin.rendezvous.root import Root, root, scales
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
 """r, v1, c, nu and chi among the twelve states."""
 I3 = np.array([0.0, 0.0, 0.0, 1.0])
+"""The third axis as a quaternion."""
+WITHIN = 5.0
+"""Factor by which a step of Newton's method may change a free duration."""
+ITERATIONS, HALVINGS = 12, 6
+"""Most steps of Newton's method, and how many lengths of each are tried."""
+PACES = {
+    "duration": (0.1, 0.5, 400),
+    "lead": (0.3, 1.5, 100),
+    "peak": (0.1, 1.0, 120),
+    "ratio": (0.3, 3.0, 80),
+}
+"""Along a curve over each number: the first step, the largest, and the most points."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +63,7 @@ class Setting:
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
     rough : bool
-        Whether extremals are flown to 1e-10 only: along curves, from which `newton` starts anew.
+        Whether extremals are flown to 1e-10 only: along curves, from which `meet` starts anew.
     """
 
     scaled: Scaled
@@ -83,7 +100,7 @@ class Setting:
             return root, 0.0
         return self.ratio / self.peak, self.peak - self.ratio / self.peak
 
-    def but(self, **changes) -> "Setting":
+    def replace(self, **changes: Any) -> "Setting":
         """The same with some of it changed."""
         return replace(self, **changes)
 
@@ -110,10 +127,6 @@ class Equations:
     by_peak: Array
     by_ratio: Array
     by_lead: Array
-
-    def scaled(self, scale: Array) -> "Equations":
-        """The same in unknowns divided by a scale."""
-        return replace(self, jacobian=self.jacobian * scale)
 
 
 def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
@@ -203,6 +216,123 @@ def _terminal(setting: Setting, flight: Flight) -> tuple[float, Array]:
     slopes = np.zeros(12)
     slopes[used] = by_used[0] / (2 * size) / setting.end_switching
     return size / setting.end_switching - 1, slopes
+
+
+def meet(setting: Setting, unknowns: Array) -> Root[Flight]:
+    """The meeting that Newton's method reaches, flown roughly until exact flights are worth it.
+
+    Raises
+    ------
+    NotConverged
+        If it reaches none.
+    """
+    rough = setting.replace(rough=True)
+    return root(
+        lambda x: equations(setting, x),
+        unknowns,
+        within=WITHIN,
+        rough=lambda x: equations(rough, x),
+        iterations=ITERATIONS,
+        halvings=HALVINGS,
+    )
+
+
+def family(setting: Setting, name: str) -> Family[Equations]:
+    """The equations as a family over one number of the setting.
+
+    Parameters
+    ----------
+    setting : Setting
+        The others.
+    name : "peak", "ratio", "duration" or "lead"
+        The parameter is the lead itself, or the logarithm of the others. Costates over "ratio" are divided by
+        |n(t_k)|, which keeps them of one size; over "duration" the unknowns are six, and the last of the
+        seven equations, the terminal law, is for the caller to look at.
+    """
+
+    def over_duration(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        duration = math.exp(parameter)
+        values = equations(setting.replace(duration=None), np.append(unknowns, duration))
+        return values, values.jacobian[:6, 6] * duration
+
+    def over_ratio(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        there = setting.replace(ratio=math.exp(parameter))
+        scale, growth = _end_scale(there), there.end_switching_slopes[0]
+        values = equations(there, unknowns * scale)
+        by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
+        return replace(values, jacobian=values.jacobian * scale), by_ratio
+
+    def over_peak(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(setting.replace(peak=math.exp(parameter)), unknowns)
+        return values, values.by_peak
+
+    def over_lead(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(setting.replace(lead=parameter), unknowns)
+        return values, values.by_lead
+
+    return {"duration": over_duration, "ratio": over_ratio, "peak": over_peak, "lead": over_lead}[name]
+
+
+def _end_scale(setting: Setting) -> Array:
+    """|n(t_k)| for the six costates, and 1 for t_k."""
+    return np.append(np.full(6, setting.end_switching), 1.0)
+
+
+def curve(setting: Setting, start: Root[Flight], name: str, towards: float) -> Iterator[Point[Equations]]:
+    """The curve of extremals through one as a number of the setting changes, by rough flights; see `family`.
+
+    Parameters
+    ----------
+    setting : Setting
+        What the start solves; its value of the number is where the curve begins.
+    start : Root
+        An extremal.
+    name : "peak", "ratio", "duration" or "lead"
+    towards : float
+        The value of the parameter in whose direction the curve is followed first.
+    """
+    rough = setting.replace(
+        rough=True, ratio=1.0 if name == "duration" and not setting.free else setting.ratio
+    )
+    begin = {
+        "peak": lambda: math.log(setting.peak),
+        "ratio": lambda: math.log(setting.ratio),
+        "duration": lambda: math.log(start.flight.duration),
+        "lead": lambda: setting.lead,
+    }[name]()
+    step, largest, steps = PACES[name]
+    unscaled = name == "ratio"
+    unknowns = start.unknowns / _end_scale(setting) if unscaled else start.unknowns
+    points = follow(
+        family(rough, name),
+        unknowns,
+        begin,
+        towards - begin,
+        scales=scales,
+        step=step,
+        largest=largest,
+        steps=steps,
+        rows=6 if name == "duration" else None,
+    )
+    for point in points:
+        scale = _end_scale(setting.replace(ratio=math.exp(point.parameter))) if unscaled else 1.0
+        yield replace(point, unknowns=point.unknowns * scale)
+
+
+def _thrust(flight: Flight) -> Array:
+    """|p| on a fine grid."""
+    return np.asarray(np.linalg.norm(flight.thrust(fine_grid(flight.duration)), axis=1))
+
+
+SHOOTING = Shooting(
+    meet=meet,
+    equations=equations,
+    curve=curve,
+    released=np.append,
+    law=lambda setting, point: float(point.equations.residual[-1]),
+    thrust=_thrust,
+)
+"""These equations, as `pontryagin.rendezvous.families` leads their extremals."""
 
 
 def end_thrust(flight: Flight) -> float:
