@@ -58,7 +58,7 @@ __getattr__, __dir__, __all__ = lazy.attach(
         "carry": "reduced.multistart",
         "Carried": "reduced.multistart",
         "multistart": "reduced.multistart",
-        "false_meeting": "false_meetings.meeting",
+        "false_meeting": "false_meetings.family",
         "false_family": "false_meetings.family",
         "Elements": "elements.elements",
         "solve_in_elements": "elements.solve",

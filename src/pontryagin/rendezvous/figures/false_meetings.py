@@ -1,4 +1,4 @@
-"""Meetings with nobody: the same residuals, another place."""
+"""Figures of false meetings: the residuals of true ones, and another place than the target's."""
 
 from collections.abc import Mapping
 
@@ -8,33 +8,33 @@ from matplotlib.figure import Figure
 
 from pontryagin.display.plotting import (
     BLUE,
+    GREY,
     INK,
     RED,
     WIDTH,
     styled,
     subplots,
 )
-from pontryagin.rendezvous.false_meetings.family import (
-    FalseFamily,
-    Meeting,
-)
+from pontryagin.rendezvous.false_meetings.family import FalseFamily
+from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
 from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jacobian
 from pontryagin.rendezvous.false_meetings.rotated_target import in_one_plane
-from pontryagin.rendezvous.figures.labels import CRAFT, PHANTOM, TARGET, THRUST, power
+from pontryagin.rendezvous.figures.labels import CRAFT, ROTATED, TARGET, THRUST, power
 from pontryagin.rendezvous.figures.orbit import equal
-from pontryagin.rendezvous.figures.paths import flown, target_at, target_orbit, turned_orbit
+from pontryagin.rendezvous.figures.paths import flight_path, rotated_orbit, target_at, target_orbit
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 COLUMNS = 3
+"""Number of panels in a row."""
 FLOOR = 1e-18
-"""Smaller singular values are drawn here: they are 0 to rounding."""
+"""Value at which smaller singular values are drawn, since they are 0 to rounding."""
 
 
 @styled
 def false_meetings(family: FalseFamily) -> Figure:
-    """A panel for each member: the way flown, where the target is then, what is left of the conditions.
+    """A panel for each member: the craft's path, the target's place at t_k, and the residuals.
 
-    Dashed is the target's orbit as turned with the craft: the printed conditions are met there.
+    The dashed orbit is the target's, rotated about nu*: the craft is on it at t_k.
     """
     rows = -(-len(family.members) // COLUMNS)
     figure = Figure(figsize=(WIDTH, 2.85 * rows + 0.5), layout="constrained")
@@ -43,34 +43,34 @@ def false_meetings(family: FalseFamily) -> Figure:
     for number, member in enumerate(family.members, 1):
         ax = figure.add_subplot(rows, COLUMNS, number, projection="3d" if space else None)
         _panel(ax, member, 3 if space else 2)
-        ax.set_title(_account(member), fontsize=9.5, linespacing=1.25)
+        ax.set_title(_title(member), fontsize=9.5, linespacing=1.25)
     handles, names = figure.axes[-1].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.2)
     return figure
 
 
-def _account(member: Meeting) -> str:
-    turned = f"turned by ${np.degrees(member.angle):.0f}$°" if member.angle else "the true meeting"
-    apart = f"{member.distance:.2f}" if member.distance > 1e-6 else power(member.distance)
+def _title(member: RotatedMeeting) -> str:
+    angle = f"turned by ${np.degrees(member.angle):.0f}$°" if member.angle else "the true meeting"
+    distance = f"{member.distance:.2f}" if member.distance > 1e-6 else power(member.distance)
     cost = f"$J = {member.cost:.4f}$"
-    return f"{turned}, {cost}\nprinted conditions leave {power(member.printed)}\nmisses by {apart}"
+    return f"{angle}, {cost}\nprinted conditions leave {power(member.printed)}\nmisses by {distance}"
 
 
-def _panel(ax: Axes, member: Meeting, axes: int) -> None:
+def _panel(ax: Axes, member: RotatedMeeting, axes: int) -> None:
     problem = member.problem
-    _, places, _ = flown(problem, member.flight)
-    target, there = target_orbit(problem), target_at(problem, member.duration)
-    turned = turned_orbit(problem, member.turn)
+    _, places, _ = flight_path(problem, member.flight)
+    target, place = target_orbit(problem), target_at(problem, member.duration)
+    rotated = rotated_orbit(problem, member.turn)
     ax.plot(*target.T[:axes], color=TARGET, linewidth=1.0, label="orbit of the target")
-    ax.plot(*turned.T[:axes], "--", color=PHANTOM, linewidth=1.0, label="that orbit as turned")
+    ax.plot(*rotated.T[:axes], "--", color=ROTATED, linewidth=1.0, label="that orbit as turned")
     ax.plot(*places.T[:axes], color=CRAFT, linewidth=1.3, label="way of the craft")
-    gap = np.array([places[-1], there])
+    gap = np.array([places[-1], place])
     ax.plot(*gap.T[:axes], ":", color=THRUST, linewidth=1.6, label="missed by")
-    ax.plot(*there[None].T[:axes], "*", color=TARGET, markersize=11, label="target at $t_k$")
+    ax.plot(*place[None].T[:axes], "*", color=TARGET, markersize=11, label="target at $t_k$")
     ax.plot(*places[-1:].T[:axes], "o", color=CRAFT, markersize=5, label="craft at $t_k$")
     ax.plot(*np.zeros((axes, 1)), "+", color=INK, markersize=6)
     if axes == 3:
-        equal(ax, np.vstack([target, turned, places]))
+        equal(ax, np.vstack([target, rotated, places]))
     else:
         ax.set_aspect("equal")
     ax.set_axis_off()
@@ -78,7 +78,7 @@ def _panel(ax: Axes, member: Meeting, axes: int) -> None:
 
 @styled
 def missed(family: FalseFamily) -> Figure:
-    """Along the family: what the printed conditions leave and what (6) leaves, the place missed, the cost."""
+    """Along the curve: the residuals of the printed conditions and of (6), the distance missed, the cost."""
     figure, axes = subplots(3, height=5.6, sharex=True)
     turns = np.degrees(family.angles)
     true = family.distances < 1e-6
@@ -125,7 +125,7 @@ def singular_values(solutions: Mapping[str, Extremal]) -> Figure:
                 markerfacecolor="white" if marker == "o" else colour,
                 label="" if row else name,
             )
-    ax.axvspan(FLOOR / 3, 1e-15, color="#eeeeee", zorder=0)
+    ax.axvspan(FLOOR / 3, 1e-15, color=GREY, alpha=0.14, linewidth=0, zorder=0)
     ax.text(1.5e-18, len(solutions) - 0.62, "zero to rounding", va="bottom", fontsize=9.5)
     ax.set_yticks(range(len(solutions)), list(solutions))
     ax.set(ylim=(-0.6, len(solutions) - 0.2), xlim=(FLOOR / 3, 3), xlabel="singular value over the largest")

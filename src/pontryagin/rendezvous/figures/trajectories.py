@@ -1,4 +1,4 @@
-"""Every case of the report in space, side by side."""
+"""The trajectories of several rendezvous in space, side by side."""
 
 from collections.abc import Mapping
 
@@ -12,11 +12,12 @@ from pontryagin.rendezvous.figures.orbit import draw
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 COLUMNS = 3
+"""Number of panels in a row."""
 
 
 @styled
 def trajectories(found: Mapping[str, Extremal]) -> Figure:
-    """The ways of all cases in inertial axes, each on its own scale, by name."""
+    """The paths of the craft in inertial axes, each on its own scale, by the names of the cases."""
     rows = -(-len(found) // COLUMNS)
     figure = Figure(figsize=(WIDTH, 1.85 * rows + 0.4), layout="constrained")
     for number, (name, extremal) in enumerate(found.items(), 1):
