@@ -23,11 +23,11 @@ from pontryagin.rendezvous import (
     solve,
     solve_in_elements,
 )
-from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.families import stretched
+from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.solve import KEPT
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, Setting
+from pontryagin.rendezvous.reduced.solve import KEPT
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 LEAP = Rendezvous(CRAFT, Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6), 0, 1, math.inf, duration=6.0)
