@@ -24,11 +24,8 @@ from pontryagin.rendezvous.problem.cases import (
     cases,
     chaser_on,
 )
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
 from pontryagin.rendezvous.root import Root
 
 CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}

@@ -25,8 +25,9 @@ from pontryagin.rendezvous import (
 )
 from pontryagin.rendezvous.families import stretched
 from pontryagin.rendezvous.problem.cases import cases
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.shooting import SHOOTING, Setting
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
 from pontryagin.rendezvous.reduced.solve import KEPT
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])

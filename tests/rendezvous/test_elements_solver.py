@@ -26,15 +26,12 @@ from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation import sapunkov_principle as principle
 from pontryagin.rendezvous.elements import shooting as elements_shooting
 from pontryagin.rendezvous.elements.certificate import certify
+from pontryagin.rendezvous.elements.conditions import ElementsEquations, ElementsSetting, equations
 from pontryagin.rendezvous.elements.flight import (
     fly_elements,
     switching,
 )
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import (
-    ElementsSetting,
-    equations,
-)
 from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.start import cold_start
 from pontryagin.rendezvous.root import Root
@@ -333,7 +330,7 @@ def bent(monkeypatch):
         def equations(setting, unknowns):
             residual = np.append(function(unknowns[0]) - setting.value, unknowns[1:] - 1)
             jacobian = np.diag([slope(unknowns[0]), *np.ones(6)])
-            return elements_shooting.ElementsEquations(None, residual, jacobian)
+            return ElementsEquations(None, residual, jacobian)
 
         monkeypatch.setattr(elements_shooting, "equations", equations)
 

@@ -23,7 +23,8 @@ from pontryagin.rendezvous.playback.motion import (
     TURN,
     motion_of,
 )
-from pontryagin.rendezvous.reduced.shooting import SHOOTING, Setting
+from pontryagin.rendezvous.reduced.conditions import Setting
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.start import cold_start
 

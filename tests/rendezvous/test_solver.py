@@ -13,16 +13,11 @@ from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, 
 from pontryagin.rendezvous.families import bounded
 from pontryagin.rendezvous.problem.cases import chaser_on
 from pontryagin.rendezvous.reduced.certificate import certify
+from pontryagin.rendezvous.reduced.conditions import Setting, end_thrust, equations
 from pontryagin.rendezvous.reduced.flight import fly
 from pontryagin.rendezvous.reduced.quadrature import energy
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    SHOOTING,
-    Setting,
-    end_thrust,
-    equations,
-    meet,
-)
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solve import extremals
 from pontryagin.rendezvous.reduced.start import cold_start
 from pontryagin.rendezvous.root import Root

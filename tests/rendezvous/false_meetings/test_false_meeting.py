@@ -11,11 +11,8 @@ from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
 from pontryagin.rendezvous.false_meetings.rotated_target import rotated_equations
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-    meet,
-)
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.start import cold_start
 

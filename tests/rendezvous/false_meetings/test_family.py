@@ -17,11 +17,8 @@ from pontryagin.rendezvous.false_meetings.printed_conditions import (
     reduced_variables,
 )
 from pontryagin.rendezvous.false_meetings.rotated_target import rotated_target_family
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-    meet,
-)
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.witness.cartesian import (
     fly_cartesian,
     target_by_kepler,

@@ -14,9 +14,10 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.elements.conditions import ElementsSetting
 from pontryagin.rendezvous.elements.flight import ElementFlight, switching
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import SHOOTING, ElementsSetting, lead_round, meet
+from pontryagin.rendezvous.elements.shooting import SHOOTING, lead_round, meet
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.start import (
     energy,

@@ -9,10 +9,11 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.rendezvous.elements.conditions import ElementsSetting
 from pontryagin.rendezvous.elements.elements import place_gradient
 from pontryagin.rendezvous.elements.flight import ElementFlight, basis, start_of
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import SHOOTING, ElementsSetting, meet
+from pontryagin.rendezvous.elements.shooting import SHOOTING, meet
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.start import unbounded
 from pontryagin.rendezvous.estimate import require_solvable

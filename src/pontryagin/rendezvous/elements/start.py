@@ -12,6 +12,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import kepler
 from pontryagin.numerics.rotation import product
+from pontryagin.rendezvous.elements.conditions import ElementsSetting, equations
 from pontryagin.rendezvous.elements.elements import (
     I1,
     Elements,
@@ -23,13 +24,7 @@ from pontryagin.rendezvous.elements.flight import (
     start_of,
 )
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import (
-    SHOOTING,
-    ElementsSetting,
-    equations,
-    lead,
-    meet,
-)
+from pontryagin.rendezvous.elements.shooting import SHOOTING, lead, meet
 from pontryagin.rendezvous.estimate import orbit_change_duration
 from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled

@@ -19,8 +19,8 @@ from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jaco
 from pontryagin.rendezvous.false_meetings.rotated_target import newton_at_angle, rotated_target_family
 from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.conditions import Equations
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.shooting import Equations
 from pontryagin.rendezvous.reduced.solution import Extremal, require_extremal
 from pontryagin.rendezvous.reduced.solve import solve
 from pontryagin.rendezvous.root import Root, scales

@@ -17,9 +17,7 @@ from pontryagin.arrays import Array
 from pontryagin.numerics.continuation import Family
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced import shooting
-from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.shooting import (
-    WITHIN,
+from pontryagin.rendezvous.reduced.conditions import (
     Equations,
     Setting,
     by_goal,
@@ -28,6 +26,8 @@ from pontryagin.rendezvous.reduced.shooting import (
     goal_of,
     mismatch,
 )
+from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.reduced.shooting import WITHIN
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.root import Root, root
 

@@ -16,8 +16,9 @@ from pontryagin.display.plotting import (
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.continuation import follow
 from pontryagin.rendezvous.figures.labels import CRAFT, OTHER
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.shooting import Setting, family
+from pontryagin.rendezvous.reduced.shooting import family
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.root import scales
 

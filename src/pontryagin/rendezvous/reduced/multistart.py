@@ -14,16 +14,13 @@ from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.estimate import require_rendezvous
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.reduced.conditions import SEEN, Setting
 from pontryagin.rendezvous.reduced.lanes import (
     Flights,
     fly_all,
 )
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    SEEN,
-    Setting,
-    meet,
-)
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import (
     Extremal,
     distinct,

@@ -11,10 +11,11 @@ from functools import cached_property
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, between
+from pontryagin.rendezvous.reduced.conditions import Equations, Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import Equations, Setting, curve, meet
+from pontryagin.rendezvous.reduced.shooting import curve, meet
 from pontryagin.rendezvous.root import Root
 
 TAU = 2 * math.pi

@@ -14,10 +14,11 @@ from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.estimate import require_solvable
 from pontryagin.rendezvous.families import bounded, loose_ratios
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import SHOOTING, Setting, meet
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
 from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root

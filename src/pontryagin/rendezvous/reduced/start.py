@@ -16,20 +16,13 @@ from pontryagin.numerics.rotation import about_third, conjugate, product
 from pontryagin.rendezvous.estimate import ballistic_lead, gap_duration, orbit_change_duration
 from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.reduced.conditions import I3, Setting, by_goal, goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
 )
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    I3,
-    SHOOTING,
-    Setting,
-    by_goal,
-    goal_of,
-    meet,
-    mismatch,
-)
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.root import Root
 
 SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
