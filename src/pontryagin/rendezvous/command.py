@@ -108,7 +108,7 @@ def _solved(problem: Any, option: str) -> Any:
             if problem.free and not problem.time_weight:
                 raise console.Refusal(option, f": {reason}") from reason
             raise
-        if not extremal.certificate.holds(console.ACCEPTED):
+        if not extremal.certificate.holds():
             raise NotConverged("the certificate does not close", float(extremal.certificate.residual))
     return extremal
 

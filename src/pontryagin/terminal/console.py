@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import typer
 
-from pontryagin.certificate import Certificate
+from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.io import files
 from pontryagin.io import formula as formulas
@@ -22,9 +22,6 @@ from pontryagin.io.json_io import Report
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
-
-ACCEPTED = 1e-8
-"""Largest residual and gap of an answer that is handed out."""
 
 
 class Refusal(typer.TyperException):
@@ -189,7 +186,7 @@ def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> N
 def require_proof(proof: Certificate) -> None:
     """Refuse to end well where a certificate, or one of a stack, is not closed to `ACCEPTED`."""
     with np.errstate(all="ignore"):
-        left = np.maximum(np.abs(proof.primal_residual), np.abs(proof.gap))
+        left = proof.residual
     open_ones = ~(left <= ACCEPTED)
     if open_ones.any():
         count = (

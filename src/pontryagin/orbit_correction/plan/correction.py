@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.certificate import Certificate
+from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.orbit_correction.gauges.proof import CLOSED, require_closed, unit
+from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
 from pontryagin.validation import positive, vectors
 
@@ -181,7 +181,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         count = guess[open_rows]
         lower, upper = thrust.bounds(rows[open_rows], count)
         reached = ~(lower > 1 + ROUNDING)
-        if (reached & ~(upper <= 1 + CLOSED)).any():
+        if (reached & ~(upper <= 1 + ACCEPTED)).any():
             raise NotConverged("the gauge could not be proved: lost to rounding", float(upper[reached].max()))
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
