@@ -1,4 +1,4 @@
-"""How exactly an extremal in the elements satisfies everything that it must, with Newton's law as a witness.
+"""The certificate of an extremal in the elements: the maximum principle, with Newton's law as a witness.
 
 The witness has Cartesian coordinates, other costates and another integrator; it shares the thrust's law and
 the switch times.

@@ -1,4 +1,4 @@
-"""What is minimised in the elements and under which bound: which thrust the switching function n asks for."""
+"""The law of thrust in the elements: functional, bound, and the mode that the switching function selects."""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -20,8 +20,8 @@ from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.elements.shooting import SHOOTING, lead_round, meet
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.start import (
-    energy,
-    led,
+    lead_goal,
+    least_energy,
 )
 from pontryagin.rendezvous.estimate import orbit_change_duration, require_solvable
 from pontryagin.rendezvous.families import freed
@@ -31,10 +31,11 @@ from pontryagin.rendezvous.root import Root
 from pontryagin.validation import integer
 
 WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
-"""Of the smoothed jump; from the fourth on, sharpening is tried."""
+"""Widths of the smoothed jump, in the order in which they are gone through."""
 SHARPENED_FROM = 0.1
+"""Width from which on the jump itself is tried in the place of the smoothed one."""
 ROOM = 1.3
-"""The bound that the smoothed family starts from, in units of the largest thrust of the first functional."""
+"""The bound at the widest jump is at least this, in units of the largest thrust of the first functional."""
 
 
 def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
@@ -90,39 +91,41 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
     value = problem.energy_weight * scaled.acceleration * scaled.time
-    duration = scaled.duration or _duration(scaled)
-    wide = _wide(scaled, law, duration, revolutions)
-    smoothed, sharp = _freed(scaled, law, wide) if problem.free else _sharpened(scaled, law, wide, duration)
+    duration = scaled.duration or _guessed_duration(scaled)
+    wide = _widest(scaled, law, duration, revolutions)
+    smoothed, sharp = (
+        _sharpen_freed(scaled, law, wide) if problem.free else _sharpen(scaled, law, wide, duration)
+    )
     return ElementsExtremal(problem, sharp, value, tuple(smoothed))
 
 
-def _freed(
+def _sharpen_freed(
     scaled: Scaled, law: Law, wide: Root[ElementFlight]
 ) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
-    """As `_sharpened`, with the terminal law in place of the duration.
+    """`_sharpen`, with the terminal law in place of the duration.
 
     With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
     extremal of one duration led to the law.
     """
     try:
-        return _sharpened(scaled, law, wide, None)
+        return _sharpen(scaled, law, wide, None)
     except NotConverged:
-        smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
+        smoothed, sharp = _sharpen(scaled, law, wide, wide.flight.duration)
         return smoothed, freed(SHOOTING, ElementsSetting(scaled, law), sharp)
 
 
-def _duration(scaled: Scaled) -> float:
-    """Of a problem with a free one, to start from: with half the peak one orbit becomes the other."""
+def _guessed_duration(scaled: Scaled) -> float:
+    """A first guess of a free duration: half the peak changes one orbit into the other."""
     return 1.5 * orbit_change_duration(scaled, (scaled.peak / 2) ** 2)
 
 
-def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[ElementFlight]:
+def _widest(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[ElementFlight]:
     """The extremal of the widest smoothed jump."""
-    gentle = energy(scaled, duration, revolutions)
+    gentle = least_energy(scaled, duration, revolutions)
     wide = replace(
         law, width=WIDTHS[0], peak=max(law.peak, ROOM * float(SHOOTING.thrust(gentle.flight).max()))
     )
-    root = led(ElementsSetting(scaled, wide, duration), scaled_to(gentle, wide))
+    root = lead_goal(ElementsSetting(scaled, wide, duration), rescaled_unknowns(gentle, wide))
     fixed = scaled.duration
     if fixed is None:
         root = freed(SHOOTING, ElementsSetting(scaled, wide), root)
@@ -133,10 +136,16 @@ def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[E
     return lead_round(lowered, root, math.log(wide.peak), math.log(law.peak))
 
 
-def _sharpened(
+def _sharpen(
     scaled: Scaled, law: Law, wide: Root[ElementFlight], duration: float | None
 ) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
-    """The smoothed extremals, widest first, and the one with the jump itself that the last leads to."""
+    """The extremals of ever narrower jumps, widest first, and the one with the jump itself.
+
+    Raises
+    ------
+    NotConverged
+        If none of them leads to the jump itself.
+    """
 
     def narrowed(logarithm: float) -> ElementsSetting:
         return ElementsSetting(scaled, replace(law, width=math.exp(logarithm)), duration)
@@ -153,7 +162,7 @@ def _sharpened(
     raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
 
 
-def scaled_to(gentle: Root[ElementFlight], law: Law) -> Array:
+def rescaled_unknowns(gentle: Root[ElementFlight], law: Law) -> Array:
     """Unknowns of an extremal of the first functional, scaled to a smoothed thrust about as large."""
     flight = gentle.flight
     grid = np.linspace(0.0, flight.phi, 201)

@@ -30,7 +30,7 @@ class ElementsExtremal:
     Attributes
     ----------
     problem : Rendezvous
-        What was asked for.
+        What is solved.
     root : Root
         The meeting in the solver's units.
     value : float

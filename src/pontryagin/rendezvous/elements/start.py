@@ -1,4 +1,4 @@
-"""First extremals in the elements: A, B and phi of the goal are led to the target's, by shares.
+"""The first extremal in the elements, from coasting: A, B and phi of the goal are led to the target's.
 
 The target's elements are constant, as the craft's are where it coasts: so the way from one orbit to another
 is a straight line of A and B, and more or fewer revolutions are multiples of pi in phi.
@@ -32,11 +32,12 @@ from pontryagin.rendezvous.root import Root
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
 UNBOUNDED = Law("square", 1.0, np.inf)
+"""The law of the problem without bound whose duration is fixed."""
 SHARES = (1.0, 0.6, 0.4, 0.25)
-"""Parts of the duration from which it is reached."""
+"""Parts of a fixed duration from which it is reached."""
 
 
-def coasted(orbit: Elements, duration: float) -> float:
+def coasting_angle(orbit: Elements, duration: float) -> float:
     """phi gained by coasting for a time, fM = 1: half the eccentric anomaly, by Kepler's equation."""
     A, B = np.asarray(orbit.u), np.asarray(orbit.w)
     pace = math.sqrt(2 * float(orbit.Q))
@@ -48,8 +49,8 @@ def coasted(orbit: Elements, duration: float) -> float:
     return float(kepler.eccentric_anomaly(mean, eccentricity) - begin) / 2
 
 
-def aligned(orbit: Elements, other: Elements) -> tuple[Array, float]:
-    """A and B (8,) of another orbit, turned and in the phase in which they come nearest; its phi there.
+def nearest_elements(orbit: Elements, other: Elements) -> tuple[Array, float]:
+    """Of all A and B (8,) that stand for another orbit, the nearest to those of one; phi in that phase.
 
     Both freedoms are angles, and the product of the two sets of elements is bilinear in their cosines and
     sines: the nearest pair is that of the largest singular value of two rows and two columns.
@@ -81,9 +82,9 @@ def unbounded(setting: ElementsSetting, revolutions: int = 0) -> Root[ElementFli
         When the families do not lead to it.
     """
     if setting.duration is not None:
-        return meet(setting, energy(setting.scaled, setting.duration, revolutions).unknowns)
+        return meet(setting, least_energy(setting.scaled, setting.duration, revolutions).unknowns)
     duration = orbit_change_duration(setting.scaled, setting.ratio)
-    return freed(SHOOTING, setting, energy(setting.scaled, duration, revolutions))
+    return freed(SHOOTING, setting, least_energy(setting.scaled, duration, revolutions))
 
 
 def cold_start(
@@ -105,22 +106,22 @@ def cold_start(
     Raises
     ------
     NotConverged
-        When the goal gets no farther with the extremal behind it.
+        Where the extremal cannot follow the goal.
     """
     setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
-    phi = coasted(start_of(scaled), duration)
-    return led(setting, np.append(np.zeros(6), phi), revolutions)
+    phi = coasting_angle(start_of(scaled), duration)
+    return lead_goal(setting, np.append(np.zeros(6), phi), revolutions)
 
 
-def energy(
+def least_energy(
     scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
 ) -> Root[ElementFlight]:
-    """`cold_start`, or where that fails at a shorter duration, which is then stretched.
+    """The least-energy extremal of a fixed duration: `cold_start`, or from a shorter duration, stretched.
 
     Raises
     ------
     NotConverged
-        When neither reaches the target.
+        Where none of the durations leads to the target.
     """
     setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
     reason: NotConverged | None = None
@@ -132,15 +133,23 @@ def energy(
     raise reason or NotConverged("no first extremal was found", float("inf"))
 
 
-def led(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -> Root[ElementFlight]:
-    """The meeting to which the goal is led from where an extremal ends, the duration along with it."""
+def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -> Root[ElementFlight]:
+    """The meeting with the target, from an extremal whose end the goal starts from.
+
+    A, B and phi of the goal, and the duration, go to those of the target along a straight line.
+
+    Raises
+    ------
+    NotConverged
+        Where the extremal cannot follow the goal, or the target would be met before the start.
+    """
     scaled, duration = setting.scaled, float(setting.duration or 0)
     flight = fly_elements(scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor)
     here, begin = flight.end[:8], flight.duration
     state = target_by_kepler(scaled, 0.0)
     target = Elements.from_state(state[:3], state[3:])
-    there, origin = aligned(Elements(here[:4], here[4:]), target)
-    phi = origin + coasted(target, duration)
+    there, origin = nearest_elements(Elements(here[:4], here[4:]), target)
+    phi = origin + coasting_angle(target, duration)
     phi += math.pi * (round((flight.phi - phi) / math.pi) + revolutions)
     if phi <= 0:
         raise NotConverged("the target cannot be reached in so few revolutions", 1.0)

@@ -1,4 +1,4 @@
-"""How exactly an extremal satisfies everything that it must, found out in three ways.
+"""The certificate of an extremal: the conditions of the maximum principle, evaluated in three ways.
 
 The reduced flight is compared with the 16 equations, flown by another integrator, and with Newton's law in
 inertial axes. The attitude is tested against (6) as the 16 equations carry it; lambda* and -lambda* are one
@@ -29,7 +29,7 @@ from pontryagin.rendezvous.witness.cartesian import (
 
 SAMPLES = 201
 FAINT = 1e-3
-"""Share of the largest costate below which a running cost is no measure of H."""
+"""Share of the largest costate that H is measured by at least, whatever the running cost."""
 TINY = 1e-300
 
 
@@ -105,7 +105,7 @@ def certify(root: Root[Flight], weights: tuple[float, float], free: bool) -> Ren
         hamiltonian=np.abs(values - (0.0 if free else values[-1])).max() / largest,
         maximality=np.asarray(np.max(maximality(flight, reduced, thrust, weights)) / largest),
         attitude=np.abs(product(conjugate(end[4:8]), goal[3:])[1:]).max(),
-        agreement=np.maximum(agreement(flight, reduced, whole), apart(flight, reduced, inertial)),
+        agreement=np.maximum(agreement(flight, reduced, whole), newton_agreement(flight, reduced, inertial)),
         cartesian=np.abs(inertial[-1, :6] - target_by_kepler(flight.scaled, flight.duration)).max(),
         cost=np.asarray(abs(energy(flight) - inertial[-1, 12]) / max(float(inertial[-1, 12]), TINY)),
         condition=np.asarray(condition(root)),
@@ -187,7 +187,7 @@ def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
     return float(max(np.abs(places).max(), np.abs(costates).max() / largest))
 
 
-def apart(flight: Flight, reduced: Array, inertial: Array) -> float:
+def newton_agreement(flight: Flight, reduced: Array, inertial: Array) -> float:
     """Largest difference of R, V and n from Newton's law, n relative to the largest costate."""
     attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - inertial[:, :6]

@@ -29,9 +29,9 @@ from pontryagin.validation import positive, vectors
 
 ITERATIONS, HALVINGS = 30, 6
 FAINT = 1e-8
-"""In the place of nu = 0, which has no direction; the slopes change by as much."""
+"""nu3 of costates whose nu is 0 and has no direction; the derivatives change by as much."""
 NEAR = 1e-8
-"""Residual from which Newton's method for one flight does the rest."""
+"""Residual below which a start is left to Newton's method for one flight."""
 
 
 @dataclass(frozen=True)
@@ -112,19 +112,19 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
     require_rendezvous(problem)
     scaled = problem.scaled
     given = vectors("costates", costates, 6)
-    asked = problem.duration if durations is None else durations
-    if asked is None:
+    given_durations = problem.duration if durations is None else durations
+    if given_durations is None:
         raise ValueError("durations must be given where the problem leaves the duration free, got None")
-    wanted = positive("durations", asked)
+    ends_at = positive("durations", given_durations)
     try:
-        shape = np.broadcast_shapes(given.shape[:-1], wanted.shape)
+        shape = np.broadcast_shapes(given.shape[:-1], ends_at.shape)
     except ValueError:
         raise ValueError(
-            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {wanted.shape}"
+            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {ends_at.shape}"
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
-    times = np.broadcast_to(wanted / scaled.time, shape).ravel()
-    with np.errstate(all="ignore"):  # costates without measure are told by `reached`
+    times = np.broadcast_to(ends_at / scaled.time, shape).ravel()
+    with np.errstate(all="ignore"):  # `reached` says which costates are too large to be flown
         flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
     miss, slopes = misses(scaled, flights)
     speed = scaled.length / scaled.time
@@ -145,7 +145,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
 
 
 def _directed(costates: Array) -> Array:
-    """Those without nu are given a little of it along i3: the flight is the same, and chi has its axis."""
+    """Costates with a little of nu along i3 where nu is 0: the flight stays the same, and chi has its axis."""
     given = np.array(costates)
     given[~given[:, 3:].any(axis=1), 5] = FAINT
     return given

@@ -22,7 +22,7 @@ TAU = 2 * math.pi
 REVOLUTIONS = 4
 """How many revolutions more or fewer than the first extremal's are looked at."""
 WORSE = 2.0
-"""The walk through the revolutions ends where an extremal costs this many times the best and more."""
+"""The curve is left where an extremal costs more than this many times the best."""
 
 
 @dataclass(frozen=True)
@@ -77,14 +77,14 @@ def _walk(
 
 
 def _end(point: Point[Equations], cost: float, best: float) -> str:
-    """Why the walk through the revolutions goes no farther; empty if it does."""
+    """Why the curve is left at a point; empty if it is followed on."""
     if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
         return f"{REVOLUTIONS} revolutions were looked at"
     return f"the last meeting cost more than {WORSE:g} times the best" if cost > WORSE * best else ""
 
 
 def _passed(last: Point[Equations] | None, point: Point[Equations]) -> list[tuple[int, Array]]:
-    """Whole revolutions between two points of a curve, and unknowns there; the start is known already."""
+    """Whole revolutions between two points of the curve, and unknowns there; without the start's own."""
     if last is None:
         return []
     low, high = sorted((last.parameter / TAU, point.parameter / TAU))

@@ -25,7 +25,7 @@ from pontryagin.rendezvous.root import Root
 from pontryagin.validation import times
 
 SAME = 1e-7
-"""Extremals whose durations and costs agree to this are one."""
+"""Relative difference of durations and of costs below which two extremals count as one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Extremal:
     Attributes
     ----------
     problem : Rendezvous
-        What was asked for.
+        What is solved.
     root : Root
         The meeting, in the solver's units.
     others : tuple of Extremal

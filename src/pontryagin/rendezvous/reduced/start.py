@@ -93,7 +93,7 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
     Raises
     ------
     NotConverged
-        When the goal gets no farther with the extremal behind it.
+        Where the extremal cannot follow the goal.
     """
     loose = setting.replace(peak=math.inf, ratio=1.0)
     scaled, duration = loose.scaled, float(loose.duration or 0)
@@ -153,7 +153,10 @@ def _path(flight: Flight, goal: Array, revolutions: int):
 
 
 def _chase(setting: Setting, costates: Array, done: float, reached: float, path) -> Array | None:
-    """Predict along the path, then Newton; None where it does not settle."""
+    """Costates that follow the goal from one share of its path to another; None where they cannot.
+
+    They are predicted along the path and corrected by Newton's method without damping.
+    """
     scaled, duration = setting.scaled, float(setting.duration or 0)
     goal, rate = path(done)
 
