@@ -145,7 +145,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
 
 
 def _directed(costates: Array) -> Array:
-    """Costates with a little of nu along i3 where nu is 0: the flight stays the same, and chi has its axis."""
+    """Costates with a little nu along i3 where nu is 0: the flight is the same, and chi has an axis."""
     given = np.array(costates)
     given[~given[:, 3:].any(axis=1), 5] = FAINT
     return given
