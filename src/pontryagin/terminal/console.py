@@ -93,13 +93,13 @@ def together(given: Mapping[str, object], other: str, there: bool) -> None:
 
 @contextmanager
 def blaming(options: Mapping[str, str]) -> Iterator[None]:
-    """Give errors that begin with an argument's name to the option that it came from."""
+    """Name the option of the argument that an error is about."""
     try:
         yield
     except Infeasible:
         raise
     except (TypeError, ValueError) as reason:
-        name = re.split(r"[ :]", str(reason), maxsplit=1)[0]
+        name = getattr(reason, "argument", None) or re.split(r"[ :]", str(reason), maxsplit=1)[0]
         if name not in options:
             raise
         raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason

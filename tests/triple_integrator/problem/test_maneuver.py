@@ -1,4 +1,4 @@
-"""The manoeuvre: its moments are those of every control that performs it; what is not one is refused."""
+"""The manoeuvre: its moments are those of every control that performs it; wrong arguments are refused."""
 
 import numpy as np
 import pytest
