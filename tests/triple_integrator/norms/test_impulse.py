@@ -1,4 +1,4 @@
-"""Least total impulse against linear programmes and SciPy's integrator, in every regime and on its borders."""
+"""Least total impulse against linear programmes and SciPy's integrator, in every regime and at borders."""
 
 import numpy as np
 import pytest
@@ -137,7 +137,7 @@ def test_equal_signs_at_both_ends_are_unique_too(sign, first, last):
 @pytest.mark.parametrize("excess", [1e-4, 1e-6, 1e-8, 1e-10, 1e-13])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_border_of_chebyshev_the_cost_is_exact(excess, side):
-    """Two opposite impulses, the inner one just beside the middle: both regimes' bounds agree to second order."""
+    """Two opposite impulses, the inner just beside the middle: the bounds of both regimes nearly agree."""
     for places in ([0.0, 0.5 + side * excess], [1.0, 0.5 + side * excess]):
         solution = minimum_impulse(maneuver_with(of_impulses(places, [1.0, -2.0])))
         assert_allclose(np.abs(solution.impulses).sum(), solution.certificate.dual_value, rtol=2e-14)

@@ -1,4 +1,4 @@
-"""Least peak against linear programmes, exact roots and SciPy's integrator, for every structure of the control."""
+"""Least peak against linear programmes, exact roots and SciPy's integrator, for every kind of control."""
 
 from itertools import pairwise
 
