@@ -21,31 +21,6 @@ psi(k)            costates           adjoint vectors, -psi normal to X
 N_min             steps              fewest steps
 """
 
-from pontryagin import lazy
+import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy.attach(
-    __name__,
-    {
-        "correct": "plan.correction",
-        "Plan": "plan.correction",
-        "gauge": "gauges.general",
-        "Gauge": "gauges.general",
-        "DiscreteSystem": "system.discrete",
-        "least_peak": "plan.alternatives",
-        "least_energy": "plan.alternatives",
-        "least_fuel": "plan.alternatives",
-        "power_gauge": "gauges.pball",
-        "fewest_power_steps": "gauges.pball",
-        "fly": "flight",
-        "fly_plan": "flight",
-        "close_loop": "flight",
-        "count_impulses": "waste",
-        "random_states": "waste",
-        "impulse_distribution": "montecarlo",
-        "derivation": "",
-        "ergodic": "",
-        "figures": "",
-        "intervals": "",
-        "playback": "",
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
