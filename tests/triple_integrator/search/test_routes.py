@@ -102,7 +102,7 @@ def test_what_is_right_is_the_certified_level(found):
 
 
 def test_within_the_domain_no_zeros_give_more_than_the_least_peak(found):
-    """There |F| is the norm of a dual function, so that 1/|F| is a lower bound whether the search is right or not."""
+    """There |F| is the norm of a dual function, so that 1/|F| is always a lower bound."""
     for results in found.results.values():
         for k, result in zip(found.directions, results, strict=True):
             t1, t2 = result.switch_times
