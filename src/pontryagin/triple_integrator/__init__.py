@@ -26,23 +26,6 @@ a0, am, aT      impulses            at the start, in the middle, at the end
 R               norm                total impulse
 """
 
-from pontryagin import lazy
+import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy.attach(
-    __name__,
-    {
-        "Maneuver": "problem.maneuver",
-        "minimum_energy": "norms.energy",
-        "minimum_peak": "norms.peak",
-        "minimum_impulse": "norms.impulse",
-        "minimum_norm": "norms.norm",
-        "minimum_time": "least_time.time",
-        "maximum_entropy": "norms.entropy",
-        "attitude": "",
-        "coupling": "",
-        "search": "",
-        "derivation": "",
-        "figures": "",
-        "playback": "",
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -142,11 +142,11 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
 
     with console.solving(ARGUMENTS):
         if goal.least_time:
-            return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)
+            return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)  # type: ignore[arg-type]
         maneuver = ti.Maneuver(ends.x0, ends.xf, ends.tf, ends.t0, force)
         if goal.q in SOLVERS:
             return getattr(ti, SOLVERS[goal.q])(maneuver)
-        return ti.minimum_norm(maneuver, goal.q)
+        return ti.minimum_norm(maneuver, goal.q)  # type: ignore[arg-type]
 
 
 @without_warnings
