@@ -49,8 +49,9 @@ def require_solvable(problem: Rendezvous) -> None:
         return
     if problem.time_weight == 0:
         raise Infeasible(
-            "time_weight is 0 and the duration is free: a longer flight is always cheaper, so that there is "
-            "no best one; fix the duration, or give time_weight a positive value"
+            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
+            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
+            "fix the duration, or give time_weight a positive value"
         )
     _require_gap(problem.scaled)
 
