@@ -8,7 +8,7 @@ import sympy as sp
 from benchmarks.clock import repeated, take_turns
 from benchmarks.rendezvous import problems, systems
 from benchmarks.rendezvous.systems import SYSTEMS
-from pontryagin.numerics.flow import heyoka_system
+from pontryagin.numerics.equations import heyoka_system
 from pontryagin.rendezvous.derivation.principle import Mode
 
 REFERENCE = "inclined-energy"

@@ -12,10 +12,8 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
-from pontryagin.numerics.flow import (
-    TOLERANCE,
-    heyoka_system,
-)
+from pontryagin.numerics.equations import heyoka_system
+from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form

@@ -17,11 +17,8 @@ from pontryagin.averaging.arcs import switched_ends
 from pontryagin.averaging.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    TOLERANCE,
-    Ends,
-    ends,
-)
+from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics.lanes import Ends, ends
 
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which direct Newton's method; residuals come from the other."""
