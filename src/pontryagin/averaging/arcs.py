@@ -95,7 +95,7 @@ def _integrator(
     wrt: tuple[sp.Symbol, ...],
     taylor: bool | None,
 ) -> Integrator:
-    """With the signs as parameters behind the others, and an event where one is no longer that of its function."""
+    """The signs are its last parameters; an event is where a sign is no longer that of its function."""
     symbols = tuple(mode for mode, _ in modes)
     events = tuple(-mode * switching for mode, switching in modes)
     return integrator(Symbolic(states, rates, (*parameters, *symbols), clock, wrt, events), taylor)

@@ -32,29 +32,24 @@ HeyokaSystem = tuple[list[tuple[Number, Number]], list[Number], list[Number]]
 class Equations(Protocol):
     """x' = f(t, x, p) for n states, differentiated in m of their initial values.
 
-    Attributes
-    ----------
-    identity : (n, m) array
-        Derivatives of the initial states in those initial values.
-    events : int
-        Number of event functions. Each is negative on an arc and ends it where it grows through zero.
-    both_ways : bool
-        Whether arcs may run backwards in time.
-    large : bool
-        Whether heyoka should compile loops, since unrolled code would take many seconds to compile.
+    An arc ends where an event function, negative on the arc, grows through zero.
     """
 
     @property
-    def identity(self) -> Array: ...
+    def identity(self) -> Array:
+        """Derivatives of the initial states in the initial values chosen, (n, m)."""
 
     @property
-    def events(self) -> int: ...
+    def events(self) -> int:
+        """Number of event functions."""
 
     @property
-    def both_ways(self) -> bool: ...
+    def both_ways(self) -> bool:
+        """Whether arcs may run backwards in time."""
 
     @property
-    def large(self) -> bool: ...
+    def large(self) -> bool:
+        """Whether heyoka should compile loops, since unrolled code would take many seconds to compile."""
 
     def in_heyoka(self) -> HeyokaSystem:
         """The system in heyoka's expressions, without its variational equations."""
@@ -262,10 +257,10 @@ def on_heyoka() -> Arithmetic:
     return Arithmetic(lift, sqrt, hy.tanh)
 
 
-RightHandSide = Callable[[Arithmetic, Number, Sequence[Number], Sequence[Number]], Sequence[Number]]
-"""function (arithmetic, t, x, p) -> n rates"""
-EventFunction = Callable[[Arithmetic, Number, Sequence[Number], Sequence[Number]], Number]
-"""function (arithmetic, t, x, p) -> value"""
+RightHandSide = Callable[[Arithmetic, Number, Any, Any], Sequence[Number]]
+"""A function (arithmetic, t, x, p) -> n rates; x and p are sequences of numbers, or arrays of such rows."""
+EventFunction = Callable[[Arithmetic, Number, Any, Any], Number]
+"""A function (arithmetic, t, x, p) -> value, as above."""
 
 
 @dataclass(frozen=True)

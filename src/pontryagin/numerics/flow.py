@@ -118,7 +118,8 @@ class Integrator(Protocol):
     """
 
     @property
-    def equations(self) -> Equations: ...
+    def equations(self) -> Equations:
+        """What it follows."""
 
     def run(
         self,
@@ -170,7 +171,7 @@ def integrator(
 
 
 def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0) -> Any:
-    """heyoka's integrator of some equations with their variational equations and events, of many lanes or one."""
+    """heyoka's integrator of some equations, with their derivatives and events; of one lane if 0 is given."""
     import heyoka as hy
 
     pairs, wrt, functions = equations.in_heyoka()
@@ -285,8 +286,9 @@ class _RungeKutta:
         if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
             raise NotConverged(f"the Runge-Kutta integrator stopped: {found.message}", span[1] - span[0])
         if found.status == 1:
-            i = next(i for i, instants in enumerate(found.t_events) if len(instants))
-            return found, Reached(float(found.t_events[i][0]), found.y_events[i][0].copy(), i)
+            instants, there = found.t_events or [], found.y_events or []
+            i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))
+            return found, Reached(float(instants[i][0]), there[i][0].copy(), i)
         return found, Reached(span[1], found.y[:, -1].copy() if found.y.size else whole, None)
 
     def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:

@@ -51,7 +51,8 @@ class Lanes:
         self.equations, self._tolerance = equations, tolerance
         self._own = threading.local()  # heyoka's object holds the trajectories that are being followed
 
-    def _taylor(self) -> Any:
+    def taylor(self) -> Any:
+        """heyoka's object of this thread."""
         import heyoka as hy
 
         try:
@@ -90,68 +91,69 @@ class Lanes:
         """
         import heyoka as hy
 
-        taylor = self._taylor()
+        taylor = self.taylor()
         (count, n), m = starts.shape, self.equations.identity.shape[1]
         lanes, held = taylor.state.shape[-1], len(taylor.pars)
-        identity = self.equations.identity.ravel()
+        identity = self.equations.identity.reshape(-1, 1)
         found = Carried(
             np.full((count, n), np.nan),
             np.full((count, n, m), np.nan),
             np.array(np.abs(end - begin)),
             np.zeros(count, dtype=np.int64),
         )
-        waiting = list(np.argsort(-np.abs(end - begin), kind="stable"))[::-1]  # the longest ones first
-        doing: list[int | None] = [None] * lanes
+        order = np.argsort(-found.left, kind="stable")  # the longest ones first
+        doing = np.full(lanes, -1)  # which trajectory each lane follows, -1 for none
         used, now, ends = np.zeros(lanes), np.zeros(lanes), np.zeros(lanes)
+        state, time_limit = taylor.state, hy.taylor_outcome.time_limit
+        going_on = (hy.taylor_outcome.success, hy.taylor_outcome.step_limit)
 
-        def take_up(lane: int) -> None:
-            """The next trajectory; with none left, one that has ended already."""
-            doing[lane] = i = waiting.pop() if waiting else None
-            chosen = 0 if i is None else i
-            taylor.state[:n, lane], taylor.state[n:, lane] = starts[chosen], identity
-            taylor.pars[:, lane] = parameters[chosen, :held]
-            used[lane], now[lane] = 0, begin[chosen]
-            ends[lane] = begin[chosen] if i is None else end[chosen]
-            if self.equations.events:
+        def take_up(free: NDArray[np.int64]) -> None:
+            """Give the next trajectories to free lanes; with none left, the first at its beginning."""
+            nonlocal order
+            chosen, order = order[: len(free)], order[len(free) :]
+            source = np.zeros(len(free), dtype=np.int64)
+            source[: len(chosen)] = chosen
+            state[:n, free], state[n:, free] = starts[source].T, identity
+            taylor.pars[:, free] = parameters[source, :held].T
+            used[free], now[free], ends[free] = 0, begin[source], end[source]
+            idle = free[len(chosen) :]
+            doing[free], doing[idle], ends[idle] = source, -1, now[idle]
+            for lane in free if self.equations.events else ():
                 taylor.reset_cooldowns(lane)
 
-        for lane in range(lanes if count else 0):
-            take_up(lane)
-        while any(i is not None for i in doing):
+        free = np.arange(lanes)
+        while len(order) or len(free) < lanes:
+            if len(free):
+                take_up(free)
+            busy = np.flatnonzero(doing >= 0)
             taylor.set_time(now)
-            allowed = min(steps[i] - used[lane] for lane, i in enumerate(doing) if i is not None)
+            allowed = (steps[doing[busy]] - used[busy]).min()
             taylor.propagate_until(ends, max_steps=max(1, int(allowed)))
-            now[:] = taylor.time
-            for lane, (outcome, *_, taken) in enumerate(taylor.propagate_res):
-                i = doing[lane]
-                if i is None:
-                    continue
+            now, results = taylor.time.copy(), taylor.propagate_res
+            arrived = np.array([result[0] == time_limit for result in results]) & (doing >= 0)
+            _store(found, doing[arrived], state[:, arrived])
+            doing[arrived] = -1
+            for lane in np.flatnonzero(doing >= 0).tolist():
+                outcome, *_, taken = results[lane]
+                i, event = doing[lane], event_of(outcome)
                 used[lane] += taken
-                event = event_of(outcome)
                 if event is not None and switched is not None and found.switches[i] < most_switches:
                     found.switches[i] += 1
                     taylor.pars[:, lane] = switched(event, taylor.pars[:, lane].copy())[:held]
                     taylor.reset_cooldowns(lane)
-                    continue
-                if outcome == hy.taylor_outcome.time_limit:
-                    _store(found, i, taylor.state[:, lane])
-                elif used[lane] < steps[i] and outcome in (
-                    hy.taylor_outcome.success,
-                    hy.taylor_outcome.step_limit,
-                ):
-                    continue
-                else:
-                    found.left[i] = abs(ends[lane] - now[lane])
-                take_up(lane)
+                elif used[lane] >= steps[i] or outcome not in going_on:
+                    found.left[i], doing[lane] = abs(ends[lane] - now[lane]), -1
+            free = np.flatnonzero(doing < 0)
         return found
 
 
-def _store(found: Carried, i: int, whole: Array) -> None:
-    n = found.states.shape[1]
-    if np.isfinite(whole).all():
-        found.states[i], found.slopes[i], found.left[i] = whole[:n], whole[n:].reshape(n, -1), 0.0
-    else:
-        found.left[i] = math.inf
+def _store(found: Carried, which: NDArray[np.int64], wholes: Array) -> None:
+    """Keep the ends, columns of ``wholes``, that are finite."""
+    n, finite = found.states.shape[1], np.isfinite(wholes).all(axis=0)
+    kept = which[finite]
+    found.left[which] = np.where(finite, 0.0, math.inf)
+    found.states[kept] = wholes[:n, finite].T
+    found.slopes[kept] = wholes[n:, finite].T.reshape(len(kept), *found.slopes.shape[1:])
 
 
 def ends(
@@ -219,13 +221,28 @@ Run = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
 
 @functools.lru_cache(maxsize=64)
 def _side_by_side(equations: Symbolic, tolerance: float) -> Run:
-    lanes = Lanes(equations, tolerance)
+    """By heyoka, in groups of as many as there are lanes: all of a group end together."""
+    own, n, m = Lanes(equations, tolerance), *equations.identity.shape
 
     def run(start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
-        found = lanes.carry(start, begin, end, values, np.full(len(start), STEPS))
-        if found.left.any():
-            raise NotConverged("the Taylor integrator stopped short of the end", float(found.left.max()))
-        return found.states, found.slopes
+        import heyoka as hy
+
+        taylor = own.taylor()
+        count, (lanes, held) = len(start), (taylor.state.shape[1], len(taylor.pars))
+        states, slopes = np.empty((count, n)), np.empty((count, n, m))
+        for i in range(0, count, lanes):
+            chosen = np.minimum(np.arange(i, i + lanes), count - 1)
+            taylor.set_time(begin[chosen])
+            taylor.state[:n], taylor.state[n:] = start[chosen].T, equations.identity.reshape(-1, 1)
+            taylor.pars[:] = values[chosen, :held].T
+            taylor.propagate_until(end[chosen], max_steps=STEPS)
+            if any(outcome != hy.taylor_outcome.time_limit for outcome, *_ in taylor.propagate_res):
+                left = float(np.abs(end[chosen] - taylor.time).max())
+                raise NotConverged("the Taylor integrator stopped short of the end", left)
+            part, filled = slice(i, i + lanes), min(lanes, count - i)
+            states[part] = taylor.state[:n, :filled].T
+            slopes[part] = taylor.state[n:, :filled].reshape(n, m, filled).transpose(2, 0, 1)
+        return states, slopes
 
     return run
 

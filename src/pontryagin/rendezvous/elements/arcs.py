@@ -6,7 +6,7 @@ far; along them run the derivatives in six unknown costates at the start. Four m
 unsaturated  n/2                                      alpha1 + alpha2 p^2 below the peak
 saturated    p_max n/|n|                              any functional
 coast        0                                        alpha1 + alpha2 |p|
-smoothed     p_max n/|n| (1 + tanh(S/width))/2        alpha1 + alpha2 |p| with its jump at S = |n| - 1 smoothed
+smoothed     p_max n/|n| (1 + tanh(S/width))/2        alpha1 + alpha2 |p| its jump at S = |n| - 1 smoothed
 
 The rates are those of `kernels`, whatever the thrust. Units are those of `Scaled`, alpha2 = 1.
 """
