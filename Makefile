@@ -51,9 +51,8 @@ lab: $(EXTRA) ## open the notebooks in JupyterLab
 .PHONY: kernels
 kernels: $(READY) ## generate the solvers' kernels from the derivations
 	@echo "== kernels from the derivations"
-	@$(PY) -m pontryagin.triple_integrator.generate
-	@$(PY) -m pontryagin.averaging.generate
-	@$(PY) -m pontryagin.rendezvous.generate
+	@modules=$$($(PY) -c 'from pontryagin import papers; print(*papers.having("generate"))'); \
+	  for module in $$modules; do $(PY) -m $$module; done
 
 .PHONY: bench
 bench: $(EXTRA) ## measure the solvers side by side with others'

@@ -1,4 +1,4 @@
-"""The papers that are measured, one line each; a paper's folder here has ``measure.measure(quick)``."""
+"""The papers that are measured, and what measuring one gives: ``measure.measure(quick)`` in its folder."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,12 +7,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-PAPERS = {
-    "triple-integrator": "Turns about one axis (Gorelov & Morozova 2012)",
-    "orbit-correction": "Orbit correction with the fewest impulses (Ibragimov 2017)",
-    "averaging": "Averaging of nonlinear oscillations (Akulenko 1977)",
-    "rendezvous": "Low-thrust rendezvous (Pimkina & Chelnokov; Sapunkov)",
-}
+from pontryagin import papers
+
+PAPERS = papers.benchmarks()
 """Title of each paper's section, by its name on the command line and in figures/benchmarks."""
 
 Table = dict[str, list[Any]]
@@ -25,9 +22,9 @@ class Measured:
     Attributes
     ----------
     notes : sequence of str
-        What its tables mean, beyond what holds for all papers.
+        Explanations of its tables, beyond those of all papers.
     seed : int
-        Of its random problems.
+        Seed of its random problems.
     tables : dict
         Title and columns of each table, by the name of its file.
     figures : list of Figure

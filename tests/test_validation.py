@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from pontryagin.validation import common_shape, finite, positive, times, vectors
+from pontryagin.validation import common_shape, finite, integer, positive, times, vectors
 
 
 @pytest.mark.parametrize(
@@ -78,5 +78,27 @@ def test_times_are_checked_against_each_interval_of_a_stack():
 
 def test_shapes_that_do_not_broadcast_are_named():
     assert common_shape(x0=(2, 1), xf=(3,)) == (2, 3)
-    with pytest.raises(ValueError, match=r"x0 \(2,\), xf \(3,\)"):
-        common_shape(x0=(2,), xf=(3,))
+    with pytest.raises(ValueError, match=r"^xf: .* x0 \(2,\), xf \(3,\), tf \(\)") as refused:
+        common_shape(x0=(2,), xf=(3,), tf=())
+    assert refused.value.argument == "xf"
+
+
+@pytest.mark.parametrize(
+    "refuse",
+    [
+        lambda: finite("speed", "abc", "a number"),
+        lambda: finite("speed", [None], "a number"),
+        lambda: finite("speed", [[1.0], []], "a number"),
+        lambda: finite("speed", np.nan, "a number"),
+        lambda: finite("speed", [10**400], "a number"),
+        lambda: vectors("speed", [1.0], 3),
+        lambda: integer("speed", 1.5),
+        lambda: positive("speed", -1.0),
+        lambda: times("speed", 2.0, np.array(0.0), np.array(1.0)),
+        lambda: times("speed", [[0.0]] * 3, np.zeros(2), np.ones(2)),
+    ],
+)
+def test_an_error_carries_the_argument_and_its_message_begins_with_it(refuse):
+    with pytest.raises((ValueError, TypeError), match=r"^speed must .*, got") as refused:
+        refuse()
+    assert refused.value.argument == "speed"

@@ -15,10 +15,19 @@ from scipy.integrate import solve_bvp
 from benchmarks.averaging.enumeration import timed
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from pontryagin.arrays import Array
-from pontryagin.averaging.canonical import Canonical, y
-from pontryagin.averaging.extremal import Extremal, Extremals
-from pontryagin.averaging.shooting import Shooting, shooting
-from pontryagin.averaging.solution import AveragedSolution
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.canonical import (
+    Canonical,
+    y,
+)
+from pontryagin.averaging.exact.extremal import (
+    Extremal,
+    Extremals,
+)
+from pontryagin.averaging.exact.shooting import (
+    Shooting,
+    shooting,
+)
 from pontryagin.numerics import compile as compiler
 
 EPSILONS = (0.1, 0.05, 0.02, 0.01, 0.005)

@@ -7,9 +7,12 @@ from time import process_time
 import numpy as np
 
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
-from pontryagin.averaging.extremal import Extremals
-from pontryagin.averaging.shooting import Shooting, shooting
-from pontryagin.averaging.solution import AveragedSolution
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.extremal import Extremals
+from pontryagin.averaging.exact.shooting import (
+    Shooting,
+    shooting,
+)
 
 EPSILONS = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
 QUICK = (0.1, 0.05)

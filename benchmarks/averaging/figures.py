@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from benchmarks.averaging.flows import OURS, TOGETHER
-from pontryagin.averaging.extremal import Extremals
+from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,

@@ -17,7 +17,10 @@ from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from benchmarks.clock import Timing, take_turns
 from pontryagin.arrays import Array
-from pontryagin.averaging.canonical import Canonical, y
+from pontryagin.averaging.exact.canonical import (
+    Canonical,
+    y,
+)
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.equations import compact, heyoka_system
 from pontryagin.numerics.flow import has_heyoka

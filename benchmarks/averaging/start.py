@@ -42,7 +42,7 @@ if name == examples.OWN:
     mark("build")
 else:
     solution = examples.EXAMPLES[name].one()
-    import pontryagin.averaging.average as average
+    import pontryagin.averaging.system.average as average
     average._MODELS.clear()
     mark("import")
     solution.make_system().model

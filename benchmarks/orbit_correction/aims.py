@@ -11,7 +11,7 @@ from benchmarks.contest import worst
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, states, thrust
 from pontryagin.arrays import Array
 from pontryagin.orbit_correction import correct
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 AIMS = {"plans of 1000 states": 0.1, "gauge in 10000 steps": 0.02, "plan of 10000 steps": 0.1}
 """Seconds on one core."""

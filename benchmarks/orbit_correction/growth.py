@@ -9,7 +9,7 @@ from benchmarks.clock import repeated, take_turns
 from benchmarks.contest import CALL, worst
 from benchmarks.orbit_correction import gauges
 from benchmarks.orbit_correction.states import PEAK, Solver, states, thrust
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 SIZES = (10, 32, 100, 316, 1000, 3162, 10_000)
 QUICK = (10, 100)

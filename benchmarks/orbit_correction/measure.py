@@ -6,7 +6,7 @@ from benchmarks.figures import accuracy_and_time
 from benchmarks.orbit_correction import aims, figures, gauges, growth, roots
 from benchmarks.orbit_correction.states import SEED
 from benchmarks.papers import Measured
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 NOTES = (
     "States are normally distributed, a hundredth of the radius and the speed in each component; impulses",

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.orbit_correction import random_states
-from pontryagin.orbit_correction.thrust import Thrust
+from pontryagin.orbit_correction.plan.thrust import Thrust
 
 SEED = 2017
 INTERVAL, PEAK = 0.25, 0.0035

@@ -4,12 +4,12 @@ import numpy as np
 from scipy.integrate import solve_bvp
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative, jacobian
 from pontryagin.rendezvous import Extremal, Rendezvous, kernels
 from pontryagin.rendezvous.reduced.flight import chart_of
 from pontryagin.rendezvous.reduced.shooting import SEEN
 
 NODES, MOST = 60, 20_000
-STEP = 1e-30
 
 
 def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
@@ -49,8 +49,7 @@ def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
         return rates(x, p[0])
 
     def fun_jac(_, x, p=(fixed,)):
-        lifted = x[:, None, :] + 1j * STEP * np.eye(11)[:, :, None]
-        by_state = rates(lifted, p[0]).imag / STEP
+        _, by_state = jacobian(lambda lifted: rates(lifted, p[0]), x)
         return (by_state, rates(x, 1.0)[:, None]) if free else by_state
 
     def bc(xa, xb, _=None):
@@ -58,9 +57,8 @@ def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
 
     def bc_jac(xa, xb, _=None):
         size = 12 if free else 11
-        lift = 1j * STEP * np.eye(11)
-        sides = [np.array([ends(xa + u, xb) for u in lift]), np.array([ends(xa, xb + u) for u in lift])]
-        by_start, by_end = (side.T.imag / STEP for side in sides)
+        by_start = np.stack([derivative(lambda x: ends(x, xb), xa, u)[1] for u in np.eye(11)], axis=-1)
+        by_end = np.stack([derivative(lambda x: ends(xa, x), xb, u)[1] for u in np.eye(11)], axis=-1)
         return (by_start, by_end, np.zeros((size, 1))) if free else (by_start, by_end)
 
     with np.errstate(all="ignore"):

@@ -12,19 +12,19 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
+from pontryagin.numerics import complex_step
 from pontryagin.numerics.equations import heyoka_system
 from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form
 from pontryagin.rendezvous.derivation.principle import Mode
 from pontryagin.rendezvous.generate import chart, in_any_chart
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 STEPS = 2000
-COMPLEX = 1e-30
 
 EIGHT, FULL, LONG, REPAIRED, REDUCED = (
     "16, eight costates",
@@ -158,12 +158,13 @@ class Problem:
             return None
         end, slopes, _ = flown
         inputs = np.concatenate([end, unknowns])
-        steps = inputs[:, None] + 1j * COMPLEX * np.eye(len(inputs))
+
+        def each(columns: np.ndarray) -> np.ndarray:
+            return np.stack([_ends(self, scaled, column, len(end)) for column in columns.T], axis=-1)
+
         with np.errstate(all="ignore"):
-            values = np.stack([_ends(self, scaled, column, len(end)) for column in steps.T], axis=-1)
-        by_input = values.imag / COMPLEX
+            residual, by_input = complex_step.jacobian(each, inputs)
         jacobian = by_input[:, : len(end)] @ slopes + by_input[:, len(end) :]
-        residual = values[:, 0].real
         return (residual, jacobian) if np.isfinite(jacobian).all() else None
 
 

@@ -1,8 +1,53 @@
-"""What a solver raises when it cannot hand out an answer."""
+"""The exceptions of the package: a wrong argument, a problem without a solution, an iteration that failed.
+
+Each keeps what it was built from in ``args``, so that it pickles, and with it passes between processes.
+"""
 
 
-class Infeasible(ValueError):
-    """The problem has no solution; the message says why."""
+class _AboutArgument(Exception):
+    """An exception whose message is followed by the name of the argument that it is about."""
+
+    def __init__(self, message: str, argument: str | None = None) -> None:
+        super().__init__(message, argument)
+        self.argument = argument
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class ArgumentValueError(_AboutArgument, ValueError):
+    """An argument has a value that the function does not take.
+
+    Parameters
+    ----------
+    message : str
+        Names the argument, says what it takes and what it got.
+    argument : str, optional
+        The argument's name; None where several are wrong together.
+
+    Examples
+    --------
+    >>> from pontryagin.triple_integrator import Maneuver
+    >>> try:
+    ...     Maneuver([0, 0, 0], [1, 0, 0, 0], tf=1.0)
+    ... except ValueError as error:
+    ...     print(error.argument)
+    xf
+    """
+
+
+class ArgumentTypeError(_AboutArgument, TypeError):
+    """An argument has a type that the function does not take; see `ArgumentValueError`."""
+
+
+class Infeasible(_AboutArgument, ValueError):
+    """The problem has no solution; the message says why.
+
+    Attributes
+    ----------
+    argument : str or None
+        The argument that makes it so; None where no single one does.
+    """
 
 
 class NotConverged(RuntimeError):
@@ -15,5 +60,8 @@ class NotConverged(RuntimeError):
     """
 
     def __init__(self, message: str, residual: float) -> None:
-        super().__init__(f"{message} (residual {residual:.3e})")
+        super().__init__(message, residual)
         self.residual = residual
+
+    def __str__(self) -> str:
+        return f"{self.args[0]} (residual {self.residual:.3e})"

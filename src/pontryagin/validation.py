@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 
 
 def finite(name: str, value: ArrayLike, takes: str) -> Array:
@@ -27,12 +28,12 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
     try:
         array = np.array(value)
     except ValueError:
-        raise ValueError(f"{name} must be {takes}, got a ragged sequence {value!r}") from None
+        raise ArgumentValueError(f"{name} must be {takes}, got a ragged sequence {value!r}", name) from None
     if array.dtype.kind not in "fiu":
         if array.dtype.kind == "O":
             array = _from_objects(name, array, takes)
         else:
-            raise TypeError(f"{name} must be {takes}, got {value!r} of type {array.dtype}")
+            raise ArgumentTypeError(f"{name} must be {takes}, got {value!r} of type {array.dtype}", name)
     array = array.astype(float, copy=False)
     if array.size < 4 and all(map(isfinite, array.ravel().tolist())):
         return array
@@ -43,27 +44,29 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
             if array.ndim == 0
             else f" at index {tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])}"
         )
-        raise ValueError(f"{name} must be {takes} and finite, got {bad}{where}")
+        raise ArgumentValueError(f"{name} must be {takes} and finite, got {bad}{where}", name)
     return array
 
 
-def _from_objects(name: str, array: NDArray, takes: str) -> Array:
+def _from_objects(name: str, array: NDArray[np.object_], takes: str) -> Array:
     """Numbers that NumPy does not know as such (fractions, SymPy numbers)."""
     try:
         if any(entry is None for entry in array.flat):
             raise TypeError
         return array.astype(float)
     except OverflowError:
-        raise ValueError(f"{name} must be {takes} that double precision holds, got more") from None
+        raise ArgumentValueError(
+            f"{name} must be {takes} that double precision holds, got more", name
+        ) from None
     except (TypeError, ValueError):
-        raise TypeError(f"{name} must be {takes}, got {array.tolist()!r}") from None
+        raise ArgumentTypeError(f"{name} must be {takes}, got {array.tolist()!r}", name) from None
 
 
 def vectors(name: str, value: ArrayLike, length: int) -> Array:
     """`value` as finite vectors of the given length along the last axis."""
     array = finite(name, value, f"an array (..., {length})")
     if array.ndim == 0 or array.shape[-1] != length:
-        raise ValueError(f"{name} must be an array (..., {length}), got shape {array.shape}")
+        raise ArgumentValueError(f"{name} must be an array (..., {length}), got shape {array.shape}", name)
     return array
 
 
@@ -80,7 +83,7 @@ def integer(name: str, value: object) -> int:
             raise TypeError
         return index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise TypeError(f"{name} must be a whole number, got {value!r}") from None
+        raise ArgumentTypeError(f"{name} must be a whole number, got {value!r}", name) from None
 
 
 def positive(name: str, value: ArrayLike) -> Array:
@@ -88,11 +91,11 @@ def positive(name: str, value: ArrayLike) -> Array:
     array = finite(name, value, "a positive number or an array of them")
     few = array.size < 4
     if not (all(number > 0 for number in array.ravel().tolist()) if few else (array > 0).all()):
-        raise ValueError(f"{name} must be positive, got {array[~(array > 0)].flat[0]}")
+        raise ArgumentValueError(f"{name} must be positive, got {array[~(array > 0)].flat[0]}", name)
     return array
 
 
-def times(name: str, value: ArrayLike, start: NDArray, end: NDArray) -> Array:
+def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
     """`value` (k,) or (..., k) broadcast against the intervals [start, end] (...), as (..., k).
 
     Times outside by no more than rounding are moved to the end of the interval; others are refused.
@@ -102,22 +105,37 @@ def times(name: str, value: ArrayLike, start: NDArray, end: NDArray) -> Array:
     try:
         inside = np.clip(array, start, end)
     except ValueError:
-        raise ValueError(
+        raise ArgumentValueError(
             f"{name} must be an array (k,) or (..., k) of times, got shape {array.shape} "
-            f"for a stack of shape {start.shape[:-1]}"
+            f"for a stack of shape {start.shape[:-1]}",
+            name,
         ) from None
     allowance = 1e-12 * (end - start) + 1e-15 * (np.abs(start) + np.abs(end))
     outside = np.abs(array - inside) > allowance
     if outside.any():
         bad = np.broadcast_to(array, outside.shape)[outside].flat[0]
-        raise ValueError(f"{name} must lie between the start and the end of the manoeuvre, got {bad}")
+        raise ArgumentValueError(
+            f"{name} must lie between the start and the end of the manoeuvre, got {bad}", name
+        )
     return inside
 
 
 def common_shape(**shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """The shape that the named leading shapes broadcast to."""
+    """The shape that the leading shapes of the named arguments broadcast to.
+
+    Raises
+    ------
+    ValueError
+        About the first argument that does not broadcast with those before it.
+    """
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ValueError(f"leading shapes do not broadcast: {listed}") from None
+    common: tuple[int, ...] = ()
+    for name, shape in shapes.items():
+        try:
+            common = np.broadcast_shapes(common, shape)
+        except ValueError:
+            raise ArgumentValueError(f"{name}: the leading shapes do not broadcast: {listed}", name) from None
+    return common

@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from pontryagin.averaging import figures, kepler, slopes, smooth_example, spin_down
-from pontryagin.averaging.figures import pictures, tables
+from pontryagin.averaging import (
+    figures,
+    kepler,
+    smooth_example,
+    spin_down,
+)
+from pontryagin.averaging.figures import cost_errors, pictures, tables
 from pontryagin.display.plotting import svg_of
 
 EPSILONS = (0.1, 0.05)
@@ -21,9 +26,9 @@ def rippled():
 def brief(monkeypatch):
     """One problem of the slopes, at three epsilons."""
     name = "rippled flywheel"
-    known, whole = slopes.problems()[name], slopes.errors
-    monkeypatch.setattr(slopes, "problems", lambda: {name: known})
-    monkeypatch.setattr(slopes, "errors", lambda name, epsilons=(0.1, 0.05, 0.02): whole(name, epsilons))
+    known, whole = cost_errors.problems()[name], cost_errors.errors
+    monkeypatch.setattr(cost_errors, "problems", lambda: {name: known})
+    monkeypatch.setattr(cost_errors, "errors", lambda name, epsilons=(0.1, 0.05, 0.02): whole(name, epsilons))
 
 
 def lines(axis, label):
@@ -108,7 +113,7 @@ def test_errors_are_drawn_over_their_slopes():
     figure = figures.error_slopes()
     axis = figure.axes[0]
     assert axis.get_xscale() == axis.get_yscale() == "log" and axis.get_ylabel() == "error of the cost"
-    known = slopes.errors("rippled flywheel")
+    known = cost_errors.errors("rippled flywheel")
     for label, values in (
         ("averaged", known.averaged),
         ("ends", known.ends),

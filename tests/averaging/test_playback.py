@@ -10,9 +10,16 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-from pontryagin.averaging import kepler, playback, smooth_example, spin_down, spiral, tumble
+from pontryagin.averaging import (
+    kepler,
+    playback,
+    smooth_example,
+    spin_down,
+)
+from pontryagin.averaging.examples import spiral
 from pontryagin.averaging.figures.drift import drift
-from pontryagin.averaging.replay import Pair
+from pontryagin.averaging.playback import attitude
+from pontryagin.averaging.playback.replay import Pair
 from pontryagin.display.recording import read_back
 
 
@@ -130,7 +137,7 @@ class TestBody:
 
     @pytest.fixture(params=["synthesis", "exact"])
     def motion(self, pair, held, request):
-        make = {"synthesis": tumble.synthesised, "exact": tumble.exact}[request.param]
+        make = {"synthesis": attitude.synthesised, "exact": attitude.exact}[request.param]
         return make(pair), request.param
 
     def test_euler_s_equations_lead_through_the_rates(self, motion):

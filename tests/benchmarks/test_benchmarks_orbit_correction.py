@@ -10,7 +10,7 @@ from scipy.optimize import approx_fprime
 
 from benchmarks import peers
 from pontryagin.orbit_correction import correct
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 MAKERS = {
     "clarabel": (cones.impulses, cones.costate),

@@ -9,7 +9,6 @@ import resource
 import subprocess
 import sys
 import sysconfig
-from importlib import import_module
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -17,8 +16,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pontryagin import __version__, ledger
-from pontryagin.cli import COMMANDS, app
+from pontryagin import __version__, ledger, papers
+from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.report import build
 from pontryagin.triple_integrator import (
@@ -377,12 +376,14 @@ class TestHelp:
         assert (result.exit_code, result.stderr) == (0, "")
         assert "Example" in result.stdout
 
-    @pytest.mark.parametrize("module", COMMANDS)
-    def test_every_registered_problem_is_a_command_with_examples(self, module):
-        name = module.split(".")[-2].replace("_", "-")
+    @pytest.mark.parametrize("name", papers.commands())
+    def test_every_paper_is_a_command_with_examples(self, name):
         assert name in run("solve", "--help").stdout
         assert "Examples:" in run("solve", name, "--help").stdout
-        assert callable(import_module(module).solve)
+
+    def test_every_verdict_is_in_the_help(self):
+        shown = " ".join(run("ledger", "--help").stdout.split())
+        assert ", ".join(ledger.VERDICTS) in shown
 
     def test_every_example_in_the_help_runs(self, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)

@@ -1,4 +1,4 @@
-"""Rows of a CSV file: numbers by column, answers beside what was read, mistakes by line."""
+"""CSV files: numbers by column, answers beside what was read, errors with the number of the line."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,24 @@ def test_rows_come_back_with_their_answers(tmp_path):
     assert text == f"name,E,free,cost,count\na,1/4,x,{1 / 3!r},1\nb,-2e-1,y,,2\n"
 
 
-def test_a_possible_column_is_read_where_it_is(tmp_path):
+def test_vectors_become_columns_and_truth_values_words(tmp_path):
+    path = tmp_path / "in.csv"
+    path.write_text("x1,x2\n1,2\n\n3,4\n")
+    read = rows.read(path, ["x1", "x2"])
+    assert read.stack(["x2", "x1"]).tolist() == [[2.0, 1.0], [4.0, 3.0]]
+    assert read.lines == [2, 4]
+    text = rows.to_csv(read, {"u": np.array([[0.5, np.nan], [1.0, 2.0]]), "unique": np.array([True, False])})
+    assert text == "x1,x2,u_1,u_2,unique\n1,2,0.5,,yes\n3,4,1.0,2.0,no\n"
+
+
+def test_a_file_without_rows_names_what_a_row_holds(tmp_path):
+    path = tmp_path / "in.csv"
+    path.write_text("E\n")
+    with pytest.raises(ValueError, match="line 2: there is no state"):
+        rows.read(path, ["E"], holds="state")
+
+
+def test_a_possible_column_is_read_if_it_is_there(tmp_path):
     path = tmp_path / "in.csv"
     path.write_text("E,K\n1,2\n")
     assert rows.read(path, ["E"], ["K"]).columns["K"].tolist() == [2.0]
@@ -31,7 +48,7 @@ def test_a_possible_column_is_read_where_it_is(tmp_path):
         ("E,K\n1,much\n", "line 2: K takes a number, got 'much'"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_line(tmp_path, text, words):
+def test_an_error_names_its_line(tmp_path, text, words):
     path = tmp_path / "in.csv"
     path.write_text(text)
     with pytest.raises(ValueError, match=words):

@@ -9,9 +9,9 @@ from scipy.optimize import linprog, minimize
 from tests.orbit_correction.test_plan import fly
 
 from pontryagin.orbit_correction import correct
-from pontryagin.orbit_correction.alternatives import least_energy, least_fuel, least_peak
+from pontryagin.orbit_correction.plan.alternatives import least_energy, least_fuel, least_peak
+from pontryagin.orbit_correction.printed import Z0
 
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
 THRUSTS = ("ball", "disc", "box")
 MEASURES = {"peak": least_peak, "energy": least_energy, "fuel": least_fuel}
 

@@ -8,13 +8,11 @@ import pytest
 import sympy as sp
 
 from pontryagin.ledger import Unsupported, counts
-from pontryagin.ledger.evidence import (
-    Misprint,
-    Refutation,
-)
-from pontryagin.orbit_correction import derivation, exact
+from pontryagin.ledger.evidence import Misprint, Refutation
+from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import ENTRIES, convexity, images, reduction, sums, tables, worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs
+from pontryagin.orbit_correction.derivation import exact
 
 R = sp.Rational
 
@@ -66,12 +64,12 @@ def test_the_tally():
 
 def test_the_tables_hold_39_numbers_and_the_remarks_name_those_off_by_more_than_half_a_unit():
     rows = [entry for entry in ENTRIES if re.match(r"table \d", entry.label)]
-    off = {label: share for entry in rows for label, share in entry.evidence.off().items()}
+    off = {label: share for entry in rows for label, share in entry.evidence.deviations().items()}
     assert len(off) == 39
     far = {label for label, share in off.items() if share > 0.5}
     assert far == {r"\psi_1(2)", "u^*_2(0)", "u^*_3(0)", "u^*_2(2)", "u^*_2(3)"}
     for entry in rows:
-        named = {left for left, share in entry.evidence.off().items() if share > 0.5}
+        named = {left for left, share in entry.evidence.deviations().items() if share > 0.5}
         assert bool(entry.remark) == bool(named)
         for left in named:
             assert f"{off[left]:.2f}" in entry.remark

@@ -13,11 +13,11 @@ from typer.testing import CliRunner
 
 from pontryagin.cli import app
 from pontryagin.display.recording import read_back
-from pontryagin.orbit_correction import correct
-from pontryagin.orbit_correction.satellite import LINEAR
+from pontryagin.orbit_correction import correct, printed
+from pontryagin.orbit_correction.system.satellite import LINEAR
 
-Z0 = "-0.0037787,-0.0039109,0.0141512"
-STATE = [-0.0037787, -0.0039109, 0.0141512]
+STATE = list(printed.Z0)
+Z0 = ",".join(map(str, STATE))
 
 
 def solve(*arguments):
@@ -141,7 +141,7 @@ class TestBatch:
             ([["a", "0", "much", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: dv_R takes a number"),
             ([["a", "0", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: 3 entries under 4 columns"),
             ([["0", "0"]], ("dr", "dv_R"), "line 1: column dv_T is missing"),
-            ([], ("dr", "dv_R", "dv_T"), "line 2: there is no state"),
+            ([], ("dr", "dv_R", "dv_T"), "line 2: there is no problem"),
         ],
     )
     def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from pontryagin.orbit_correction import derivation, summands
-from pontryagin.orbit_correction.derivation import interval, r, v_radial, v_transverse
+from pontryagin.orbit_correction import derivation
+from pontryagin.orbit_correction.derivation import interval, r, summands, v_radial, v_transverse
 
 LINEAR = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, -1.0, 0.0]])
 INTERVALS = (sp.Rational(1, 4), sp.Integer(1), sp.pi / 2, sp.Integer(4))

@@ -11,9 +11,9 @@ from scipy.optimize import minimize
 
 from pontryagin import Infeasible
 from pontryagin.orbit_correction.ergodic import MODES, approach, limit, mean_support, modes
-from pontryagin.orbit_correction.satellite import LINEAR
+from pontryagin.orbit_correction.printed import Z0
+from pontryagin.orbit_correction.system.satellite import LINEAR
 
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
 THRUSTS = ("ball", "disc", "box")
 
 

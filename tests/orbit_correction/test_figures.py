@@ -8,10 +8,10 @@ from pontryagin.display.plotting import svg_of
 from pontryagin.orbit_correction import close_loop, correct, figures, sets
 from pontryagin.orbit_correction.figures import flight, growth, impulses, tables
 from pontryagin.orbit_correction.montecarlo import impulse_distribution
-from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.printed import Z0
 from pontryagin.orbit_correction.waste import count_impulses, random_states
 
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
 PLAN = correct(Z0)
 
 
@@ -35,15 +35,6 @@ class TestSets:
         unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
         assert_allclose(frame.normals(frame.back(directions)), unit, atol=1e-12)
         assert np.all(unit @ surface.T <= np.einsum("ni,ni->n", unit, surface)[:, None] + 1e-12)
-
-    def test_the_icosphere_is_closed_and_points_outwards(self):
-        points, triangles = sets.icosphere(2)
-        assert_allclose(np.linalg.norm(points, axis=1), 1.0)
-        corners = points[triangles]
-        volume = np.einsum("ti,ti->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
-        assert volume.min() > 0 and volume.sum() == pytest.approx(4 * np.pi / 3, rel=0.05)
-        edges = {tuple(edge) for t in triangles for edge in (t[:2], t[1:], t[[2, 0]])}
-        assert all((b, a) in edges for a, b in edges)
 
     def test_states_lie_on_alpha_times_the_remaining_set_with_normal_minus_psi(self):
         for k in range(4):

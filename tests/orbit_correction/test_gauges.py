@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
 from pontryagin.numerics import jit
-from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
-from pontryagin.orbit_correction.zonotope import turning_place
+from pontryagin.orbit_correction.gauges.zonotope import turning_place
+from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
 
 INTERVALS = (0.25, 1.0, np.pi / 2, np.pi, 4.0)
 

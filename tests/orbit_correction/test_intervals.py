@@ -7,9 +7,8 @@ from scipy.linalg import expm
 
 from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.intervals import singular_values, step_condition, sweep
-from pontryagin.orbit_correction.satellite import LINEAR
-
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
+from pontryagin.orbit_correction.printed import Z0
+from pontryagin.orbit_correction.system.satellite import LINEAR
 
 
 @pytest.mark.parametrize("interval", [0.25, 2.0, np.pi, 5.5])

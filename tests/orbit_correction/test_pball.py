@@ -8,12 +8,12 @@ from numpy.testing import assert_allclose
 from scipy.optimize import linprog
 
 from pontryagin import Infeasible
-from pontryagin.orbit_correction import correct
-from pontryagin.orbit_correction.pball import fewest_power_steps, power_gauge
-from pontryagin.orbit_correction.satellite import step_factors
-from pontryagin.orbit_correction.thrust import Thrust
+from pontryagin.orbit_correction import correct, printed
+from pontryagin.orbit_correction.gauges.pball import fewest_power_steps, power_gauge
+from pontryagin.orbit_correction.plan.thrust import Thrust
+from pontryagin.orbit_correction.system.satellite import step_factors
 
-Z0 = np.array([-0.0037787, -0.0039109, 0.0141512])
+Z0 = np.array(printed.Z0)
 
 
 def states():

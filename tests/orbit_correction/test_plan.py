@@ -8,43 +8,20 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from pontryagin import Infeasible
-from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
-from pontryagin.orbit_correction.satellite import LINEAR, step_input, step_transition
-from pontryagin.orbit_correction.thrust import Thrust
+from pontryagin.orbit_correction import DiscreteSystem, correct, gauge, printed
+from pontryagin.orbit_correction.plan.thrust import Thrust
+from pontryagin.orbit_correction.system.satellite import LINEAR, step_input, step_transition
 
-Z0 = np.array([-0.37787e-2, -0.39109e-2, 1.41512e-2])
-STATES = 1e-2 * np.array(
-    [
-        [-0.37787, -0.39109, 1.41512],
-        [-0.30870, 0.58472, 1.03056],
-        [-0.19824, 0.59918, 0.47280],
-        [0.00698, 0.35937, 0.07851],
-        [0, 0, 0],
-    ]
-)
-COSTATES = [
-    [0.1294, 0.2360, -0.9631],
-    [0.1500, -0.3167, -0.9219],
-    [0.2617, -0.5720, -0.6986],
-    [0.6534, -0.9623, 0.0850],
-]
-CONTROLS = 1e-2 * np.array(
-    [
-        [-0.04354, -0.24779, -0.27185],
-        [-0.08869, -0.40092, -0.35862],
-        [-0.17352, -0.52475, -0.01554],
-        [-0.10099, -0.38877, 0.01550],
-    ]
-)
+Z0 = np.array(printed.Z0)
 
 
 def test_the_printed_tables_to_one_unit_of_the_last_digit():
     plan = correct(Z0)
-    assert plan.steps == 4
-    assert abs(plan.gauge - 0.9286) <= 1e-4
-    assert_allclose(plan.states, STATES, rtol=0, atol=1e-7)
-    assert_allclose(plan.costates, COSTATES, rtol=0, atol=1e-4)
-    assert_allclose(plan.controls, CONTROLS, rtol=0, atol=1e-7)
+    assert plan.steps == int(printed.FEWEST_STEPS)
+    assert abs(plan.gauge - float(printed.GAUGE)) <= 1e-4
+    assert_allclose(plan.states, np.array(printed.STATES, float), rtol=0, atol=1e-7)
+    assert_allclose(plan.costates, np.array(printed.COSTATES, float), rtol=0, atol=1e-4)
+    assert_allclose(plan.controls, np.array(printed.CONTROLS, float), rtol=0, atol=1e-7)
 
 
 def test_the_satellite_as_a_general_system_of_ellipsoids():
@@ -155,7 +132,7 @@ def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
     rows = np.random.default_rng(4).normal(size=(50, 3)) * 0.01
     engine, counts = Thrust("ball", 0.25, 0.0035), np.random.default_rng(4).integers(1, 20, 50)
     whole = engine.bounds(rows, counts)
-    monkeypatch.setattr("pontryagin.orbit_correction.thrust.CHUNK", 60)
+    monkeypatch.setattr("pontryagin.orbit_correction.plan.thrust.CHUNK", 60)
     assert_allclose(engine.bounds(rows, counts), whole, rtol=1e-12)
 
 

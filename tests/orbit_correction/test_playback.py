@@ -9,16 +9,14 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm
 from scipy.optimize import linprog
 
-from pontryagin.display.recording import (
-    Scene,
-    read_back,
-    record,
-)
+from pontryagin.display.recording import Scene, read_back, record
 from pontryagin.orbit_correction import correct, playback, sets
 from pontryagin.orbit_correction.flight import fly_plan
-from pontryagin.orbit_correction.satellite import LINEAR
+from pontryagin.orbit_correction.playback import scene
+from pontryagin.orbit_correction.playback.remaining import remaining
+from pontryagin.orbit_correction.printed import Z0
+from pontryagin.orbit_correction.system.satellite import LINEAR
 
-Z0 = [-0.0037787, -0.0039109, 0.0141512]
 PLANS = {"orbit-correction": correct(Z0), "orbit-correction-square": correct(Z0, thrust="box")}
 
 
@@ -42,14 +40,14 @@ def test_every_recording_has_a_title_and_a_description():
 def test_the_flight_is_the_true_one(played):
     plan, held = played
     flight = fly_plan(plan)
-    times, states, angles = flight.path(playback.SAMPLES)
+    times, states, angles = flight.path(scene.SAMPLES)
     for name, values in zip(("dr", "dvR", "dvT"), states.T, strict=True):
         shown = held[f"/state/{name}"]["time"]
-        assert np.all(np.diff(shown) > 0.9 * playback.BLINK)
+        assert np.all(np.diff(shown) > 0.9 * scene.BLINK)
         after_a_jump = np.append(False, np.diff(times) == 0)
-        assert_allclose(shown, playback.PACE * times + playback.BLINK * after_a_jump, atol=1e-8)
+        assert_allclose(shown, scene.PACE * times + scene.BLINK * after_a_jump, atol=1e-8)
         assert_allclose(held[f"/state/{name}"]["scalars"], 1e3 * values, atol=1e-12)
-    radii = playback.RADIUS * (1 + playback.magnification(plan) * states[:, 0])
+    radii = scene.RADIUS * (1 + scene.magnification(plan) * states[:, 0])
     places = radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
     assert_allclose(held["/orbit/satellite"]["translation"], places, atol=1e-5)
 
@@ -58,13 +56,13 @@ def test_impulses_are_curves_arrows_and_events(played):
     plan, held = played
     for side, name in enumerate(("radial", "transverse")):
         curve = held[f"/impulse/{name}"]
-        for shift, share in ((0.0, 0.0), (playback.HOLD, 1.0), (playback.HOLD + 2 * playback.BLINK, 0.0)):
+        for shift, share in ((0.0, 0.0), (scene.HOLD, 1.0), (scene.HOLD + 2 * scene.BLINK, 0.0)):
             drawn = np.interp(2.5 * np.arange(plan.impulse_count) + shift, curve["time"], curve["scalars"])
             assert_allclose(drawn, share * plan.impulses[:, side] / 0.0035, atol=1e-7)
-    arrows = held["/orbit/impulse"]["vectors"][1 :: playback.SAMPLES]
+    arrows = held["/orbit/impulse"]["vectors"][1 :: scene.SAMPLES]
     assert_allclose(
         np.linalg.norm(arrows, axis=1),
-        playback.LENGTH * np.linalg.norm(plan.impulses, axis=1) / 0.0035,
+        scene.LENGTH * np.linalg.norm(plan.impulses, axis=1) / 0.0035,
         rtol=1e-5,
     )
     events = held["/events"]
@@ -76,7 +74,7 @@ def test_impulses_are_curves_arrows_and_events(played):
 def test_the_gauge_stays(played):
     plan, held = played
     alpha = held["/gauge/alpha"]["scalars"]
-    assert len(alpha) == 3 + playback.SAMPLES * (int(plan.impulse_count) - 1)
+    assert len(alpha) == 3 + scene.SAMPLES * (int(plan.impulse_count) - 1)
     assert_allclose(alpha[:-2], plan.gauge, rtol=1e-9)
     assert alpha[-2:].tolist() == [0, 0]
     assert held["/gauge/alpha"]["time"][-1] == pytest.approx(2.5 * float(plan.impulse_count))
@@ -89,7 +87,7 @@ def test_the_nets_and_the_state_are_those_of_the_linear_motion(played):
     times = held["/sets/state"]["time"]
     state = np.array(Z0)
     for j, impulse in enumerate(plan.impulses):
-        row = 0 if j == 0 else 1 + (j - 1) * playback.SAMPLES + playback.SAMPLES - 1
+        row = 0 if j == 0 else 1 + (j - 1) * scene.SAMPLES + scene.SAMPLES - 1
         assert times[row] == pytest.approx(2.5 * j, abs=1e-8)
         assert_allclose(held["/sets/state"]["vectors"][row], frame.points(state), atol=1e-5)
         net = held["/sets/meridians"]["strips"][row]
@@ -113,7 +111,7 @@ def _within_hull(point, corners):
 def test_what_remains_has_the_state_on_its_boundary(fired):
     """From each instant the rest of the controls, and no smaller ones, bring the state back."""
     plan = PLANS["orbit-correction"]
-    left = playback.remaining(plan, fired)
+    left = remaining(plan, fired)
     held = np.array(Z0)
     for j in range(fired):
         held = held + expm(-LINEAR * 0.25 * j) @ [0, *plan.impulses[j]]

@@ -12,14 +12,14 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from pontryagin.orbit_correction import DiscreteSystem, gauge
-from pontryagin.orbit_correction.exact import (
+from pontryagin.orbit_correction.derivation.exact import (
     LENS_CENTRES,
     LENS_CORNER,
     exact_system,
     lens_level,
     normal_at_lens_corner,
 )
-from pontryagin.orbit_correction.system import gauge_of_factors
+from pontryagin.orbit_correction.gauges.general import gauge_of_factors
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from scipy.optimize import linprog
 from pontryagin import Infeasible, NotConverged
 from pontryagin.certificate import Certificate
 from pontryagin.orbit_correction import DiscreteSystem, gauge
-from pontryagin.orbit_correction.proof import require_closed
-from pontryagin.orbit_correction.system import gauge_of_factors
+from pontryagin.orbit_correction.gauges.general import gauge_of_factors
+from pontryagin.orbit_correction.gauges.proof import require_closed
 
 PLANE = np.eye(2)
 

@@ -226,7 +226,7 @@ BAD = {
     ),
     "target on a parabola": (
         {"target": TARGET | {"eccentricity": 1}},
-        "target.eccentricity must be less than 1: the target goes round, got 1",
+        "target.eccentricity must be less than 1: the target moves on an ellipse, got 1",
     ),
     "e* below 0": ({"target": TILTED | {"eccentricity": -0.1}}, "target.eccentricity must be at least 0"),
     "p* = 0": ({"target": TARGET | {"parameter": 0}}, "target.parameter must be greater than 0, got 0.0"),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import pontryagin
+from pontryagin.numerics.rotation import rotated
 from pontryagin.rendezvous import (
     Chaser,
     Elements,
@@ -35,7 +36,6 @@ from pontryagin.rendezvous.elements.shooting import (
     Setting,
     equations,
 )
-from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.start import cold_start
 

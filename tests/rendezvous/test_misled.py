@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import about_third, conjugate, product, rotated
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.false_meetings.meeting import (
     distance,
@@ -13,7 +14,6 @@ from pontryagin.rendezvous.false_meetings.meeting import (
     paper_residual,
 )
 from pontryagin.rendezvous.false_meetings.rotated_target import turned_equations
-from pontryagin.rendezvous.quaternions import about_third, conjugate, product, rotated
 from pontryagin.rendezvous.reduced.homotopy import newton
 from pontryagin.rendezvous.reduced.shooting import (
     Setting,

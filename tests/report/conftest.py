@@ -7,7 +7,7 @@ import nbformat
 import pytest
 
 from pontryagin.io import files
-from pontryagin.report.papers import PAPERS
+from pontryagin.papers import PAPERS
 from pontryagin.report.workspace import Workspace
 
 

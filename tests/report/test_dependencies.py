@@ -141,3 +141,39 @@ def test_threads_parse_one_after_the_other(monkeypatch):
         found = list(pool.map(literals, [f"open('{i}.csv')" for i in range(40)]))
     assert found == [{f"{i}.csv"} for i in range(40)]
     assert crowds == [1] * 40
+
+
+@pytest.fixture
+def papers(checkout):
+    """Two papers whose claims and commands are imported by name, as `pontryagin.papers` does it."""
+    checkout.module("__init__.py")
+    checkout.module(
+        "papers.py", "from importlib import import_module\ndef room(a, b): return import_module(a + b)"
+    )
+    checkout.module("ledger/__init__.py", "from pontryagin.ledger.collection import entries")
+    checkout.module(
+        "ledger/collection.py",
+        "from pontryagin import papers\ndef entries(): return [papers.room(p, 'claims') for p in 'ab']",
+    )
+    for name in "ab":
+        checkout.module(f"{name}/__init__.py")
+        checkout.module(f"{name}/command.py", "def solve(): ...")
+        checkout.module(f"{name}/claims/__init__.py", f"from pontryagin.{name}.claims import first")
+        checkout.module(f"{name}/claims/first.py")
+    return Source(checkout.root / "src" / "pontryagin")
+
+
+def test_the_ledger_depends_on_all_papers_claims_and_not_on_their_commands(papers):
+    claims = {f"{name}.claims{part}" for name in "ab" for part in ("", ".first")}
+    ledger = {"pontryagin", "papers", "ledger", "ledger.collection", "a", "b"}
+    assert names(papers, "from pontryagin import ledger") == ledger | claims
+    assert names(papers, "import pontryagin.papers") == {"pontryagin", "papers"}
+
+
+@pytest.mark.parametrize("module", [name for name in REAL.modules if name.endswith(".claims")])
+def test_a_changed_claims_file_changes_the_key_of_what_uses_the_ledger(module):
+    assert len(module.split(".")) == 3
+    for code in ("import pontryagin.ledger", "from pontryagin.display import notebook"):
+        files_read = closure(REAL, [code])
+        assert set(REAL.modules[module].parent.glob("*.py")) <= files_read
+    assert REAL.modules[module] not in closure(REAL, ["from pontryagin.display import plotting"])

@@ -4,8 +4,8 @@ from html import unescape
 
 import pytest
 
+from pontryagin.papers import PAPERS
 from pontryagin.report import player, recordings
-from pontryagin.report.papers import PAPERS
 from pontryagin.report.recordings import Clip
 
 PLAYBACK = '''

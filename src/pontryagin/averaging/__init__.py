@@ -25,8 +25,8 @@ kappa            kappa                    minus the mean of q / epsilon, (2.10);
 tau_1            duration                 slow time of arrival
 J_0              cost                     (2.9)
 
-A system goes through `system` (rates), `control_sets` (h*), `average` (kernels), `model` (h0 by
-`quadrature`), `guess`, `collocation` and `solve` (the boundary value problem), `certify`, `solution`.
+`system` turns equations of motion into the averaged Hamiltonian h0, `averaged` solves its boundary value
+problem, `exact` finds the extremals of the original system, `examples` holds the paper's problems.
 
 The costate of the cost is -1 throughout, and the costs that the paper carries as further components of a
 are integrals here, so that a system's slow variables are its physical ones.
@@ -37,19 +37,19 @@ from pontryagin import lazy
 __getattr__, __dir__, __all__ = lazy.attach(
     __name__,
     {
-        "PhaseSystem": "system",
-        "solve_averaged": "solution",
-        "smooth_example": "smooth",
-        "rotor": "rotor_example",
-        "kepler": "kepler_example",
-        "spin_down": "spin_down_example",
-        "AveragedSolution": "solution",
-        "Quadratic": "control_sets",
-        "Ball": "control_sets",
-        "Ellipsoid": "control_sets",
-        "Box": "control_sets",
-        "BoundedQuadratic": "control_sets",
-        "Custom": "control_sets",
+        "PhaseSystem": "system.phase_system",
+        "solve_averaged": "averaged.solution",
+        "smooth_example": "examples.smooth",
+        "rotor": "examples.rotor",
+        "kepler": "examples.kepler",
+        "spin_down": "examples.spin_down",
+        "AveragedSolution": "averaged.solution",
+        "Quadratic": "system.control_sets",
+        "Ball": "system.control_sets",
+        "Ellipsoid": "system.control_sets",
+        "Box": "system.control_sets",
+        "BoundedQuadratic": "system.control_sets",
+        "Custom": "system.control_sets",
         "derivation": "",
         "figures": "",
         "playback": "",

@@ -5,9 +5,17 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin.averaging import asked, transcript
-from pontryagin.averaging.asked import EXAMPLES, Example
-from pontryagin.io import rows
+from pontryagin.averaging import (
+    schema as asked,
+)
+from pontryagin.averaging import (
+    transcript,
+)
+from pontryagin.averaging.schema import (
+    EXAMPLES,
+    Example,
+)
+from pontryagin.io import json_io, rows
 from pontryagin.terminal import console
 
 Text = str | None
@@ -121,7 +129,7 @@ def solve(
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
     told = transcript.transcript(problem, solution, small, start, exact)
     if json:
-        typer.echo(console.to_json(told))
+        typer.echo(json_io.to_json(told))
     else:
         console.show(chosen.title, transcript.shown(told), transcript.conclusion(told))
 

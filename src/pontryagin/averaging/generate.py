@@ -2,9 +2,12 @@
 
 from pathlib import Path
 
-from pontryagin.averaging.average import kernel_expressions
-from pontryagin.averaging.derived import EXAMPLES, Example
-from pontryagin.averaging.system import PhaseSystem
+from pontryagin.averaging.system.average import kernel_expressions
+from pontryagin.averaging.system.derived_systems import (
+    EXAMPLES,
+    Example,
+)
+from pontryagin.averaging.system.phase_system import PhaseSystem
 from pontryagin.io.files import write
 from pontryagin.numerics.compile import source
 

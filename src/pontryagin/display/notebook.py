@@ -1,4 +1,4 @@
-"""What notebooks display besides figures and tables: formulas, and entries of the ledger judged anew."""
+"""Formulas and entries of the ledger as notebooks display them; each entry shown is checked first."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -8,25 +8,19 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from pontryagin import ledger
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    WIDTH,
-    styled,
-)
+from pontryagin.display import plotting
+from pontryagin.display.plotting import INK, WIDTH, styled
 from pontryagin.ledger import Entry
+from pontryagin.ledger.verdict import TABLE
 
-TILES: dict[str, str] = dict(zip(ledger.VERDICTS, (GREEN, ORANGE, RED, PURPLE, BLUE, SKY), strict=True))
+TILES = {row.name: {"color": getattr(plotting, row.tile), "alpha": row.opacity} for row in TABLE}
+"""Colour and opacity of each verdict's tiles, as Matplotlib's arguments."""
+
 _SPECIAL = re.compile(r"([\\`*_~^<>\[\]#])")
 
 
 def equation(left: Any, right: Any) -> None:
-    r"""Display ``left = right`` as mathematics.
+    r"""Display the equation ``left = right``.
 
     Parameters
     ----------
@@ -42,12 +36,12 @@ def equation(left: Any, right: Any) -> None:
 
 
 def equations(left: Iterable[Any], right: Iterable[Any] | None = None) -> None:
-    r"""Display equations one below the other, aligned at the sign of equality.
+    r"""Display equations one below the other, aligned at their equals signs.
 
     Parameters
     ----------
     left, right : SymPy expressions or matrices, or LaTeX
-        Both sides; or a mapping from left-hand to right-hand sides alone.
+        Both sides; or, as the only argument, a mapping from left-hand to right-hand sides.
     """
     sides = left.items() if isinstance(left, Mapping) else zip(left, right or (), strict=True)
     rows = [f"{_latex(a)} &= {_latex(b)}" for a, b in sides]
@@ -58,27 +52,27 @@ def equations(left: Iterable[Any], right: Iterable[Any] | None = None) -> None:
 
 
 def vanishing(expressions: Iterable[Any]) -> None:
-    """Display expressions that are to be zero, as equations one below the other."""
+    """Display the equations ``expression = 0`` one below the other."""
     listed = list(expressions)
     equations(listed, ["0"] * len(listed))
 
 
 def entry(label: str, paper: str | None = None) -> None:
-    """Check an entry of the ledger; display what is printed, what is derived, the verdict and the remark.
+    """Check an entry of the ledger; display its printed and derived forms, its verdict and its remark.
 
     Parameters
     ----------
     label : str
         Equation number or place, as in the ledger.
     paper : str, optional
-        A paper's name or part of it.
+        A paper's name or part of it; needed if several papers have an entry of that label.
 
     Raises
     ------
     ValueError
         If there is no such entry, or several papers have one.
     pontryagin.ledger.Unsupported
-        If the verdict does not stand.
+        If the evidence does not support the verdict.
     """
     found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
     if not found:
@@ -91,14 +85,14 @@ def entry(label: str, paper: str | None = None) -> None:
 
 
 def verdicts(verdict: str, paper: str | None = None) -> None:
-    """Check every entry of a verdict; display each as `entry` does, with the steps of its proof."""
+    """Check every entry of a verdict; display each as `entry` does, followed by the steps of its proof."""
     for one in ledger.entries(paper, verdict):
         steps = "\n".join(f"- {_text(step)}" for step in one.proof())
         _publish({"text/markdown": f"{account(one)}\n\nChecked here, step by step:\n\n{steps}"})
 
 
 def account(entry: Entry) -> str:
-    """An entry as Markdown: print and derivation typeset, then the remark."""
+    """An entry as Markdown: its printed and derived forms as formulas, then the remark."""
     parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
     if entry.printed_latex:
         parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
@@ -111,7 +105,7 @@ def account(entry: Entry) -> str:
 
 
 def counts_table() -> dict[str, list[Any]]:
-    """Entries of each verdict by paper: columns for `plotting.show_table`."""
+    """The number of entries of each verdict and paper, as columns for `plotting.show_table`."""
     rows = by_paper(ledger.entries())
     groups = [*rows.values(), [one for group in rows.values() for one in group]]
     tallies = [ledger.counts(group) for group in groups]
@@ -122,7 +116,7 @@ def counts_table() -> dict[str, list[Any]]:
 
 
 def by_paper(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
-    """Entries under the names of their papers, in the order of the ledger."""
+    """The entries of each paper by its name, in the order of the ledger."""
     grouped: dict[str, list[Entry]] = {}
     for one in entries:
         grouped.setdefault(one.paper, []).append(one)
@@ -131,7 +125,7 @@ def by_paper(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
 
 @styled
 def verdict_tiles() -> Figure:
-    """One tile for each entry in the order of its paper, papers below one another, coloured by verdict."""
+    """A tile for each entry, coloured by verdict; papers one below the other, entries in their order."""
     grouped = by_paper(ledger.entries())
     across = 36
     gap = 0.5
@@ -147,15 +141,12 @@ def verdict_tiles() -> Figure:
         row = line + offset
         ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)
         for column, one in enumerate(group):
-            faint = 0.35 if one.verdict == "holds" else 1.0
-            tile = Rectangle(
-                (column + 0.08, row + 0.08), 0.84, 0.84, color=TILES[one.verdict], alpha=faint, lw=0
-            )
-            ax.add_patch(tile)
+            corner = (column + 0.08, row + 0.08)
+            ax.add_patch(Rectangle(corner, 0.84, 0.84, lw=0, **TILES[one.verdict]))
     ax.set(xlim=(-10.5, across), ylim=(height, 0), aspect="equal")
     ax.axis("off")
     present = [verdict for verdict, count in ledger.counts(ledger.entries()).items() if count]
-    handles = [Patch(color=TILES[verdict], alpha=0.35 if verdict == "holds" else 1.0) for verdict in present]
+    handles = [Patch(**TILES[verdict]) for verdict in present]
     figure.legend(handles, present, loc="outside lower center", ncols=len(present), handlelength=1.0)
     return figure
 
@@ -167,7 +158,7 @@ def _latex(side: Any) -> str:
 
 
 def _text(words: str) -> str:
-    """Words for Markdown: what stands between dollars is kept, the rest means itself."""
+    """Text for Markdown: formulas between dollar signs are kept, special characters elsewhere are escaped."""
     parts = re.split(r"(\$[^$]*\$)", words)
     return "".join(part if part.startswith("$") else _SPECIAL.sub(r"\\\1", part) for part in parts)
 

@@ -27,11 +27,13 @@ from pontryagin.io import files
 P = ParamSpec("P")
 
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
-PURPLE, SKY, YELLOW, INK = "#CC79A7", "#56B4E9", "#F0E442", "#222222"
+PURPLE, SKY, INK, GREY = "#CC79A7", "#56B4E9", "#222222", "#888888"
 PALETTE = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, INK)
-"""Okabe and Ito's colours, told apart by readers of every colour vision."""
+"""Okabe and Ito's colours, which readers of every colour vision tell apart; GREY is for what is secondary."""
 
-SEQUENTIAL, DIVERGING = "cividis", "RdBu_r"
+SEQUENTIAL = "cividis"
+"""Colour map of quantities that grow from a least value."""
+
 WIDTH = 6.8
 """Width of a figure in inches: the text column of the report."""
 

@@ -1,4 +1,4 @@
-"""Where generated files go, and how they get there whole."""
+"""The folders of generated files, and writing a file in one step."""
 
 import os
 import shutil
@@ -39,10 +39,9 @@ def figures_folder() -> Path:
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Write beside `path` and put the result in its place in one step.
+    """Write to a temporary file beside `path` and move it to `path` in one step.
 
-    Whoever reads `path` sees the old file or the new one, never a part of either, whenever the
-    writer is killed.
+    Even if the writer is killed, a reader of `path` sees the old file or the new one, never a part.
 
     Parameters
     ----------
@@ -52,7 +51,7 @@ def replacing(path: Path) -> Iterator[Path]:
     Yields
     ------
     Path
-        The file to write. When the block raises it is removed and `path` stays as it was.
+        The temporary file. When the block raises, it is removed and `path` stays as it was.
 
     Examples
     --------
@@ -74,7 +73,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def write(path: Path, content: str | bytes) -> bool:
-    """Write `content` in one step; a file that already holds it is left untouched.
+    """Write `content` in one step; leave a file that already holds it untouched.
 
     Returns
     -------
@@ -91,7 +90,7 @@ def write(path: Path, content: str | bytes) -> bool:
 
 
 def remove_drafts(folder: Path) -> None:
-    """Remove what a killed writer left behind below `folder`."""
+    """Remove the temporary files that killed writers left behind below `folder`."""
     for draft in Path(folder).rglob(".*.partial*"):
         if draft.is_dir():
             shutil.rmtree(draft, ignore_errors=True)

@@ -1,8 +1,8 @@
-"""Numbers and formulas as a user types them, read without running them.
+"""A safe parser of the numbers and formulas that a user types.
 
-What is understood: numbers, ``pi``, the variables asked for, ``+ - * / **`` (``^`` is a power too),
-parentheses and the functions of `FUNCTIONS`. Everything else is refused by name, so that text from anywhere
-can be read.
+A formula holds numbers, ``pi``, the variables that the caller names, ``+ - * / **`` (``^`` is a power too),
+parentheses and the functions of `FUNCTIONS`. Anything else raises `ValueError`, and nothing is passed to
+``eval``, so that text from any source can be read.
 """
 
 import ast
@@ -37,10 +37,10 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
 }
 
 LONGEST = 500
-"""Characters beyond which nobody typed it."""
+"""Largest number of characters of a formula."""
 
 HIGHEST = 12
-"""Power of a variable beyond which expanding it takes long."""
+"""Largest modulus of an exponent in `expression`: SymPy takes long to expand higher powers."""
 
 
 @dataclass(frozen=True)
@@ -68,19 +68,19 @@ class Formula:
 
 
 def read(text: str, variable: str | None = None) -> float | Formula:
-    """The number or the formula that a text stands for.
+    """Parse a text into a number or a function of one variable.
 
     Parameters
     ----------
     text : str
         For instance ``"1/3"``, ``"-pi/2"``, ``"0.1*sin(t)"``.
     variable : str, optional
-        The one symbol that it may hold.
+        Name of the variable that may occur; by default none may.
 
     Returns
     -------
     float or Formula
-        A float where the variable does not occur.
+        A float if the variable does not occur.
 
     Raises
     ------
@@ -101,15 +101,16 @@ def read(text: str, variable: str | None = None) -> float | Formula:
 
 
 def expression(text: str, *variables: str) -> "float | sp.Expr":
-    """The number that a text stands for, or the SymPy expression in real symbols of the variables' names.
+    """Parse a text into a number, or into a SymPy expression in real symbols named as the variables.
 
-    Its numbers are the decimals that were typed, and constant parts the decimals of their floating-point
-    values; powers of variables have exponents up to `HIGHEST`, so that algebra with it comes to an end.
+    Decimals in the text become the rational numbers they denote; constant subexpressions are evaluated in
+    floating point first. Exponents of variables are limited to `HIGHEST`, so that SymPy can expand the
+    expression in reasonable time.
 
     Raises
     ------
     ValueError
-        As `read`, or if a power is higher.
+        As `read`, or if an exponent exceeds `HIGHEST`.
 
     Examples
     --------
@@ -121,7 +122,7 @@ def expression(text: str, *variables: str) -> "float | sp.Expr":
 
 
 def _parsed(text: str, variables: Sequence[str]) -> ast.expr:
-    """The checked tree of a text."""
+    """The syntax tree of a text, in which only permitted nodes occur."""
     if len(text) > LONGEST:
         raise ValueError(f"{len(text)} characters are too long for a formula, which has at most {LONGEST}")
     try:
@@ -133,7 +134,7 @@ def _parsed(text: str, variables: Sequence[str]) -> ast.expr:
 
 
 def _varies(tree: ast.expr) -> bool:
-    """Whether a variable stands in a checked tree."""
+    """Whether a variable occurs in a checked tree."""
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     return bool(names - {"pi", *FUNCTIONS})
 
@@ -147,7 +148,7 @@ def _constant(tree: ast.expr, text: str) -> float:
 
 
 def _symbolic(node: ast.expr, text: str) -> "sp.Expr":
-    """A checked tree as SymPy."""
+    """A checked tree as a SymPy expression."""
     import sympy as sp
 
     if not _varies(node):
@@ -168,7 +169,12 @@ def _symbolic(node: ast.expr, text: str) -> "sp.Expr":
 
 
 def number(text: str) -> float:
-    """The finite number that a text stands for.
+    """Parse a text into a finite number.
+
+    Raises
+    ------
+    ValueError
+        If the text is no formula without variables, or has no finite real value.
 
     Examples
     --------
@@ -185,7 +191,7 @@ def number(text: str) -> float:
 
 
 def _check(node: ast.expr, variables: Sequence[str]) -> None:
-    """Refuse what is not understood."""
+    """Raise `ValueError` at the first node that a formula may not hold."""
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return
@@ -212,7 +218,7 @@ def _check(node: ast.expr, variables: Sequence[str]) -> None:
 
 
 def _value(node: ast.expr, variables: dict[str, Array]) -> Any:
-    """Value of a checked tree; in floating point throughout, where no tower of powers runs for ever."""
+    """Value of a checked tree, in floating point throughout: integer powers of powers would never end."""
     match node:
         case ast.Constant(value=constant):
             return _float(constant)

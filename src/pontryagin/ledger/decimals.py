@@ -1,23 +1,19 @@
-"""Evidence for printed numbers: they are the computed ones to one unit of the last printed digit."""
+"""Evidence for printed numbers: they agree with the computed ones to one unit of the last printed digit."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-from pontryagin.ledger import Unsupported, Verdict
-from pontryagin.ledger.evidence import (
-    Evidence,
-    Steps,
-    followed,
-)
+from pontryagin.ledger.evidence import Evidence, Steps, require
+from pontryagin.ledger.verdict import Unsupported, Verdict
 
 ROUNDING = 1e-11
-"""How far a computed number may be from a printed whole one."""
+"""Largest distance between a printed whole number and the computed one; relative slack for the others."""
 
 
 def unit(number: str) -> float:
-    """The unit of the last digit of a printed number; 0 for a whole one, which is meant exactly.
+    """The unit of the last digit of a printed number; 0 for a whole number, which is taken as exact.
 
     Examples
     --------
@@ -30,18 +26,18 @@ def unit(number: str) -> float:
 
 @dataclass(frozen=True)
 class Decimals(Evidence):
-    """Printed numbers are the computed ones, whose certificate is checked anew: `holds`.
+    """Printed numbers that agree with computed ones, whose certificate is checked each time: `holds`.
 
     Parameters
     ----------
     printed : mapping of str to str
         The numbers as printed, with a power of ten as an exponent ("-0.37787e-2").
     derived : callable
-        Returns the same left-hand sides with the computed numbers.
+        Returns the computed numbers for the same left-hand sides.
     certificate : callable
-        Steps that prove the computed numbers.
+        Returns the steps that prove the computed numbers.
     display : optional
-        What the report shows in place of the numbers.
+        LaTeX that the report shows in place of the numbers.
 
     Examples
     --------
@@ -60,8 +56,8 @@ class Decimals(Evidence):
         """The computed numbers."""
         return self.derived()
 
-    def off(self) -> dict[str, float]:
-        """How far each printed number is from the computed one, in units of its last digit (0 if whole)."""
+    def deviations(self) -> dict[str, float]:
+        """Distance of each printed number from the computed one, in units of its last digit (0 if whole)."""
         computed = self.derived()
         if list(computed) != list(self.printed):
             raise Unsupported(f"printed {list(self.printed)}, but computed {list(computed)}")
@@ -74,21 +70,21 @@ class Decimals(Evidence):
         return found
 
     def finding(self) -> Verdict:
-        """`holds` when the certificate does and no number is off by more than one unit."""
-        followed(self.certificate())
-        self.off()
+        """`holds`, if the certificate does and no number deviates by more than one unit."""
+        require(self.certificate())
+        self.deviations()
         return "holds"
 
     def steps(self) -> Steps:
-        """The certificate's steps, then one per number."""
+        """The steps of the certificate, then one for each number."""
         yield from self.certificate()
         computed = self.derived()
-        for left, share in self.off().items():
+        for left, share in self.deviations().items():
             words = f"printed {self.printed[left]}: {share:.2f} of a unit off" if share else "as printed"
             yield f"${left}$ is {computed[left]:.8g}, {words}", True
 
     def latex(self, sides: Any) -> str:
-        """Each number as it is, a power of ten written out."""
+        """Each number as it is, with powers of ten written out."""
         return r",\quad ".join(f"{left} = {_power_of_ten(side)}" for left, side in sides.items())
 
 

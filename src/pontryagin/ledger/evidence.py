@@ -1,8 +1,8 @@
-"""Kinds of evidence: what has to be true for a verdict of the ledger, checked by SymPy.
+"""Kinds of evidence: what SymPy has to confirm before an entry of the ledger earns its verdict.
 
 A printed formula is a mapping from left-hand sides (LaTeX) to SymPy expressions or matrices, transcribed as
-it stands; its derivation is a function that returns the same left-hand sides and never looks at the print.
-A claim in words is decided by steps: sentences, each with the truth of what it says.
+it stands. Its derivation is a function that returns the same left-hand sides without using the printed form.
+A claim in words is decided by steps: pairs of a sentence and whether it is true.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy as sp
 
-from pontryagin.ledger import Unsupported, Verdict
+from pontryagin.ledger.verdict import Unsupported, Verdict
 
 Sides = Mapping[str, Any]
 Steps = Iterator[tuple[str, bool]]
@@ -29,35 +29,34 @@ def vanishes(difference: Any) -> bool:
 
 
 def sample_point(expression: sp.Expr) -> dict[sp.Symbol, sp.Rational]:
-    """Positive rationals for the symbols of an expression, in which little cancels by chance."""
+    """Distinct positive rationals for the symbols of an expression, so that terms rarely cancel by chance."""
     symbols = sorted(expression.free_symbols, key=str)
     return {symbol: sp.Rational(sp.prime(k + 5), sp.prime(k + 3)) for k, symbol in enumerate(symbols)}
 
 
-def followed(steps: Steps) -> list[tuple[str, bool]]:
-    """Run the steps of an argument; raise at the first that is not true."""
-    done = []
+def require(steps: Steps) -> None:
+    """Run the steps of an argument; raise `Unsupported` at the first false one, or if there is none."""
+    empty = True
     for words, truth in steps:
+        empty = False
         if bool(truth) is not True:
             raise Unsupported(f"this step fails: {words}")
-        done.append((words, True))
-    if not done:
+    if empty:
         raise Unsupported("an argument without steps proves nothing")
-    return done
 
 
 def no_steps() -> Steps:
-    """The argument that says nothing: alone, it is refused."""
+    """An argument without steps, which `require` refuses."""
     yield from ()
 
 
-def _told(value: Any) -> str:
-    """A number or a column of numbers, in words."""
+def _as_text(value: Any) -> str:
+    """A number or a column of numbers as text."""
     return str(tuple(value)) if isinstance(value, sp.MatrixBase) else str(value)
 
 
 class Evidence:
-    """What all kinds share: a printed form or None, its derivation, its LaTeX, its steps, its finding."""
+    """The common interface: a printed form or None, its derivation and LaTeX, the steps and the verdict."""
 
     printed: Any
     display: str
@@ -67,19 +66,19 @@ class Evidence:
         return None
 
     def finding(self) -> Verdict:
-        """The verdict that the mathematics supports; `Unsupported` where the evidence breaks."""
+        """The verdict that the mathematics supports; raises `Unsupported` if the evidence breaks."""
         raise NotImplementedError
 
     def steps(self) -> Steps:
-        """What was shown, a sentence each."""
+        """The steps of the argument: sentences, each with whether it is true."""
         yield from ()
 
-    def shown(self) -> str:
-        """The print as LaTeX: `display` where SymPy has no words for it."""
+    def printed_latex(self) -> str:
+        """The printed form as LaTeX: `display` if given, for what SymPy cannot typeset."""
         return self.display or self.latex(self.printed)
 
     def latex(self, sides: Any) -> str:
-        """The printed or derived form as LaTeX without delimiters; empty where there is none."""
+        """A printed or derived form as LaTeX without delimiters; empty for None."""
         if sides is None:
             return ""
         return r",\quad ".join(f"{left} = {sp.latex(right)}" for left, right in sides.items())
@@ -87,7 +86,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Equality(Evidence):
-    """Printed and derived right-hand sides are the same: `holds`."""
+    """Printed and derived right-hand sides are equal: `holds`."""
 
     printed: Sides
     derived: Callable[[], Sides]
@@ -106,13 +105,13 @@ class Equality(Evidence):
         return {left: rest for left, rest in differences.items() if not vanishes(rest)}
 
     def finding(self) -> Verdict:
-        """`holds`, or what is left of printed minus derived."""
+        """`holds`, if printed minus derived vanishes."""
         if left_over := self.differences():
             raise Unsupported(f"printed minus derived leaves {left_over}")
         return "holds"
 
     def steps(self) -> Steps:
-        """One step per equation."""
+        """One step for each equation."""
         left_over = self.differences()
         for left in self.printed:
             yield f"printed and derived ${left}$ agree", left not in left_over
@@ -120,7 +119,7 @@ class Equality(Evidence):
 
 @dataclass(frozen=True)
 class Consequence:
-    """What the printed form would do, in numbers, next to what is required."""
+    """What the printed form gives in a numerical example, and what is required there."""
 
     words: str
     printed: Any
@@ -129,13 +128,13 @@ class Consequence:
 
 @dataclass(frozen=True)
 class Misprint(Equality):
-    """Printed and derived differ by exactly the stated defect, and it shows in numbers: `misprint`."""
+    """Printed minus derived is the stated defect, and numbers show its consequence: `misprint`."""
 
     defect: Sides
     consequence: Callable[[], Consequence]
 
     def finding(self) -> Verdict:
-        """`misprint`, unless the difference is none, or another than the stated one."""
+        """`misprint`, if printed minus derived is the stated defect and the consequence is wrong."""
         left_over = self.differences()
         if not left_over:
             raise Unsupported("printed and derived agree: no misprint")
@@ -151,24 +150,22 @@ class Misprint(Equality):
         return "misprint"
 
     def steps(self) -> Steps:
-        """The defect, and the numbers."""
+        """The defect, then the consequence in numbers."""
         for left, defect in self.defect.items():
             yield f"printed minus derived ${left}$ is ${sp.latex(defect)}$", True
         shown = self.consequence()
-        yield (
-            f"{shown.words}: the print gives {_told(shown.printed)}, required is {_told(shown.required)}",
-            True,
-        )
+        printed, required = _as_text(shown.printed), _as_text(shown.required)
+        yield f"{shown.words}: the print gives {printed}, required is {required}", True
 
 
 @dataclass(frozen=True)
 class Unreadable(Equality):
-    """The scan cannot be read: what is legible agrees with the derivation, the rest cannot be meant."""
+    """A scan of which only the legible sides agree with the derivation: `unreadable`."""
 
     legible: Sequence[str]
 
     def finding(self) -> Verdict:
-        """`unreadable`, unless all of it agrees, or something legible does not."""
+        """`unreadable`, if some sides differ from the derivation and no legible one does."""
         garbled = self.differences()
         if not garbled:
             raise Unsupported("all of it agrees with the derivation: it can be read")
@@ -177,13 +174,13 @@ class Unreadable(Equality):
         return "unreadable"
 
     def steps(self) -> Steps:
-        """What can be read."""
+        """One step for all legible sides."""
         yield f"what can be read ({', '.join(self.legible)}) agrees with the derivation", True
 
 
 @dataclass(frozen=True)
 class LinearSystem(Evidence):
-    """Printed linear equations, each ``expression = 0``, have the solutions of the derived ones: `holds`."""
+    """Printed linear equations ``expression = 0`` with the unique solution of the derived ones: `holds`."""
 
     printed: Sequence[sp.Expr]
     derived: Callable[[], Sequence[sp.Expr]]
@@ -191,24 +188,24 @@ class LinearSystem(Evidence):
     display: str = field(default="", kw_only=True)
 
     def derivation(self) -> Sequence[sp.Expr]:
-        """The derived expressions that are to vanish."""
+        """The derived expressions, which vanish at the solution."""
         return self.derived()
 
     def _solution(self, equations: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
         solutions = list(sp.linsolve(list(equations), list(self.unknowns)))
         if len(solutions) != 1 or any(part.has(*self.unknowns) for part in solutions[0]):
             raise Unsupported(f"{equations} do not fix {self.unknowns}")
-        return solutions[0]
+        return tuple(solutions[0])
 
     def finding(self) -> Verdict:
-        """`holds` where both systems have one solution, the same."""
+        """`holds`, if both systems have the same unique solution."""
         printed, derived = self._solution(self.printed), self._solution(self.derived())
         if not all(vanishes(a - b) for a, b in zip(printed, derived, strict=True)):
             raise Unsupported(f"the printed system gives {printed}, the derived one {derived}")
         return "holds"
 
     def steps(self) -> Steps:
-        """The one step there is."""
+        """A single step."""
         yield "the printed and the derived system have the same solution", True
 
     def latex(self, sides: Any) -> str:
@@ -218,26 +215,26 @@ class LinearSystem(Evidence):
 
 @dataclass(frozen=True)
 class Proof(Evidence):
-    """A claim in words, proved step by step: `holds`. A formula may stand with it."""
+    """A claim in words, proved step by step, with or without a printed formula: `holds`."""
 
     argument: Callable[[], Steps]
     formula: Equality | None = None
     display: str = field(default="", kw_only=True)
 
     @property
-    def printed(self) -> Any:  # type: ignore[override]
-        """The formula's printed form, where there is one."""
+    def printed(self) -> Any:
+        """The printed form of the formula, if there is one."""
         return self.formula.printed if self.formula else None
 
     def derivation(self) -> Any:
-        """The formula's derivation, where there is one."""
+        """The derived form of the formula, if there is one."""
         return self.formula.derivation() if self.formula else None
 
     def finding(self) -> Verdict:
-        """`holds` when every step is true and the formula holds."""
+        """`holds`, if every step is true and the formula holds."""
         if self.formula:
             self.formula.finding()
-        followed(self.argument())
+        require(self.argument())
         return "holds"
 
     def steps(self) -> Steps:
@@ -247,7 +244,7 @@ class Proof(Evidence):
 
 @dataclass(frozen=True)
 class Refutation(Evidence):
-    """A claim that fails, by a counterexample whose certificate is checked anew: `false`."""
+    """A claim that a counterexample refutes; its certificate is checked each time: `false`."""
 
     counterexample: Callable[[], Steps]
     printed: Sides | None = None
@@ -255,12 +252,12 @@ class Refutation(Evidence):
     display: str = field(default="", kw_only=True)
 
     def derivation(self) -> Any:
-        """What is true instead of the printed form."""
+        """The true form in place of the printed one."""
         return self.derived() if self.derived else None
 
     def finding(self) -> Verdict:
-        """`false` when every step of the counterexample is true, and any printed form is not the true one."""
-        followed(self.counterexample())
+        """`false`, if the counterexample's steps are true and the printed form differs from the true one."""
+        require(self.counterexample())
         if self.printed and self.derived and not Equality(self.printed, self.derived).differences():
             raise Unsupported("the printed form is the derived one: nothing is refuted")
         return "false"
@@ -277,9 +274,9 @@ class Conditional(Proof):
     counterexample: Callable[[], Steps] = no_steps
 
     def finding(self) -> Verdict:
-        """`conditional` when both arguments go through."""
+        """`conditional`, if every step of the proof and of the counterexample is true."""
         super().finding()
-        followed(self.counterexample())
+        require(self.counterexample())
         return "conditional"
 
     def steps(self) -> Steps:
@@ -290,9 +287,9 @@ class Conditional(Proof):
 
 @dataclass(frozen=True)
 class Slip(Conditional):
-    """A misprint that is no formula: what is meant is proved, what is printed refuted: `misprint`."""
+    """A misprint in words: the intended claim is proved, the printed one refuted: `misprint`."""
 
     def finding(self) -> Verdict:
-        """`misprint` when both arguments go through."""
+        """`misprint`, if every step of the proof and of the counterexample is true."""
         super().finding()
         return "misprint"

@@ -15,11 +15,10 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.complex_step import STEP, jacobian
 
 SMALL = 200
 """heyoka unrolls right-hand sides of fewer operations than this: faster, but slow to compile."""
-COMPLEX_STEP = 1e-30
-"""Step of complex-step derivatives, which have no cancellation, so that it may be as small as this."""
 
 Values = Sequence[float] | Array
 """The values of parameters, (p,)."""
@@ -319,9 +318,9 @@ class Kernel:
 
     def variational(self, time: Any, state: Array, columns: Array, parameters: Any) -> Array:
         """See `Equations`; by a complex step along each column, exact to rounding."""
-        x = np.column_stack([state, state[:, None] + 1j * COMPLEX_STEP * columns])
+        x = np.column_stack([state, state[:, None] + 1j * STEP * columns])
         slopes = np.array(self.right_hand_side(ON_ARRAYS, time, x, parameters))
-        return np.concatenate([slopes[:, :1].real, slopes[:, 1:].imag / COMPLEX_STEP], axis=1)
+        return np.concatenate([slopes[:, :1].real, slopes[:, 1:].imag / STEP], axis=1)
 
     def event(self, i: int, time: float, state: Array, parameters: Values) -> float:
         """See `Equations`."""
@@ -329,7 +328,8 @@ class Kernel:
 
     def event_gradient(self, i: int, time: float, state: Array, parameters: Values) -> tuple[Array, float]:
         """See `Equations`; by complex steps."""
-        n = len(state)
-        steps = np.append(state, time)[:, None] + 1j * COMPLEX_STEP * np.eye(n + 1)
-        slopes = self.event_functions[i](ON_ARRAYS, steps[n], steps[:n], parameters).imag / COMPLEX_STEP
-        return slopes[:n], float(slopes[n])
+        function = self.event_functions[i]
+        _, (slopes,) = jacobian(
+            lambda z: [function(ON_ARRAYS, z[-1], z[:-1], parameters)], np.append(state, time)
+        )
+        return slopes[:-1], float(slopes[-1])

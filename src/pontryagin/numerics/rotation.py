@@ -1,7 +1,8 @@
-"""Attitudes of a body as unit quaternions and as rotation vectors, and how they change with the angular rate.
+"""Quaternions, attitudes of a body as quaternions and rotation vectors, and how they change with the rate.
 
 Quaternions are scalar first and turn body axes into inertial axes; a rotation vector phi is a turn by |phi|
-about phi. Angular rates w are in body axes. Every function takes stacks, (..., 3) and (..., 4).
+about phi. Angular rates w are in body axes. Every function takes stacks, (..., 3) and (..., 4); the products
+take complex numbers too.
 """
 
 import numpy as np
@@ -19,18 +20,59 @@ _SERIES = 2 * zetac(2 * _ORDERS)
 
 def cross(a: Array, b: Array) -> Array:
     """a x b, several times faster than `numpy.cross` on single vectors."""
-    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape), dtype=np.result_type(a, b))
     result[..., 0] = a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1]
     result[..., 1] = a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2]
     result[..., 2] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return result
 
 
+def product(a: ArrayLike, b: ArrayLike) -> Array:
+    """a o b of quaternions, (..., 4).
+
+    Examples
+    --------
+    >>> product([0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]).tolist()
+    [0.0, 0.0, 0.0, 1.0]
+    """
+    p, q = np.asarray(a), np.asarray(b)
+    scalar = p[..., :1] * q[..., :1] - np.sum(p[..., 1:] * q[..., 1:], axis=-1, keepdims=True)
+    vector = p[..., :1] * q[..., 1:] + q[..., :1] * p[..., 1:] + cross(p[..., 1:], q[..., 1:])
+    return np.concatenate([scalar, vector], axis=-1)
+
+
+def conjugate(a: ArrayLike) -> Array:
+    """a~, of which the vector part has the other sign, (..., 4)."""
+    return np.asarray(np.asarray(a) * np.array([1.0, -1.0, -1.0, -1.0]))
+
+
+def pure(vector: ArrayLike) -> Array:
+    """The quaternion with a vector and no scalar part, (..., 3) -> (..., 4)."""
+    given = np.asarray(vector)
+    return np.concatenate([np.zeros_like(given[..., :1]), given], axis=-1)
+
+
+def rotated(vector: ArrayLike, attitude: ArrayLike) -> Array:
+    """a o x o a~: vectors (..., 3) turned by the quaternions (..., 4).
+
+    Examples
+    --------
+    >>> rotated([1.0, 0.0, 0.0], about_third(np.pi / 2)).round(12).tolist()
+    [0.0, 1.0, 0.0]
+    """
+    return product(product(attitude, pure(vector)), conjugate(attitude))[..., 1:]
+
+
+def about_third(angle: ArrayLike) -> Array:
+    """Quaternions of turns by angles (...) about the third axis, (..., 4)."""
+    half = np.asarray(angle, dtype=float) / 2
+    still = np.zeros_like(half)
+    return np.stack([np.cos(half), still, still, np.sin(half)], axis=-1)
+
+
 def attitude_rate(q: Array, w: Array) -> Array:
-    """q' = q w / 2."""
-    scalar, vector = q[..., :1], q[..., 1:]
-    real = -(vector * w).sum(axis=-1, keepdims=True)
-    return np.concatenate([real, scalar * w + cross(vector, w)], axis=-1) / 2
+    """q' = q o w / 2."""
+    return product(q, pure(w)) / 2
 
 
 def quaternion(phi: ArrayLike) -> Array:
@@ -61,15 +103,14 @@ def rotation_vector(attitude: ArrayLike) -> Array:
     sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
     angle = 2 * np.arctan2(sine, q[..., :1])
     stretch = np.divide(angle, sine, out=np.full_like(sine, 2.0), where=sine > 1e-150)
-    return stretch * q[..., 1:]
+    return np.asarray(stretch * q[..., 1:])
 
 
 def between(attitude: ArrayLike, other: ArrayLike) -> Array:
     """Quaternion of the shorter turn from one attitude to the other, in body axes, (..., 4)."""
     p, q = vectors("attitude", attitude, 4), vectors("other", other, 4)
-    scalar = (p * q).sum(axis=-1, keepdims=True)
-    vector = p[..., :1] * q[..., 1:] - q[..., :1] * p[..., 1:] - cross(p[..., 1:], q[..., 1:])
-    return np.where(scalar < 0, -1.0, 1.0) * np.concatenate([scalar, vector], axis=-1)
+    turn = product(conjugate(p), q)
+    return np.where(turn[..., :1] < 0, -1.0, 1.0) * turn
 
 
 def vector_rate_matrix(phi: Array) -> Array:
@@ -77,7 +118,7 @@ def vector_rate_matrix(phi: Array) -> Array:
     g, _ = _curvature(phi)
     outer = phi[..., :, None] * phi[..., None, :]
     square = outer - (phi**2).sum(axis=-1)[..., None, None] * np.eye(3)
-    return np.eye(3) + _skew(phi) / 2 + g[..., None] * square
+    return np.asarray(np.eye(3) + _skew(phi) / 2 + g[..., None] * square)
 
 
 def vector_acceleration_drift(phi: Array, w: Array) -> Array:
@@ -86,11 +127,8 @@ def vector_acceleration_drift(phi: Array, w: Array) -> Array:
     inner = cross(phi, w)
     rate = w + inner / 2 + g * cross(phi, inner)
     stretch = slope * (phi * rate).sum(axis=-1, keepdims=True)
-    return (
-        cross(rate, w) / 2
-        + stretch * cross(phi, inner)
-        + g * (cross(rate, inner) + cross(phi, cross(rate, w)))
-    )
+    curved = cross(rate, inner) + cross(phi, cross(rate, w))
+    return np.asarray(cross(rate, w) / 2 + stretch * cross(phi, inner) + g * curved)
 
 
 def _curvature(phi: Array) -> tuple[Array, Array]:

@@ -3,17 +3,15 @@
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 
+from pontryagin.io import json_io, rows
 from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
 
-ACCEPTED = 1e-8
-"""Largest residual and gap of a plan that is handed out."""
-
-THRUSTS = ("ball", "disc", "box")
 ARGUMENTS = {"z0": "--z0", "interval": "--interval", "peak": "--peak"}
-"""Options whose last check is left to the solver."""
+"""The option behind each argument of `correct` that the solver checks."""
 
 Text = str | None
 File = Path | None
@@ -71,23 +69,23 @@ def solve(
     plan = _planned(console.vector("--z0", str(z0), 3), engine)
     console.require_proof(plan.certificate)
     _files(plan, plot, record)
-    told: dict[str, Any] = transcript.transcript(plan)
+    report: dict[str, Any] = transcript.transcript(plan)
     if samples:
-        told["samples"] = transcript.samples(plan, samples)
+        report["samples"] = transcript.samples(plan, samples)
     if json:
-        typer.echo(console.to_json(told))
+        typer.echo(json_io.to_json(report))
     else:
-        console.show(transcript.TITLES[thrust], told, transcript.conclusion(plan))
+        console.show(transcript.TITLES[thrust], report, transcript.conclusion(plan))
 
 
 def _engine(interval: str, peak: str, thrust: str) -> tuple[float, float, str]:
-    if thrust not in THRUSTS:
-        raise console.Refusal("--thrust", f"takes {', '.join(THRUSTS)}, got {thrust!r}")
+    if thrust not in transcript.TITLES:
+        raise console.Refusal("--thrust", f"takes {', '.join(transcript.TITLES)}, got {thrust!r}")
     return console.positive("--interval", interval), console.positive("--peak", peak), thrust
 
 
 def _planned(z0: Any, engine: tuple[float, float, str]) -> Any:
-    from pontryagin.orbit_correction.plan import correct
+    from pontryagin.orbit_correction.plan.correction import correct
 
     with console.solving(ARGUMENTS):
         return correct(z0, *engine)
@@ -110,7 +108,7 @@ def _files(plan: Any, plot: File, record: File) -> None:
 
 def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None:
     with console.reading("--batch", path):
-        states = transcript.read(path)
-    plan = _planned(states.z0, engine)
+        states = rows.read(path, transcript.COLUMNS)
+    plan = _planned(np.column_stack([states.columns[name] for name in transcript.COLUMNS]), engine)
     console.emit("--out", out, transcript.to_csv(states, plan))
     console.require_proof(plan.certificate)

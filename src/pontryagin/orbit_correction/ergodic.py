@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.plan import correct
-from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.plan.correction import correct
+from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.system import satellite
 from pontryagin.validation import positive, vectors
 
 PHASES = 1 << 14

@@ -12,11 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.flow import (
-    Flow,
-    flow,
-)
-from pontryagin.orbit_correction.plan import Plan, correct
+from pontryagin.numerics.flow import Flow, flow
+from pontryagin.orbit_correction.plan.correction import Plan, correct, single
 from pontryagin.validation import positive, vectors
 
 CIRCLE = np.array([1.0, 0.0, 1.0])
@@ -124,13 +121,6 @@ def fly_plan(plan: Plan) -> Flight:
     """
     single(plan)
     return fly(plan.z0, plan.impulses, plan.thrust.interval)
-
-
-def single(plan: Plan) -> Plan:
-    """The plan itself, if it is that of one state; else `ValueError`."""
-    if plan.steps.shape:
-        raise ValueError(f"plan must be that of one state, got a stack of shape {plan.steps.shape}")
-    return plan
 
 
 @dataclass(frozen=True, eq=False)

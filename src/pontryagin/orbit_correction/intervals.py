@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
-from pontryagin.orbit_correction.plan import correct
-from pontryagin.orbit_correction.satellite import impulse_columns, step_factors
+from pontryagin.orbit_correction.plan.correction import correct
+from pontryagin.orbit_correction.system.satellite import impulse_columns, step_factors
 from pontryagin.validation import positive, vectors
 
 

@@ -7,11 +7,8 @@ carried along by the free motion. Its boundary is drawn through support points.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.thrust import Thrust
 
 
 def support_points(factors: Array, normals: Array, square: bool) -> Array:
@@ -82,51 +79,3 @@ def sphere_grid(across: int, around: int) -> Array:
     polar, turn = np.linspace(0, np.pi, across + 1)[:, None], np.linspace(0, 2 * np.pi, around + 1)
     flat = np.sin(polar)
     return np.stack(np.broadcast_arrays(flat * np.cos(turn), flat * np.sin(turn), np.cos(polar)), axis=-1)
-
-
-def icosphere(divisions: int) -> tuple[Array, NDArray[np.int64]]:
-    """Unit vectors (v, 3) spread evenly over the sphere, and the triangles (t, 3) between them.
-
-    Examples
-    --------
-    >>> [part.shape for part in icosphere(1)]
-    [(42, 3), (80, 3)]
-    """
-    golden = (1 + np.sqrt(5)) / 2
-    corners = [(0, s, t * golden) for s in (-1, 1) for t in (-1, 1)]
-    points = np.array([np.roll(corner, shift) for shift in range(3) for corner in corners], dtype=float)
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
-    from scipy.spatial import ConvexHull
-
-    triangles = _outward(points, ConvexHull(points).simplices)
-    for _ in range(divisions):
-        edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        unique, place = np.unique(edges, axis=0, return_inverse=True)
-        middle = points[unique].sum(axis=1)
-        first, second, third = (len(points) + place.reshape(-1, 3)).T
-        points = np.concatenate([points, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
-        a, b, c = triangles.T
-        parts = [(a, first, third), (b, second, first), (c, third, second), (first, second, third)]
-        triangles = np.concatenate([np.stack(part, axis=1) for part in parts])
-    return points, triangles
-
-
-def _outward(points: Array, triangles: NDArray) -> NDArray[np.int64]:
-    a, b, c = np.moveaxis(points[triangles], 1, 0)
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
-    return np.where(inward[:, None], triangles[:, ::-1], triangles).astype(np.int64)
-
-
-def start_of_step(thrust: Thrust, k: int) -> float:
-    """Time of the first impulse component of step k, rad of the orbit."""
-    return thrust.interval * (3 * k // 2 if thrust.name == "ball" else k)
-
-
-def remaining_factors(thrust: Thrust, steps: int, k: int) -> Array:
-    """Factors of the steps k, ..., steps - 1 for states at the time when step k begins, (steps - k, 3, m).
-
-    Their sum holds the states that these steps bring back: X(steps - k, k), up to the free motion between
-    that time and the paper's instant of step k.
-    """
-    carried = satellite.transition(start_of_step(thrust, k))
-    return np.asarray(carried @ thrust.factors(steps)[k:])

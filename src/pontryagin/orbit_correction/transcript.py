@@ -1,21 +1,23 @@
 """A plan in words and numbers: what the command line prints as a table or as JSON, and plans as CSV."""
 
-import csv
-import io
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.io import formula
-from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.plan import Plan
+from pontryagin.io import rows
+from pontryagin.io.rows import Rows
+from pontryagin.orbit_correction.plan.correction import Plan
+from pontryagin.orbit_correction.system import satellite
 
 Report = dict[str, dict[str, Any]]
 
 COLUMNS = ("dr", "dv_R", "dv_T")
+"""The columns of a CSV file of states."""
+
 PROOF = ("primal_residual", "primal_value", "dual_value", "gap")
+"""The quantities of a certificate that are reported."""
+
 TITLES = {
     "ball": "Fewest steps, three impulse components each in a ball",
     "disc": "Fewest impulses, each in a disc",
@@ -94,66 +96,12 @@ def conclusion(plan: Plan) -> str:
     return f"{counted} take {float(plan.gauge):.12g} of the peak; {least}."
 
 
-class States(NamedTuple):
-    """The rows as they were read, and the states in them, (n, 3)."""
-
-    header: list[str]
-    rows: list[list[str]]
-    z0: Array
-
-
-def read(path: Path) -> States:
-    """Read states from the columns ``dr, dv_R, dv_T`` of a CSV file.
-
-    Raises
-    ------
-    ValueError
-        With the number of the line, if a column is missing or a row does not hold a state.
-    OSError
-        If the file cannot be read.
-    """
-    with path.open(newline="", encoding="utf-8-sig") as file:
-        reader = csv.reader(file)
-        header = [name.strip() for name in next(reader, [])]
-        missing = [name for name in COLUMNS if name not in header]
-        if missing:
-            raise ValueError(f"line 1: column {missing[0]} is missing, takes {', '.join(COLUMNS)}")
-        rows, numbers = [], []
-        for row in reader:
-            if row:
-                rows.append(row)
-                numbers.append(_state(row, header, reader.line_num))
-    if not rows:
-        raise ValueError("line 2: there is no state")
-    return States(header, rows, np.array(numbers))
-
-
-def _state(row: list[str], header: list[str], line: int) -> list[float]:
-    if len(row) != len(header):
-        raise ValueError(f"line {line}: {len(row)} entries under {len(header)} columns")
-    values = []
-    for name in COLUMNS:
-        text = row[header.index(name)]
-        try:
-            values.append(formula.number(text))
-        except ValueError:
-            raise ValueError(f"line {line}: {name} takes a number, got {text!r}") from None
-    return values
-
-
-def to_csv(states: States, plan: Plan) -> str:
+def to_csv(states: Rows, plan: Plan) -> str:
     """The rows as they were read, each with its plan; impulses beyond a state's own are empty."""
-    proof = {name: getattr(plan.certificate, name) for name in PROOF}
-    columns = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
-    columns |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)} | proof
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    most = plan.impulses.shape[-2]
-    fired = [f"{side}_{j}" for j in range(most) for side in ("w1", "w2")]
-    writer.writerow([*states.header, *columns, *fired])
-    for i, row in enumerate(states.rows):
-        told = [column[i].item() for column in columns.values()]
-        own = int(plan.impulse_count[i])
-        impulses = [*plan.impulses[i, :own].ravel().tolist(), *([""] * (2 * (most - own)))]
-        writer.writerow([*row, *told, *impulses])
-    return text.getvalue()
+    answers = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
+    answers |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
+    answers |= {name: getattr(plan.certificate, name) for name in PROOF}
+    for j in range(plan.impulses.shape[-2]):
+        fired = np.where((j < plan.impulse_count)[:, None], plan.impulses[:, j], np.nan)
+        answers |= {f"w1_{j}": fired[:, 0], f"w2_{j}": fired[:, 1]}
+    return rows.to_csv(states, answers)

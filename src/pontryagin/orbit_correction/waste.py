@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.orbit_correction.plan import correct
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.correction import correct
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from pontryagin.validation import positive, vectors
 
 

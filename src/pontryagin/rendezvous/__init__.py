@@ -49,8 +49,8 @@ from pontryagin import lazy
 __getattr__, __dir__, __all__ = lazy.attach(
     __name__,
     {
-        "Orbit": "problem.rendezvous",
-        "Chaser": "problem.rendezvous",
+        "Orbit": "problem.orbit",
+        "Chaser": "problem.chaser",
         "Rendezvous": "problem.rendezvous",
         "solve": "reduced.solution",
         "Extremal": "reduced.solution",

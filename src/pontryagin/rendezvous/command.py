@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from pontryagin.io import json_io
 from pontryagin.terminal import console
 
 Text = str | None
@@ -64,7 +65,7 @@ def solve(
     told = transcript.transcript(extremal)
     if json:
         sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
-        typer.echo(console.to_json(told | sampled))
+        typer.echo(json_io.to_json(told | sampled))
     else:
         console.show(_title(problem, case), transcript.shown(told), transcript.conclusion(told))
 
@@ -74,7 +75,7 @@ def _list(json: bool) -> None:
 
     titles = {name: one.title for name, one in cases().items()}
     if json:
-        typer.echo(console.to_json({"cases": titles}))
+        typer.echo(json_io.to_json({"cases": titles}))
     else:
         console.show("Cases of the report", {"cases": titles}, "--case NAME solves one of them.")
 

@@ -26,14 +26,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-from pontryagin.io import formula
+from pontryagin.io import formula, json_io
 from pontryagin.rendezvous.problem.cases import chaser_on
-from pontryagin.rendezvous.problem.rendezvous import (
-    Chaser,
-    Orbit,
-    Rendezvous,
-    number,
-)
+from pontryagin.rendezvous.problem.chaser import Chaser
+from pontryagin.rendezvous.problem.checks import number
+from pontryagin.rendezvous.problem.orbit import Orbit
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 Keys = tuple[str, ...]
 
@@ -60,12 +58,7 @@ def read(text: str) -> Rendezvous:
     >>> asked.free, asked.peak, round(asked.target.anomaly, 6)
     (True, 0.1, 0.785398)
     """
-    try:
-        whole = json.loads(text, object_pairs_hook=_once)
-    except json.JSONDecodeError as reason:
-        raise ValueError(f"line {reason.lineno}, column {reason.colno}: {reason.msg}") from None
-    except RecursionError:
-        raise ValueError("the objects are nested too deeply") from None
+    whole = json_io.from_json(text)
     given = _object("", whole, NEEDED, OPTIONAL)
     there = [key for key in OPTIONAL if key in given and (key, given[key]) != ("duration", None)]
     values = {key: _number(key, given[key]) for key in there}
@@ -97,15 +90,6 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, float) else value.tolist()
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of JSON none of whose keys is there twice."""
-    keys = [key for key, _ in pairs]
-    twice = next((key for i, key in enumerate(keys) if key in keys[:i]), None)
-    if twice is not None:
-        raise ValueError(f"{twice} is there twice")
-    return dict(pairs)
-
-
 def _chaser(given: Any, gravity: float) -> Chaser:
     if isinstance(given, Mapping) and not set(given) & {"r", "v1", "c"}:
         return chaser_on(_orbit("chaser", given, "the craft starts on an ellipse"), gravity)
@@ -116,7 +100,7 @@ def _chaser(given: Any, gravity: float) -> Chaser:
         return Chaser(**numbers, attitude=attitude)
 
 
-def _orbit(name: str, given: Any, why: str = "the target goes round") -> Orbit:
+def _orbit(name: str, given: Any, why: str = "the target moves on an ellipse") -> Orbit:
     turned = isinstance(given, Mapping) and bool(set(given) & set(ANGLES[3:]))
     keys = ANGLES if turned else ORBIT
     values = _object(name, given, keys)

@@ -15,6 +15,8 @@ from pathlib import Path
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
 _LAZY = "lazy"
 """The module whose computed imports lie below the package that calls its `attach`."""
+_PAPERS = "papers"
+"""The module whose `room` imports a module of each paper by its name."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
 _FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
@@ -41,6 +43,10 @@ class Source:
         above = tuple(f"{self.folder.name}.{name}" for name in _ABOVE_THE_PAPERS)
         inside = {name for name in self.modules if name == package or name.startswith(package + ".")}
         return inside if package.startswith(above) else {m for m in inside if not m.startswith(above)}
+
+    def rooms(self, names: set[str]) -> set[str]:
+        """The modules of these names in the papers' folders."""
+        return {m for m in self.modules if m.count(".") == 2 and m.rpartition(".")[2] in names}
 
     def package_of(self, module: str) -> str:
         """The package that a relative import in `module` starts from."""
@@ -70,8 +76,8 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
         if module in known:
             continue
         known.add(module)
-        if module == f"{source.folder.name}.{_LAZY}":
-            continue
+        if module in {f"{source.folder.name}.{name}" for name in (_LAZY, _PAPERS)}:
+            continue  # what their computed imports reach is counted where their functions are called
         text = source.modules[module].read_text(encoding="utf-8")
         open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
     files = {source.modules[module] for module in known}
@@ -129,6 +135,9 @@ def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
     if name == "attach":
         return source.below(package)
+    if name == "room":
+        names = {str(node.value) for node in ast.walk(call) if isinstance(node, ast.Constant)}
+        return source.rooms(names) if names else source.below(source.folder.name)
     if name not in _COMPUTED | _COMMANDS:
         return set()
     written = [node.value for node in ast.walk(call) if isinstance(node, ast.Constant)]

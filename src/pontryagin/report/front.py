@@ -9,22 +9,15 @@ from collections.abc import Mapping, Sequence
 
 from pontryagin.display.tables import markdown_table
 from pontryagin.io import files
+from pontryagin.ledger.verdict import TABLE
+from pontryagin.papers import PAPERS, Paper
 from pontryagin.report import dependencies
 from pontryagin.report.environment import environment
-from pontryagin.report.papers import PAPERS, Paper
 from pontryagin.report.workspace import Workspace
 
 Entry = Mapping[str, str]
 
-VERDICTS = {
-    "holds": "what is printed equals what is derived",
-    "misprint": "the printed form is wrong: the paper's own later lines use the derived one, or it plainly "
-    "cannot be meant",
-    "false": "a claim that fails; a certified counterexample is given",
-    "conditional": "true on a stated region, with a counterexample outside it",
-    "unreadable": "the scan does not say what is printed",
-    "not checked": "with the reason",
-}
+VERDICTS = {row.name: row.meaning for row in TABLE}
 
 _ASK = (
     "import json; from pontryagin import ledger; print(json.dumps([e.as_dict() for e in ledger.entries()]))"

@@ -16,9 +16,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from pontryagin.io import files
+from pontryagin.papers import packages
 from pontryagin.report import dependencies
 from pontryagin.report.environment import environment
-from pontryagin.report.papers import PAPERS
 from pontryagin.report.workspace import Workspace
 
 
@@ -39,7 +39,7 @@ class Clip:
 def modules(workspace: Workspace) -> list[str]:
     """The papers' playback modules, those that exist."""
     source = dependencies.Source(workspace.source)
-    names = dict.fromkeys(f"{source.folder.name}.{paper.package}.playback" for paper in PAPERS)
+    names = [f"{source.folder.name}.{package}.playback" for package in packages()]
     return [name for name in names if name in source.modules]
 
 

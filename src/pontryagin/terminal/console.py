@@ -4,7 +4,6 @@ Every `Refusal` names the option as it was typed; `pontryagin.cli` prints it in 
 """
 
 import csv
-import json
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -19,9 +18,7 @@ from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.io import files
 from pontryagin.io import formula as formulas
-
-Report = Mapping[str, Mapping[str, Any]]
-"""Headings, and under each its quantities: what a table shows and JSON holds."""
+from pontryagin.io.json_io import Report
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
@@ -199,38 +196,6 @@ def require_proof(proof: Certificate) -> None:
             f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
         )
         raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
-
-
-def plain(value: Any) -> Any:
-    """Arrays as lists and numbers as Python's own, for JSON; what is not finite becomes None.
-
-    Examples
-    --------
-    >>> plain({"t": np.array([0.5, np.nan]), "unique": np.True_})
-    {'t': [0.5, None], 'unique': True}
-    """
-    if isinstance(value, Mapping):
-        return {key: plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value if isinstance(value, bool | int | float | str | None) else str(value)
-
-
-def to_json(report: Report) -> str:
-    """A JSON object of objects, a quantity a line; numbers with all their digits."""
-    headings = []
-    for heading, quantities in report.items():
-        lines = (f"  {_dumped(name)}: {_dumped(value)}" for name, value in quantities.items())
-        headings.append(f" {_dumped(heading)}: {{\n" + ",\n".join(lines) + "\n }")
-    return "{\n" + ",\n".join(headings) + "\n}"
-
-
-def _dumped(value: Any) -> str:
-    return json.dumps(plain(value), ensure_ascii=False, allow_nan=False)
 
 
 def words(value: Any) -> str:

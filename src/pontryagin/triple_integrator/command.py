@@ -7,6 +7,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
+from pontryagin.io import json_io
 from pontryagin.terminal import console
 from pontryagin.triple_integrator import transcript
 
@@ -169,7 +170,7 @@ def _print(solution: Any, json: bool, samples: int) -> None:
     if samples:
         told["samples"] = transcript.samples(solution, samples)
     if json:
-        typer.echo(console.to_json(told))
+        typer.echo(json_io.to_json(told))
     else:
         console.show(transcript.account(solution).title, told, transcript.conclusion(solution))
 

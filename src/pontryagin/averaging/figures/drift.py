@@ -6,8 +6,8 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.extremal import Extremal
-from pontryagin.averaging.solution import AveragedSolution
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.extremal import Extremal
 from pontryagin.display.plotting import (
     BLUE,
     ORANGE,

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.averaging.extremal import Extremal
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.extremal import Extremal
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
-from pontryagin.averaging.solution import AveragedSolution
 from pontryagin.display.plotting import (
     PALETTE,
     styled,

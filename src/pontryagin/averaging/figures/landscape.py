@@ -7,9 +7,12 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.extremal import Extremals
+from pontryagin.averaging.averaged.solution import (
+    AveragedSolution,
+    solve_averaged,
+)
+from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
-from pontryagin.averaging.solution import AveragedSolution, solve_averaged
 from pontryagin.display.plotting import (
     styled,
     subplots,

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.extremal import Extremals
+from pontryagin.averaging.averaged.solution import solve_averaged
+from pontryagin.averaging.exact.extremal import Extremals
+from pontryagin.averaging.examples.smooth import smooth_example
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
-from pontryagin.averaging.smooth import smooth_example
-from pontryagin.averaging.solution import solve_averaged
 from pontryagin.display.plotting import (
     INK,
     styled,

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from pontryagin.arrays import Array
-from pontryagin.averaging import slopes
+from pontryagin.averaging.figures import cost_errors
 from pontryagin.averaging.figures.labels import EXACT, MEAN
 from pontryagin.display.plotting import (
     INK,
@@ -17,11 +17,11 @@ from pontryagin.display.plotting import (
 
 @styled
 def error_slopes() -> Figure:
-    """A panel for each problem of `slopes.problems`, with lines of slope 1 and 2."""
-    names = list(slopes.problems())
+    """A panel for each problem of `cost_errors.problems`, with lines of slope 1 and 2."""
+    names = list(cost_errors.problems())
     figure, axes = subplots(2, 3, height=4.2, sharex=True, sharey=True)
     for ax, name in zip(axes.flat, names, strict=False):
-        found = slopes.errors(name)
+        found = cost_errors.errors(name)
         _lines(ax, found.epsilon)
         ax.plot(found.epsilon, found.averaged, "o", color=MEAN, label="averaged, $J_0$")
         ax.plot(found.epsilon, found.ends, "s", color=ORANGE, markerfacecolor="white", label="ends only")
@@ -53,16 +53,16 @@ def cost_convergence(
     name: str = "rippled flywheel",
     epsilons: tuple[float, ...] = (0.1, 0.07, 0.05, 0.035, 0.02, 0.014, 0.01, 0.005, 0.002),
 ) -> Figure:
-    """The least exact cost of one of `slopes.problems` against epsilon, over the averaged and corrected.
+    """The least exact cost of one of `cost_errors.problems` against epsilon, over the averaged and corrected.
 
     Parameters
     ----------
     name : str
-        One of `slopes.problems`.
+        One of `cost_errors.problems`.
     epsilons : tuple of float
     """
     figure, ax = subplots(height=2.9)
-    found = slopes.errors(name, epsilons)
+    found = cost_errors.errors(name, epsilons)
     line = np.linspace(0, max(epsilons), 50)
     ax.axhline(found.first, color=MEAN, label="averaged, $J_0$")
     ax.plot(line, found.first + found.correction * line, "--", color=INK, label=r"$J_0 + \varepsilon J_1$")

@@ -3,9 +3,12 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.averaging.braking import Braking, brake
+from pontryagin.averaging.examples.braking import (
+    Braking,
+    brake,
+)
+from pontryagin.averaging.examples.spin_down import spin_down
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
-from pontryagin.averaging.spin_down_example import spin_down
 from pontryagin.display.plotting import (
     INK,
     SKY,

@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
-from pontryagin.averaging.extremal import Extremal
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.extremal import Extremal
+from pontryagin.averaging.examples.spiral import fly
 from pontryagin.averaging.figures.labels import EXACT, MEAN, SLOW_TIME
-from pontryagin.averaging.solution import AveragedSolution
-from pontryagin.averaging.spiral import fly
 from pontryagin.display.plotting import (
     GREEN,
     INK,

@@ -8,14 +8,14 @@ import sympy as sp
 from scipy.integrate import quad
 from scipy.special import ellipe
 
-from pontryagin.averaging import slopes as errors_of
-from pontryagin.averaging.count import window
-from pontryagin.averaging.extremal import Extremals
-from pontryagin.averaging.kepler_example import kepler
-from pontryagin.averaging.rotor_example import rotor
-from pontryagin.averaging.smooth import smooth_example
-from pontryagin.averaging.solution import AveragedSolution
-from pontryagin.averaging.spin_down_example import spin_down
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.count import window
+from pontryagin.averaging.exact.extremal import Extremals
+from pontryagin.averaging.examples.kepler import kepler
+from pontryagin.averaging.examples.rotor import rotor
+from pontryagin.averaging.examples.smooth import smooth_example
+from pontryagin.averaging.examples.spin_down import spin_down
+from pontryagin.averaging.figures import cost_errors
 
 X = sp.Symbol("x", real=True)
 UNEVEN = 1 + sp.cos(X) / 5
@@ -108,7 +108,7 @@ def extremals(found: Extremals, count: int) -> Columns:
 
 def slopes() -> Columns:
     """J0, the parts of J1, and the slopes of the errors of the problems of `slopes.problems`."""
-    rows = [errors_of.errors(name) for name in errors_of.problems()]
+    rows = [cost_errors.errors(name) for name in cost_errors.problems()]
     return {
         "problem": [row.name for row in rows],
         "$J_0$": [f"{row.first:.6f}" for row in rows],

@@ -3,16 +3,11 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Proof,
-    Slip,
-    Steps,
-    vanishes,
-)
-from pontryagin.orbit_correction import exact
+from pontryagin.ledger.evidence import Proof, Slip, Steps, vanishes
 from pontryagin.orbit_correction.claims.convexity import DISC, deficit
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.exact import ExactSystem
+from pontryagin.orbit_correction.derivation import exact
+from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
 claim = Page("Ibragimov 2017")
 

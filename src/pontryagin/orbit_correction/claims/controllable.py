@@ -5,18 +5,10 @@ from itertools import pairwise
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Consequence,
-    Equality,
-    Misprint,
-    Proof,
-    Steps,
-    vanishes,
-)
-from pontryagin.orbit_correction import summands
+from pontryagin.ledger.evidence import Conditional, Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.summands import A, u, x
+from pontryagin.orbit_correction.derivation import summands
+from pontryagin.orbit_correction.derivation.summands import A, u, x
 
 claim = Page("Ibragimov 2017")
 

@@ -4,11 +4,11 @@ import sympy as sp
 
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Equality
-from pontryagin.orbit_correction import summands
 from pontryagin.orbit_correction.claims.costate import parts
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.shapes import shape_inverse
-from pontryagin.orbit_correction.summands import A, A_transposed, H
+from pontryagin.orbit_correction.derivation import summands
+from pontryagin.orbit_correction.derivation.summands import A, A_transposed, H
 
 claim = Page("Ibragimov 2017")
 

@@ -3,16 +3,9 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Slip,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.exact import Ellipsoid
+from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
 claim = Page("Ibragimov 2017")
 

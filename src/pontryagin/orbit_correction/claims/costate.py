@@ -3,17 +3,11 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
-from pontryagin.orbit_correction.exact import ExactSystem
+from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
 claim = Page("Ibragimov 2017")
 

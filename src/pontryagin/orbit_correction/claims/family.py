@@ -2,7 +2,7 @@
 
 import functools
 
-from pontryagin.orbit_correction.exact import ExactSystem, exact_system
+from pontryagin.orbit_correction.derivation.exact import ExactSystem, exact_system
 
 
 @functools.cache

@@ -5,15 +5,10 @@ import functools
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
-from pontryagin.orbit_correction import summands
+from pontryagin.ledger.evidence import Equality, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.exact import ExactSystem
+from pontryagin.orbit_correction.derivation import summands
+from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
 claim = Page("Ibragimov 2017")
 

@@ -3,15 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Consequence,
-    Equality,
-    Misprint,
-    Proof,
-    Steps,
-    Unreadable,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Proof, Steps, Unreadable, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.derivation import interval, r, t, v_radial, v_transverse
 

@@ -3,18 +3,12 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Slip,
-    Steps,
-)
-from pontryagin.orbit_correction import exact, summands
+from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps
 from pontryagin.orbit_correction.claims.boundary import only_controls, optimal
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.summands import A_transposed
+from pontryagin.orbit_correction.derivation import exact, summands
+from pontryagin.orbit_correction.derivation.summands import A_transposed
 
 claim = Page("Ibragimov 2017")
 

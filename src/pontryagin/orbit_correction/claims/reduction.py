@@ -4,19 +4,12 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Refutation,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Proof, Refutation, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs
 from pontryagin.orbit_correction.derivation import interval
-from pontryagin.orbit_correction.exact import Ellipsoid
+from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
 claim = Page("Ibragimov 2017")
 

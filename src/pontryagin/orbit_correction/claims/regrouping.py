@@ -4,19 +4,13 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Consequence,
-    Equality,
-    Misprint,
-    Slip,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Slip, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.orbit import RADIAL, TRANSVERSE, printed_transition
-from pontryagin.orbit_correction.claims.tables import CONTROLS, units_off
+from pontryagin.orbit_correction.claims.tables import units_off
 from pontryagin.orbit_correction.derivation import interval
+from pontryagin.orbit_correction.printed import CONTROLS
 
 claim = Page("Ibragimov 2017")
 

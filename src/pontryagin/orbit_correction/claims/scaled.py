@@ -3,18 +3,12 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Slip,
-    Steps,
-)
-from pontryagin.orbit_correction import summands
+from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.interior import interior_state, share_of
-from pontryagin.orbit_correction.summands import alpha
+from pontryagin.orbit_correction.derivation import summands
+from pontryagin.orbit_correction.derivation.summands import alpha
 
 claim = Page("Ibragimov 2017")
 

@@ -3,19 +3,12 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Consequence,
-    Equality,
-    Misprint,
-    Proof,
-    Steps,
-    vanishes,
-)
-from pontryagin.orbit_correction import summands
+from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.exact import Ellipsoid, ExactSystem
-from pontryagin.orbit_correction.summands import A, A_transposed, H
+from pontryagin.orbit_correction.derivation import summands
+from pontryagin.orbit_correction.derivation.exact import Ellipsoid, ExactSystem
+from pontryagin.orbit_correction.derivation.summands import A, A_transposed, H
 
 claim = Page("Ibragimov 2017")
 

@@ -4,13 +4,7 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Equality,
-    Proof,
-    Refutation,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Equality, Proof, Refutation, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 

@@ -5,44 +5,19 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.ledger import Entry, Page
-from pontryagin.ledger.decimals import (
-    Decimals,
-    unit,
-)
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Proof,
-    Steps,
-)
+from pontryagin.ledger.decimals import Decimals, unit
+from pontryagin.ledger.evidence import Conditional, Proof, Steps
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
+from pontryagin.orbit_correction.printed import CONTROLS, COSTATES, FEWEST_STEPS, GAUGE, STATES
 
 claim = Page("Ibragimov 2017")
 
-STATES = (
-    ("-0.37787e-2", "-0.39109e-2", "1.41512e-2"),
-    ("-0.30870e-2", "0.58472e-2", "1.03056e-2"),
-    ("-0.19824e-2", "0.59918e-2", "0.47280e-2"),
-    ("0.00698e-2", "0.35937e-2", "0.07851e-2"),
-    ("0", "0", "0"),
-)
-COSTATES = (
-    ("0.1294", "0.2360", "-0.9631"),
-    ("0.1500", "-0.3167", "-0.9219"),
-    ("0.2617", "-0.5720", "-0.6986"),
-    ("0.6534", "-0.9623", "0.0850"),
-)
-CONTROLS = (
-    ("-0.04354e-2", "-0.24779e-2", "-0.27185e-2"),
-    ("-0.08869e-2", "-0.40092e-2", "-0.35862e-2"),
-    ("-0.17352e-2", "-0.52475e-2", "-0.01554e-2"),
-    ("-0.10099e-2", "-0.38877e-2", "0.01550e-2"),
-)
 NUMBERS = [number for table in (STATES[:4], COSTATES, CONTROLS) for row in table for number in row]
 
 ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
-"""Digits beyond the five printed ones of z0 (in units of the last) with which every printed number is "
-"rounded."""
+"""What is added to z0, in units of its last printed digit, so that every printed number is correctly rounded.
+"""
 
 
 def example(
@@ -79,14 +54,16 @@ def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = work
 )
 def number_of_steps():
     return Decimals(
-        {r"N_{\min}": "4"}, lambda: {r"N_{\min}": float(worked.ball_plan().steps)}, worked.ball_certificate
+        {r"N_{\min}": FEWEST_STEPS},
+        lambda: {r"N_{\min}": float(worked.ball_plan().steps)},
+        worked.ball_certificate,
     )
 
 
 @claim("after (12): α", "the Minkowski functional of X(4, 0) at z0 is 0.9286", verdict="holds")
 def gauge_of_the_example():
     key = r"\alpha = \mu(z_0, X(4, 0))"
-    return Decimals({key: "0.9286"}, lambda: {key: float(worked.ball_plan().gauge)}, worked.ball_certificate)
+    return Decimals({key: GAUGE}, lambda: {key: float(worked.ball_plan().gauge)}, worked.ball_certificate)
 
 
 @claim(
@@ -195,9 +172,11 @@ OFF = {
 }
 """The rows with numbers off by more than half a unit of the last digit."""
 
-FIRST = [row(1, k, {"x^*": STATES[k], r"\psi": COSTATES[k]}, OFF.get((1, k), "")) for k in range(4)]
-LAST = row(1, 4, {"x^*": STATES[4]})
-SECOND = [row(2, k, {"u^*": CONTROLS[k]}, OFF.get((2, k), "")) for k in range(4)]
+for k in range(4):
+    row(1, k, {"x^*": STATES[k], r"\psi": COSTATES[k]}, OFF.get((1, k), ""))
+row(1, 4, {"x^*": STATES[4]})
+for k in range(4):
+    row(2, k, {"u^*": CONTROLS[k]}, OFF.get((2, k), ""))
 
 
 @claim(

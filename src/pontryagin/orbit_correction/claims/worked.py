@@ -11,13 +11,12 @@ from scipy.optimize import linprog
 from pontryagin.arrays import Array
 from pontryagin.ledger import Unsupported
 from pontryagin.ledger.evidence import Steps
-from pontryagin.orbit_correction import derivation
-from pontryagin.orbit_correction.plan import Plan, correct
-from pontryagin.orbit_correction.system import Gauge, gauge_of_factors
+from pontryagin.orbit_correction import derivation, printed
+from pontryagin.orbit_correction.gauges.general import Gauge, gauge_of_factors
+from pontryagin.orbit_correction.plan.correction import Plan, correct
 
-Z0 = np.array([-0.37787e-2, -0.39109e-2, 1.41512e-2])
-INTERVAL, PEAK = 0.25, 0.0035
-EXACT = {derivation.interval: sp.Rational(1, 4)}
+Z0, INTERVAL, PEAK = np.array(printed.Z0), float(printed.INTERVAL), float(printed.PEAK)
+EXACT = {derivation.interval: sp.Rational(printed.INTERVAL)}
 SPARSE = (0, 2, 3, 5)
 """Intervals at whose starts four impulses suffice; the engine rests at the others."""
 

@@ -4,14 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.orbit_correction import ergodic
 from pontryagin.orbit_correction.figures import labels
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 
 @styled

@@ -6,14 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import GREY, INK, styled, subplots
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.flight import ClosedLoop, residuals
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 
 @styled
@@ -37,7 +33,7 @@ def nonlinear_residual(z0: ArrayLike, interval: float = 0.25, peak: float = 0.00
         ax.plot(sizes, left, linewidth=1.0, label=words, **style)
     ends = np.array([1e-6, 1e-1])
     ax.plot(ends, 3 * ends**2, "--", color=INK, linewidth=0.9, label=r"$3\,|z_0|^2$")
-    ax.axhline(2**-53, color="#888888", linewidth=0.8)
+    ax.axhline(2**-53, color=GREY, linewidth=0.8)
     ax.annotate("rounding", (sizes[-1], 2**-53), (0, 3), textcoords="offset points", ha="right")
     ax.set(xscale="log", yscale="log", xlabel=labels.DEVIATION, ylabel="left after the plan")
     ax.legend()
@@ -65,7 +61,7 @@ def replanning(loops: Mapping[str, ClosedLoop]) -> Figure:
         left = np.maximum(loop.residuals, 2**-56)
         style = {"color": labels.COLOURS[name], "marker": labels.MARKERS[name]}
         ax.plot(fired, left, label=labels.NAMES[name], **style)
-    ax.axhline(2**-53, color="#888888", linewidth=0.8)
+    ax.axhline(2**-53, color=GREY, linewidth=0.8)
     ax.annotate("rounding of a number near 1", (0, 2**-53), (0, 3), textcoords="offset points")
     ax.set(yscale="log", xlabel="impulses fired", ylabel="deviation left")
     labels.whole_numbers(ax)

@@ -6,15 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.errors import Infeasible
 from pontryagin.orbit_correction.figures import labels
-from pontryagin.orbit_correction.pball import power_gauge
-from pontryagin.orbit_correction.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.gauges.pball import power_gauge
+from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
 from pontryagin.validation import vectors
 
 

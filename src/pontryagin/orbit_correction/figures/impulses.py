@@ -8,20 +8,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    RED,
-    styled,
-    subplots,
-)
-from pontryagin.orbit_correction import satellite
-from pontryagin.orbit_correction.alternatives import Alternative, least_energy, least_fuel, least_peak
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, RED, styled, subplots
 from pontryagin.orbit_correction.figures import labels
-from pontryagin.orbit_correction.flight import single
-from pontryagin.orbit_correction.plan import Plan
+from pontryagin.orbit_correction.plan.alternatives import Alternative, least_energy, least_fuel, least_peak
+from pontryagin.orbit_correction.plan.correction import Plan, single
+from pontryagin.orbit_correction.system import satellite
 
 MEASURES = {"peak": BLUE, "energy": ORANGE, "fuel": GREEN}
 

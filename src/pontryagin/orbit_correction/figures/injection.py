@@ -3,10 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import GREY, styled, subplots
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.montecarlo import Distribution
 
@@ -34,7 +31,7 @@ def injection_impulses(found: Distribution, sure: float = 0.99) -> Figure:
         right.annotate(
             str(enough), (enough, sure), (4, -14), textcoords="offset points", color=labels.COLOURS[name]
         )
-    right.axhline(sure, color="#888888", linewidth=0.8, linestyle=":")
+    right.axhline(sure, color=GREY, linewidth=0.8, linestyle=":")
     left.set(xlabel=labels.IMPULSES, ylabel="share of injections", ylim=(0, 1.45 * left.get_ylim()[1]))
     right.set(xlabel=labels.IMPULSES, ylabel="share corrected", ylim=(0, 1.04))
     left.legend()

@@ -3,13 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    RED,
-)
+from pontryagin.display.plotting import BLUE, GREEN, ORANGE, PURPLE, RED
 
 COLOURS = {"ball": BLUE, "disc": GREEN, "box": RED}
 NAMES = {"ball": "ball (the paper)", "disc": "disc", "box": "square"}

@@ -7,21 +7,9 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    WIDTH,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
 from pontryagin.orbit_correction import sets
-from pontryagin.orbit_correction.flight import single
-from pontryagin.orbit_correction.plan import Plan
+from pontryagin.orbit_correction.plan.correction import Plan, single
 
 SHADES = (PURPLE, GREEN, BLUE, SKY, RED, INK)
 PERCENT = 100.0

@@ -4,16 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import BLUE, GREEN, GREY, ORANGE, styled, subplots
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.intervals import singular_values, sweep
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 
 @styled
@@ -50,7 +44,7 @@ def impulses_over_interval(
     below.legend(loc=(0.62, 0.04))
     for ax in (above, below):
         for turn in (np.pi, 2 * np.pi):
-            ax.axvline(turn, color="#888888", linewidth=0.8, linestyle=":")
+            ax.axvline(turn, color=GREY, linewidth=0.8, linestyle=":")
     below.set_xticks(np.pi / 2 * np.arange(5), ["0", r"$\pi/2$", r"$\pi$", r"$3\pi/2$", r"$2\pi$"])
     below.set_xlabel(r"interval $\Delta t$, rad of the orbit")
     figure.align_ylabels()

@@ -6,62 +6,45 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.orbit_correction import ergodic, satellite
+from pontryagin.arrays import Array
+from pontryagin.orbit_correction import ergodic, printed
 from pontryagin.orbit_correction.figures.impulses import same_length
 from pontryagin.orbit_correction.flight import ClosedLoop
+from pontryagin.orbit_correction.gauges.general import gauge_of_factors
+from pontryagin.orbit_correction.gauges.pball import fewest_power_steps
 from pontryagin.orbit_correction.montecarlo import Distribution
-from pontryagin.orbit_correction.pball import fewest_power_steps
-from pontryagin.orbit_correction.plan import Plan, correct
-from pontryagin.orbit_correction.system import gauge_of_factors
-from pontryagin.orbit_correction.thrust import THRUSTS
+from pontryagin.orbit_correction.plan.correction import Plan, correct
+from pontryagin.orbit_correction.plan.thrust import THRUSTS
+from pontryagin.orbit_correction.system import satellite
 from pontryagin.orbit_correction.waste import Waste
 from pontryagin.validation import vectors
 
 Columns = dict[str, list[Any]]
-
-PRINTED_STATES = (
-    ("-0.37787", "-0.39109", "1.41512"),
-    ("-0.30870", "0.58472", "1.03056"),
-    ("-0.19824", "0.59918", "0.47280"),
-    ("0.00698", "0.35937", "0.07851"),
-    ("0", "0", "0"),
-)
-PRINTED_COSTATES = (
-    ("0.1294", "0.2360", "-0.9631"),
-    ("0.1500", "-0.3167", "-0.9219"),
-    ("0.2617", "-0.5720", "-0.6986"),
-    ("0.6534", "-0.9623", "0.0850"),
-)
-PRINTED_CONTROLS = (
-    ("-0.04354", "-0.24779", "-0.27185"),
-    ("-0.08869", "-0.40092", "-0.35862"),
-    ("-0.17352", "-0.52475", "-0.01554"),
-    ("-0.10099", "-0.38877", "0.01550"),
-)
-"""The paper's two tables; states and controls in units of 1e-2."""
+"""Headings, and under each its entries."""
 
 
 def states(plan: Plan) -> Columns:
     """The first table's states, 10^-2: printed, ours, and the difference in units of the last digit."""
-    return _beside(PRINTED_STATES, 100 * plan.states, "x", 5)
+    return _beside(printed.STATES, 100 * plan.states, "x", 5)
 
 
 def costates(plan: Plan) -> Columns:
     """The first table's adjoint vectors: printed, ours, and the difference in units of the last digit."""
-    return _beside(PRINTED_COSTATES, plan.costates, r"\psi", 4)
+    return _beside(printed.COSTATES, plan.costates, r"\psi", 4)
 
 
 def controls(plan: Plan) -> Columns:
     """The second table, 10^-2: printed, ours, and the difference in units of the last digit."""
-    return _beside(PRINTED_CONTROLS, 100 * plan.controls, "u", 5)
+    return _beside(printed.CONTROLS, 100 * plan.controls, "u", 5)
 
 
-def _beside(printed: Sequence[Sequence[str]], ours: np.ndarray, symbol: str, digits: int) -> Columns:
-    if ours.shape != (len(printed), 3):
-        raise ValueError(f"plan must have {len(printed)} rows of this table, got shape {ours.shape}")
-    columns: Columns = {"$k$": list(range(len(printed)))}
+def _beside(numbers: Sequence[Sequence[str]], ours: Array, symbol: str, digits: int) -> Columns:
+    """A printed table, without its common factor 10^-2, beside our numbers in the same units."""
+    if ours.shape != (len(numbers), 3):
+        raise ValueError(f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}")
+    columns: Columns = {"$k$": list(range(len(numbers)))}
     for i in range(3):
-        texts, name = [row[i] for row in printed], f"{symbol}_{i + 1}"
+        texts, name = [row[i].removesuffix("e-2") for row in numbers], f"{symbol}_{i + 1}"
         away = (ours[:, i] - np.array([float(text) for text in texts])) * 10**digits
         columns[f"${name}$ printed"] = [text.replace("-", "−") for text in texts]
         columns[f"${name}$ ours"] = [_fixed(value, digits + 2) for value in ours[:, i]]
@@ -108,7 +91,7 @@ def printed_inputs(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) 
         ],
         r"$\alpha(3)$": [float(three.alpha) for three, _ in found],
         r"$\alpha(4)$": [float(four.alpha) for _, four in found],
-        "printed": ["0.9286", "0.9286"],
+        "printed": [printed.GAUGE, printed.GAUGE],
         **{rf"$\psi_{i + 1}(0)$": [float(four.costate[i]) for _, four in found] for i in range(3)},
     }
 

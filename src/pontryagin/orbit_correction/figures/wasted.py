@@ -3,12 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    BLUE,
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import BLUE, INK, styled, subplots
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.waste import Waste
 

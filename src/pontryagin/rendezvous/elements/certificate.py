@@ -12,6 +12,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.arcs import (
     COSTATES,
@@ -30,7 +31,6 @@ from pontryagin.rendezvous.elements.flight import (
     switching,
 )
 from pontryagin.rendezvous.elements.shooting import Root
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import jacobian
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.validation import common_shape, finite, positive, vectors
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
@@ -161,8 +162,7 @@ def relation_gradient(craft: Elements) -> Array:
 def place_gradient(craft: Elements) -> Array:
     """Derivatives (6, 8) of R and V in A and B, fM = 1."""
     inputs = np.concatenate([craft.A, craft.B, [craft.phi]])
-    steps = inputs[:, None] + 1e-30j * np.eye(9)[:, :8]
-    return np.array(kernels.element_place(*steps)).imag / 1e-30
+    return jacobian(lambda x: kernels.element_place(*x), inputs)[1][:, :8]
 
 
 def _oscillation(R: Array, V: Array) -> Array:

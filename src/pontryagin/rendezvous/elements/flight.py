@@ -12,7 +12,9 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.arcs import Arc, Piece, SwitchedFlow, follow, places, rates, sample
+from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.equations import ON_ARRAYS
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.arcs import (
     COLUMNS,
@@ -34,15 +36,12 @@ from pontryagin.rendezvous.elements.elements import (
 )
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 GRAZING = 1e-7
 """Rate of |n|^2 by phi at a switch below which the thrust may switch off and on again in between."""
-STEP = 1e-30
-"""Complex step of derivatives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,10 +185,10 @@ def fly_elements(
 
 def switching_gradient(state: Array, phi: float) -> tuple[Array, float]:
     """Gradient of |n|^2 in the 18 states, and its derivative in phi, by complex steps."""
-    inputs = np.append(state[:16], phi)[:, None] + 1j * STEP * np.eye(17)
-    n = np.array(kernels.element_switching(*inputs))
-    slopes = np.sum(n**2, axis=0).imag / STEP
-    return np.concatenate([slopes[:16], [0.0, 0.0]]), float(slopes[16])
+    _, (slopes,) = jacobian(
+        lambda x: [sum(part**2 for part in kernels.element_switching(*x))], np.append(state[:16], phi)
+    )
+    return np.append(slopes[:16], [0.0, 0.0]), float(slopes[16])
 
 
 def end_rates(flight: ElementFlight) -> Array:

@@ -12,6 +12,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.arcs import TIME
 from pontryagin.rendezvous.elements.flight import (
@@ -38,7 +39,6 @@ from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 Goal = Callable[[float], tuple[Array, Array]]
 """Time to R and V (6,) and their rates (6,)."""
 
-STEP = 1e-30
 ITERATIONS = 25
 TRIES = 60
 LEAST_STEP = 1 / 128
@@ -132,8 +132,8 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
 def _place(flight: ElementFlight) -> tuple[Array, Array, Array]:
     """R and V at the end, their derivatives (6, 8) in A and B, and in phi."""
     inputs = np.append(flight.end[:8], flight.phi)
-    whole = np.array(kernels.element_place(*(inputs[:, None] + 1j * STEP * np.eye(9))))
-    return whole[:, 0].real, whole[:, :8].imag / STEP, whole[:, 8].imag / STEP
+    values, slopes = jacobian(lambda x: kernels.element_place(*x), inputs)
+    return values, slopes[:, :8], slopes[:, 8]
 
 
 def _terminal(flight: ElementFlight, columns: Array) -> tuple[float, Array]:

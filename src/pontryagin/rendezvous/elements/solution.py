@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.numerics.rotation import conjugate, product, rotated
 from pontryagin.rendezvous.elements.certificate import (
     ElementsCertificate,
     certify,
@@ -36,7 +37,6 @@ from pontryagin.rendezvous.elements.start import (
 )
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.reduced.first_extremal import (
     first_duration,
     require_apart,

@@ -10,6 +10,8 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import kepler
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.elements.elements import (
     I1,
     Elements,
@@ -28,7 +30,6 @@ from pontryagin.rendezvous.elements.shooting import (
     newton,
 )
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
 UNBOUNDED = Law("square", 1.0, np.inf)
@@ -37,20 +38,15 @@ SHARES = (1.0, 0.6, 0.4, 0.25)
 
 
 def coasted(orbit: Elements, duration: float) -> float:
-    """phi gained by coasting for a time, fM = 1: Kepler's equation in the elements, by Newton's method."""
+    """phi gained by coasting for a time, fM = 1: half the eccentric anomaly, by Kepler's equation."""
     A, B = np.asarray(orbit.u), np.asarray(orbit.w)
     pace = math.sqrt(2 * float(orbit.Q))
     square, other, mixed = float(A @ A), float(B @ B), float(A @ B)
-    phi = duration / (pace * (square + other) / 2)
-    for _ in range(60):
-        sin, cos = math.sin(phi), math.cos(phi)
-        swept = (square + other) / 2 * phi + (square - other) / 2 * sin * cos + mixed * sin * sin
-        rate = square * cos * cos + other * sin * sin + 2 * mixed * sin * cos
-        step = (pace * swept - duration) / (pace * rate)
-        phi -= max(-1.0, min(1.0, step))
-        if abs(step) < 1e-15 * (1 + abs(phi)):
-            return phi
-    return phi
+    whole = square + other
+    eccentricity = math.hypot(other - square, 2 * mixed) / whole
+    begin = math.atan2(2 * mixed, other - square)
+    mean = kepler.mean_anomaly(begin, eccentricity) + 4 * duration / (pace * whole)
+    return float(kepler.eccentric_anomaly(mean, eccentricity) - begin) / 2
 
 
 def aligned(orbit: Elements, other: Elements) -> tuple[Array, float]:

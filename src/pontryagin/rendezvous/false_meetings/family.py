@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous.false_meetings.printed_conditions import (
     hamiltonian,
     printed_conditions,
@@ -28,7 +29,6 @@ from pontryagin.rendezvous.false_meetings.rotated_target import (
     towards_turned,
 )
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.quaternions import conjugate, product
 from pontryagin.rendezvous.reduced.certificate import fly_full
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.homotopy import (

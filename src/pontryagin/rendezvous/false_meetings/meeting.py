@@ -11,15 +11,13 @@ import math
 import numpy as np
 
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.rotation import about_third, product, rotated
 from pontryagin.rendezvous.false_meetings.rotated_target import (
     refined,
     towards_turned,
 )
-from pontryagin.rendezvous.problem.rendezvous import (
-    Rendezvous,
-    number,
-)
-from pontryagin.rendezvous.quaternions import about_third, product, rotated
+from pontryagin.rendezvous.problem.checks import number
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.homotopy import (
     Point,

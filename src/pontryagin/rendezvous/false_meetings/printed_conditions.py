@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative
+from pontryagin.numerics.rotation import conjugate, product, rotated
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.reduced.certificate import anomaly_constant
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.shooting import end_rates
-
-STEP = 1e-30
 
 
 def reduced(row: Array, eccentricity: float) -> Array:
@@ -66,8 +65,7 @@ def printed_jacobian(flight: Flight) -> Array:
     inputs = np.concatenate([flight.end[:10], flight.costates[3:], [constant]])
 
     def column(direction: Array) -> Array:
-        moved = inputs + 1j * STEP * direction
-        return printed_conditions(flight, moved[:10], moved[10:13], moved[13]).imag / STEP
+        return derivative(lambda x: printed_conditions(flight, x[:10], x[10:13], x[13]), inputs, direction)[1]
 
     slopes = np.column_stack([column(direction) for direction in np.eye(14)])
     by_end, by_start, by_constant = slopes[:, :10], slopes[:, 10:13], slopes[:, 13]

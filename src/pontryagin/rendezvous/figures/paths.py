@@ -3,8 +3,8 @@
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.rotation import about_third, product, rotated
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.quaternions import about_third, product, rotated
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 

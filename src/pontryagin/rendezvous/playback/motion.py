@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.rendezvous.quaternions import about_third, conjugate, product, rotated
+from pontryagin.numerics.rotation import about_third, conjugate, product, rotated
 from pontryagin.rendezvous.reduced import certificate as certify
 from pontryagin.rendezvous.reduced.flight import switching
 from pontryagin.rendezvous.reduced.flight import thrust as thrust_of

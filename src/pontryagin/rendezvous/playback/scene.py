@@ -24,9 +24,9 @@ from pontryagin.display.recording import (
     View,
     record,
 )
+from pontryagin.numerics.rotation import product, rotated
 from pontryagin.rendezvous.false_meetings.meeting import paper_residual
 from pontryagin.rendezvous.playback.motion import Passage
-from pontryagin.rendezvous.quaternions import product, rotated
 
 SECONDS = 30.0
 """How long a replay takes."""

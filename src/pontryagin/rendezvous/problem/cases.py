@@ -8,12 +8,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from pontryagin.rendezvous.problem.rendezvous import (
-    Chaser,
-    Orbit,
-    Rendezvous,
-)
-from pontryagin.rendezvous.quaternions import about_third, product
+from pontryagin.numerics.rotation import about_third, product
+from pontryagin.rendezvous.problem.chaser import Chaser
+from pontryagin.rendezvous.problem.orbit import Orbit
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 ONE = (1.0, 0.0, 0.0, 0.0)
 SUN = 1.32712440018e11

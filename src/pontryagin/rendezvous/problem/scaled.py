@@ -1,33 +1,34 @@
-"""A rendezvous in the solver's units."""
+"""A rendezvous in the solver's units: p* = c* = fM = 1, and the craft starts with the attitude 1."""
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative
+from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.quaternions import conjugate, product
-
-if TYPE_CHECKING:
-    from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.chaser import Chaser
+from pontryagin.rendezvous.problem.orbit import Orbit
 
 
+@dataclass(frozen=True, eq=False)
 class Scaled:
-    """A problem with p* = c* = fM = 1, in which the craft starts with the attitude 1.
+    """The numbers of a rendezvous with p* = c* = fM = 1 and lambda = 1 at t0.
 
     The cost is in units in which alpha2 = 1, or alpha1 = 1 where alpha2 = 0.
 
     Attributes
     ----------
-    length, time : float
-        p* and sqrt(p*^3/fM) in the user's units.
+    length, time, acceleration : float
+        p*, sqrt(p*^3/fM) and fM/p*^2, the solver's units in those of the user.
     value : float
-        The unit of the cost.
+        The solver's unit of the cost in that of the user.
     start : (3,) array
         r, v1, c at t0.
     anomaly, eccentricity : float
-        phi* at t0; e*.
+        phi* at t0, in radians; e*.
     orientation : (4,) array
         lambda0~ o Lambda*.
     ratio : float
@@ -35,26 +36,51 @@ class Scaled:
     peak : float
         p_max.
     duration : float or None
-        t_k where fixed.
+        t_k if it is prescribed.
     """
 
-    def __init__(self, problem: "Rendezvous") -> None:
-        craft, orbit = problem.chaser, problem.target
-        self.length = orbit.parameter
-        self.time = math.sqrt(self.length**3 / problem.gravity)
-        speed = self.length / self.time
-        self.start = np.array([craft.r / self.length, craft.v1 / speed, craft.c / (self.length * speed)])
-        self.anomaly, self.eccentricity = orbit.anomaly, orbit.eccentricity
-        self.orientation = product(conjugate(craft.attitude), orbit.attitude)
-        self.acceleration = speed / self.time
-        self.peak = problem.peak / self.acceleration
-        time_weight, energy_weight = (
-            problem.time_weight * self.time,
-            problem.energy_weight * self.acceleration**2 * self.time,
+    length: float
+    time: float
+    acceleration: float
+    value: float
+    start: Array
+    anomaly: float
+    eccentricity: float
+    orientation: Array
+    ratio: float
+    peak: float
+    duration: float | None
+
+    @classmethod
+    def of(
+        cls,
+        chaser: Chaser,
+        target: Orbit,
+        time_weight: float,
+        energy_weight: float,
+        peak: float,
+        gravity: float,
+        duration: float | None,
+    ) -> "Scaled":
+        """The numbers of a `Rendezvous`, whose arguments these are."""
+        length = target.parameter
+        time = math.sqrt(length**3 / gravity)
+        speed = length / time
+        acceleration = speed / time
+        time_cost, energy_cost = time_weight * time, energy_weight * acceleration**2 * time
+        return cls(
+            length=length,
+            time=time,
+            acceleration=acceleration,
+            value=energy_cost or time_cost,
+            start=np.array([chaser.r / length, chaser.v1 / speed, chaser.c / (length * speed)]),
+            anomaly=target.anomaly,
+            eccentricity=target.eccentricity,
+            orientation=product(conjugate(chaser.attitude), target.attitude),
+            ratio=time_cost / energy_cost if energy_cost else math.inf,
+            peak=peak / acceleration,
+            duration=None if duration is None else duration / time,
         )
-        self.ratio = time_weight / energy_weight if energy_weight else math.inf
-        self.value = energy_weight or time_weight
-        self.duration = None if problem.duration is None else problem.duration / self.time
 
     @property
     def weights(self) -> tuple[float, float]:
@@ -63,15 +89,14 @@ class Scaled:
 
     @property
     def costate_units(self) -> Array:
-        """User's units of rho, s1, e, nu1, nu2, nu3: those of the cost over those of the state."""
+        """Units of rho, s1, e, nu1, nu2, nu3 in those of the user, (6,): the cost's over the state's."""
         speed = self.length / self.time
         return self.value / np.array([self.length, speed, self.length * speed, 1.0, 1.0, 1.0])
 
     def target(self, anomaly: float, orientation: Array | None = None) -> tuple[Array, Array]:
-        """r*, v1*, c* and lambda0~ o lambda* (7,), and their rates (7,), at an anomaly."""
+        """r*, v1*, c* and lambda0~ o lambda* of (5) and (6) at an anomaly, (7,), and their rates, (7,)."""
         place = self.orientation if orientation is None else orientation
-        step = 1e-30j
-        values = np.array(kernels.target(anomaly + step, 1.0, self.eccentricity, 1.0, *place))
-        rate = values[3].real
-        goal = np.delete(values, 3)
-        return goal.real, goal.imag / step.imag * rate
+        values, slopes = derivative(
+            lambda phi: np.array(kernels.target(phi, 1.0, self.eccentricity, 1.0, *place)), anomaly
+        )
+        return np.delete(values, 3), np.delete(slopes, 3) * values[3]

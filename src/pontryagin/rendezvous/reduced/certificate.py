@@ -12,8 +12,8 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
+from pontryagin.numerics.rotation import conjugate, product, rotated
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.quaternions import conjugate, product, rotated
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     switching,

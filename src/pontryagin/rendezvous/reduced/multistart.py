@@ -7,10 +7,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.complex_step import jacobian
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.reduced.homotopy import newton
 from pontryagin.rendezvous.reduced.lanes import (
     Flights,
@@ -19,7 +20,6 @@ from pontryagin.rendezvous.reduced.lanes import (
 from pontryagin.rendezvous.reduced.search_log import Search
 from pontryagin.rendezvous.reduced.shooting import (
     SEEN,
-    STEP,
     Setting,
 )
 from pontryagin.rendezvous.reduced.solution import (
@@ -167,13 +167,12 @@ def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
         values = kernels.target(flights.ends[:, 3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
     goal = np.delete(np.array([np.broadcast_to(value, count) for value in values]), 3, axis=0)
     inputs = np.vstack([flights.ends.T[SEEN], flights.costates.T[3:]])
-    steps = inputs[:, None] + 1j * STEP * np.eye(10)[:, :, None]
     with np.errstate(all="ignore"):  # at a chart's singular direction
-        missed = np.array(kernels.mismatch(*[*steps, flights.charts, *goal]))
-    by_input = np.moveaxis(missed.imag / STEP, -1, 0)
+        values, missed = jacobian(lambda x: kernels.mismatch(*[*x, flights.charts, *goal]), inputs)
+    by_input = np.moveaxis(missed, -1, 0)
     slopes = by_input[..., :7] @ flights.slopes[:, SEEN, :6]
     slopes[..., 3:] += by_input[..., 7:]
-    return missed[:, 0].real.T, slopes
+    return values.T, slopes
 
 
 def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]:

@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.complex_step import derivative, jacobian
+from pontryagin.numerics.rotation import about_third, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import about_third, product
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
@@ -22,7 +23,6 @@ from pontryagin.rendezvous.reduced.flight import (
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
 """r, v1, c, nu and chi among the twelve states."""
-STEP = 1e-30
 I3 = np.array([0.0, 0.0, 0.0, 1.0])
 
 
@@ -120,19 +120,16 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
     """(5) and (6) towards a goal r, v1, c, lambda0~ o lambda (7,): values (6,), slopes (6, 12) in the end
     states, (6, 3) in nu at the start."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    steps = inputs[:, None] + 1j * STEP * np.eye(len(inputs))
-    values = np.array(kernels.mismatch(*[*steps, flight.chart, *goal]))
-    slopes = values.imag / STEP
+    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x, flight.chart, *goal]), inputs)
     by_state = np.zeros((6, 12))
     by_state[:, SEEN] = slopes[:, :7]
-    return values[:, 0].real, by_state, slopes[:, 7:]
+    return values, by_state, slopes[:, 7:]
 
 
 def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
     """Derivative of `mismatch` when the goal moves in a direction."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    moved = goal + 1j * STEP * direction
-    return np.array(kernels.mismatch(*[*inputs, flight.chart, *moved])).imag / STEP
+    return derivative(lambda x: kernels.mismatch(*[*inputs, flight.chart, *x]), goal, direction)[1]
 
 
 def end_rates(flight: Flight) -> Array:
@@ -201,12 +198,10 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
 def _terminal(setting: Setting, flight: Flight) -> tuple[float, Array]:
     """|n|/|n|_wanted - 1 at the end, and its derivatives in the twelve states."""
     used = [0, 2, 5, 6, 7]
-    inputs = flight.end[used]
-    steps = inputs[:, None] + 1j * STEP * np.eye(5)
-    square = np.asarray(kernels.switching_square(*steps))
-    size = math.sqrt(square[0].real)
+    square, by_used = jacobian(lambda x: [kernels.switching_square(*x)], flight.end[used])
+    size = math.sqrt(square[0])
     slopes = np.zeros(12)
-    slopes[used] = square.imag / STEP / (2 * size) / setting.end_switching
+    slopes[used] = by_used[0] / (2 * size) / setting.end_switching
     return size / setting.end_switching - 1, slopes
 
 

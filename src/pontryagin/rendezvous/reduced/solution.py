@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.quaternions import product
 from pontryagin.rendezvous.reduced.certificate import (
     RendezvousCertificate,
     certify,

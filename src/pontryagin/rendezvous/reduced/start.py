@@ -11,8 +11,9 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import kepler
+from pontryagin.numerics.rotation import about_third, conjugate, product
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import about_third, conjugate, product
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
@@ -141,34 +142,9 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path)
 
 def ballistic_lead(scaled: Scaled, duration: float) -> float:
     """By how much the target turns farther than the coasting craft would, in radians."""
-    turned = []
-    for radius, radial, areal, anomaly in (
-        (*scaled.start, None),
-        (0.0, 0.0, 1.0, scaled.anomaly),
-    ):
-        if anomaly is None:
-            parameter = areal**2
-            vector = (parameter / radius - 1, areal * radial)
-            eccentricity, anomaly = math.hypot(*vector), math.atan2(vector[1], vector[0])
-        else:
-            parameter, eccentricity = 1.0, scaled.eccentricity
-        turned.append(_swept(parameter, eccentricity, anomaly, duration))
-    return turned[1] - turned[0]
-
-
-def _swept(parameter: float, eccentricity: float, anomaly: float, duration: float) -> float:
-    """The true anomaly gained on a Kepler ellipse in a time, fM = 1."""
-    motion = math.sqrt(((1 - eccentricity**2) / parameter) ** 3)
-    squeeze = math.sqrt((1 - eccentricity) / (1 + eccentricity))
-    lap = 2 * math.pi * round(anomaly / (2 * math.pi))
-    begin = 2 * math.atan(squeeze * math.tan((anomaly - lap) / 2))
-    mean = begin - eccentricity * math.sin(begin) + motion * duration
-    eccentric = mean
-    for _ in range(60):
-        gap = eccentric - eccentricity * math.sin(eccentric) - mean
-        step = gap / (1 - eccentricity * math.cos(eccentric))
-        eccentric -= step
-        if abs(step) < 1e-14 * (1 + abs(eccentric)):
-            break
-    turns = 2 * math.pi * round(eccentric / (2 * math.pi))
-    return turns + 2 * math.atan(math.tan((eccentric - turns) / 2) / squeeze) + lap - anomaly
+    radius, radial, areal = scaled.start
+    along, across = areal**2 / radius - 1, areal * radial
+    anomaly, eccentricity = math.atan2(across, along), math.hypot(along, across)
+    craft = kepler.true_anomaly_after(anomaly, duration, areal**2, eccentricity) - anomaly
+    target = kepler.true_anomaly_after(scaled.anomaly, duration, 1.0, scaled.eccentricity) - scaled.anomaly
+    return float(target - craft)

@@ -11,9 +11,10 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics import kepler
+from pontryagin.numerics.rotation import rotated
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.quaternions import rotated
 from pontryagin.rendezvous.reduced.flight import Flight
 
 
@@ -75,15 +76,8 @@ def target_by_kepler(scaled: Scaled, time: float) -> Array:
     e = scaled.eccentricity
     axis = 1 / (1 - e**2)
     motion = axis**-1.5
-    half = scaled.anomaly / 2
-    begin = 2 * math.atan2(math.sqrt(1 - e) * math.sin(half), math.sqrt(1 + e) * math.cos(half))
-    mean = begin - e * math.sin(begin) + motion * time
-    eccentric = mean
-    for _ in range(60):
-        step = (eccentric - e * math.sin(eccentric) - mean) / (1 - e * math.cos(eccentric))
-        eccentric -= step
-        if abs(step) < 1e-15 * (1 + abs(eccentric)):
-            break
+    mean = kepler.mean_anomaly(kepler.eccentric_of_true(scaled.anomaly, e), e) + motion * time
+    eccentric = float(kepler.eccentric_anomaly(mean, e))
     minor = axis * math.sqrt(1 - e**2)
     sin, cos = math.sin(eccentric), math.cos(eccentric)
     pace = motion / (1 - e * cos)

@@ -1,0 +1,181 @@
+"""A first guess: straight to the target, with the costate that makes the Hamiltonian vanish on the way."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.collocation import (
+    Path,
+    Problem,
+)
+from pontryagin.averaging.averaged.mesh import (
+    Mesh,
+    derivative,
+    evaluate,
+)
+
+GROWTHS = 40
+NEAR = 1e-3
+"""Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
+
+SHARES = 96
+IDLE = 1e-9
+"""The share of a costate that is as good as none, and has derivatives where none has not."""
+
+
+@dataclass(frozen=True, eq=False)
+class Guess:
+    """Guessed paths, and where along them no costate brings the averaged Hamiltonian up to zero.
+
+    Attributes
+    ----------
+    path : Path
+    slow : (s, k, n) array
+        Points of the straight way.
+    frequency : (s, k) array
+        omega there.
+    idle : (s) array
+        H0 without costate at the start: minus the mean running cost, plus omega kappa.
+    stuck : (s, k) boolean array
+        No control moves the slow variables along the guessed direction there.
+    """
+
+    path: Path
+    slow: Array
+    frequency: Array
+    idle: Array
+    stuck: NDArray[np.bool_]
+
+
+def straight(problem: Problem, mesh: Mesh) -> Guess:
+    """The way along the straight line to the target's nearest point, at the mesh's points of slow time."""
+    model = problem.model
+    start = problem.start
+    end, direction = _nearest(problem)
+    slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
+    length, stuck = _level(problem, slow, direction)
+    eta = length[..., None] * direction[:, None]
+    z = np.concatenate([slow, eta], axis=-1)
+    h, omega = problem.averaged(z)
+    speed = h.gradient[..., model.slow :]
+    idle = problem.hamiltonian(np.concatenate([slow, IDLE * eta], axis=-1)[:, :1]).value[:, 0]
+    along = np.einsum("ski,si->sk", speed, direction)
+    reach = np.einsum("si,si->s", end - start, direction)[:, None]
+    pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
+    clock = pace @ mesh.integrals.T
+    z = _at_even_times(mesh, clock / clock[:, -1:], z)
+    alpha = _multipliers(problem, z[:, -1])
+    return Guess(Path(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+
+
+def shot(problem: Problem, mesh: Mesh) -> Path | None:
+    """The averaged extremal that leaves the start as `straight` does, up to the target's level.
+
+    Runge and Kutta's method in steps that bring the target nearer by equal shares; None where it turns away.
+    """
+    model, n = problem.model, problem.model.slow
+    _, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    if stuck.any():
+        return None
+
+    def flow(z: Array) -> Array:
+        gradient = problem.hamiltonian(z[:, None]).gradient[:, 0]
+        return np.concatenate([gradient[:, n:], -gradient[:, :n]], axis=-1)
+
+    def missing(z: Array) -> tuple[Array, Array]:
+        target, _ = model.ends(z[:, :n], problem.numbers)
+        return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
+
+    z = np.concatenate([problem.start, length * direction], axis=-1)
+    far, _ = missing(z)
+    path, times = [z], [np.zeros(len(z))]
+    for _ in range(SHARES):
+        left, pace = missing(z)
+        nearing = (pace * far).sum(axis=1)
+        if not (nearing > 0).all():
+            return None
+        step = np.minimum((far * far).sum(axis=1) / SHARES, (left * far).sum(axis=1)) / nearing
+        h = step[:, None]
+        k1 = flow(z)
+        k2 = flow(z + h / 2 * k1)
+        k3 = flow(z + h / 2 * k2)
+        k4 = flow(z + h * k3)
+        z = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        path.append(z)
+        times.append(times[-1] + step)
+    values, clock = np.stack(path, axis=1), np.stack(times, axis=1)
+    duration = clock[:, -1]
+    if not (np.isfinite(values).all() and (duration > 0).all()):
+        return None
+    at = [
+        np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
+        for c, own in zip(clock, values, strict=True)
+    ]
+    return Path(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
+
+
+def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
+    """Values (s, k, 2n) at even shares of time of what is known at even shares of the way."""
+    edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
+    share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
+    for _ in range(3):
+        late = evaluate(edges, series, share)[..., 0] - mesh.points
+        inside = np.clip(share, 1e-9, 1 - 1e-9)
+        pace = derivative(edges, series, inside)[..., 0]
+        share = np.clip(share - np.divide(late, pace, out=np.zeros_like(late), where=pace > 0), 0, 1)
+    return evaluate(edges, mesh.series(z), share)
+
+
+def _nearest(problem: Problem) -> tuple[Array, Array]:
+    """A point of the target (s, n) near the start, and the covector (s, n) that points at it."""
+    end, direction = problem.start, None
+    for _ in range(50):
+        target, _ = problem.model.ends(end, problem.numbers)
+        short = problem.level - target.value
+        inverse = np.linalg.pinv(np.nan_to_num(target.gradient @ np.swapaxes(target.gradient, 1, 2)))
+        multiplier = np.einsum("srq,sq->sr", inverse, short)
+        step = np.einsum("sri,sr->si", target.gradient, multiplier)
+        direction = step if direction is None else direction
+        end = end + step
+        if (np.abs(step) <= 1e-12 * (np.abs(end) + np.abs(end - problem.start))).all():
+            break
+    assert direction is not None
+    away = -target.gradient.sum(axis=1)
+    direction = np.where((direction == 0).all(axis=1, keepdims=True), away, direction)
+    size = np.linalg.norm(direction, axis=1, keepdims=True)
+    return end, direction / np.where(size > 0, size, 1)
+
+
+def _level(
+    problem: Problem, slow: Array, direction: Array, length: Array | float = 1.0
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Lengths (s, k) of the costate along `direction` at which H0 = 0; H0 is convex along it.
+
+    Newton's method, its steps bounded; where there is no root the length grows and the result is 1.
+    """
+    n = problem.model.slow
+    length = np.broadcast_to(length, slow.shape[:-1])
+    for _ in range(GROWTHS):
+        eta = length[..., None] * direction[:, None]
+        h = problem.hamiltonian(np.concatenate([slow, eta], axis=-1))
+        slope = np.einsum("ski,si->sk", h.gradient[..., n:], direction)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            root = np.where(slope > 0, length - h.value / slope, np.inf)
+        following = np.clip(root, length / 8, 8 * length)
+        settled = np.abs(following - length) <= NEAR * length
+        length = following
+        if (settled | np.isnan(root)).all():
+            break
+    stuck = ~settled
+    return np.where(stuck, 1.0, length), stuck
+
+
+def _multipliers(problem: Problem, end: Array) -> Array:
+    """alpha of eta_1 = -(g' + alpha M'), in the sense of least squares."""
+    n = problem.model.slow
+    target, terminal = problem.model.ends(end[:, :n], problem.numbers)
+    inverse = np.linalg.pinv(np.nan_to_num(np.swapaxes(target.gradient, 1, 2)))
+    return -np.einsum("sri,si->sr", inverse, end[:, n:] + terminal.gradient)

@@ -1,0 +1,299 @@
+"""Solutions of the first approximation, (2.17)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.mesh import evaluate as evaluate_series
+from pontryagin.averaging.averaged.solve import extremals
+from pontryagin.averaging.system.anomaly import (
+    anomaly_at,
+    phase_at,
+)
+from pontryagin.averaging.system.jets import evaluate
+from pontryagin.averaging.system.model import Model
+from pontryagin.certificate import MaximumPrinciple
+from pontryagin.validation import finite, times, vectors
+
+if TYPE_CHECKING:
+    from pontryagin.averaging.exact.extremal import Extremals
+
+
+@dataclass(frozen=True, eq=False)
+class AveragedSolution:
+    """The averaged extremal of a problem or of a stack (...) of them, with n slow variables.
+
+    Attributes
+    ----------
+    duration : (...) array
+        tau_1, in slow time tau = epsilon t.
+    cost : (...) array
+        J_0.
+    start : (..., n) array
+        a_0.
+    multipliers : (..., r) array
+        alpha of the target's r conditions.
+    kappa : (...) array
+        Minus the mean of the phase's costate over epsilon; zero at the optimum.
+    certificate : MaximumPrinciple
+        Residuals between the points where the extremal was computed, with other quadratures.
+    names : tuple of str
+        The slow variables, in the order of `slow` and `costate`. They are the system's own: the cost, which
+        the paper counts among them, has the costate -1 and is left out.
+    initial_phase : (...) array
+        psi_0 where the problem says it (`spin_down`), else zero.
+    numbers : tuple of (...) arrays
+        Values of the system's numbers, in their order.
+    model : Model
+        The averaged system, compiled.
+    edges : array
+        Ends of the pieces of (0, tau_1), as shares of it.
+    series : array
+        Chebyshev coefficients of xi and eta on the pieces.
+    make_system : callable
+        Makes the `PhaseSystem`, when it is asked for.
+    frame : callable or None
+        From this solution to the same one in variables that are regular at the target, if its own are not.
+    """
+
+    duration: Array
+    cost: Array
+    start: Array
+    multipliers: Array
+    kappa: Array
+    certificate: MaximumPrinciple
+    names: tuple[str, ...]
+    initial_phase: Array
+    numbers: tuple[Array, ...]
+    model: Model
+    edges: Array
+    series: Array
+    make_system: Callable[[], object]
+    frame: Callable | None = None
+
+    @cached_property
+    def system(self):
+        """The `PhaseSystem` that was averaged."""
+        return self.make_system()
+
+    def slow(self, tau: ArrayLike) -> Array:
+        """xi at slow times tau (k,) or (..., k), as (..., k, n)."""
+        return self._at(tau)[..., : len(self.names)]
+
+    def costate(self, tau: ArrayLike) -> Array:
+        """eta at slow times tau (k,) or (..., k), as (..., k, n)."""
+        return self._z(tau)[..., len(self.names) :]
+
+    def frequency(self, tau: ArrayLike) -> Array:
+        """omega(xi) at slow times tau (k,) or (..., k), as (..., k)."""
+        return self.model.averaged(self._z(tau), self._numbers)[1].value
+
+    def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
+        """psi_0 + integral of omega d tau / epsilon, right to O(1), as (..., k).
+
+        Raises
+        ------
+        ValueError
+            If epsilon is not positive.
+        """
+        small = _positive_epsilon(epsilon)
+        begin = self.initial_phase if phase is None else finite("phase", phase, "a number or an array (...)")
+        turned = self._at(tau)[..., -1]
+        return np.asarray(begin)[..., None] + self.duration[..., None] * turned / small
+
+    def control(self, tau: ArrayLike, anomaly: ArrayLike) -> Array:
+        """u*(xi, x, eta) of (2.17) at slow times and anomalies x (k,) or (..., k), as (..., k, m)."""
+        x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
+        z = np.moveaxis(self._z(tau), -1, 0)
+        return evaluate(self.model.control, *z, x, *self._numbers)
+
+    def mean_rate(self, tau: ArrayLike) -> Array:
+        """d xi / d tau, the mean of f under u*, as (..., k, n)."""
+        z = self._z(tau)
+        return self.model.averaged(z, self._numbers)[0].gradient[..., len(self.names) :]
+
+    def anomaly(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
+        """The anomaly x of `phase`, as (..., k)."""
+        psi = self.phase(tau, epsilon, phase)
+        return anomaly_at(self.model, self.slow(tau), psi, self._numbers)
+
+    def phase_of(self, tau: ArrayLike, anomaly: ArrayLike) -> Array:
+        """psi of an anomaly x (k,) or (..., k) at slow times tau, as (..., k)."""
+        x = finite("anomaly", anomaly, "a number or an array (k,) of anomalies")
+        return phase_at(self.model, self.slow(tau), x, self._numbers)
+
+    def correction(self, phase: ArrayLike | None = None, ending: ArrayLike | None = None) -> Array:
+        """J_1, (...): the least cost is cost + epsilon J_1 + O(epsilon^2).
+
+        Parameters
+        ----------
+        phase : (...) array, optional
+            psi_0; `initial_phase` by default.
+        ending : (...) array, optional
+            Anomaly at the end; by default the optimum's. It must be given where the trajectory leaves no
+            choice of it (one slow variable in the least time), and J_1 varies with it.
+
+        Raises
+        ------
+        ValueError
+            If kappa is not zero, an argument is not finite, or `ending` must be given.
+        """
+        from pontryagin.averaging.averaged.correction import correction
+
+        return correction(self, self.initial_phase if phase is None else phase, ending)
+
+    def exact(self, epsilon: float, phase: float | None = None) -> "Extremals":
+        """All extremals of the unaveraged problem around the optimum, best first; one problem only.
+
+        Parameters
+        ----------
+        epsilon : float
+            Positive.
+        phase : float, optional
+            psi_0; `initial_phase` by default.
+
+        Raises
+        ------
+        ValueError
+            If epsilon is not positive, or the solution is a stack.
+        """
+        small = _positive_epsilon(epsilon)
+        if self.duration.shape:
+            raise ValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
+        from pontryagin.averaging.exact import roots
+
+        return roots.extremals(self, small, float(self.initial_phase) if phase is None else phase)
+
+    @property
+    def _numbers(self) -> tuple[Array, ...]:
+        return tuple(number[..., None] for number in self.numbers)
+
+    def _z(self, tau: ArrayLike) -> Array:
+        return self._at(tau)[..., :-1]
+
+    def _at(self, tau: ArrayLike) -> Array:
+        """(xi, eta, integral of omega) at slow times, (..., k, 2n + 1)."""
+        inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
+        whole = self.duration[..., None]
+        share = np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+        return evaluate_series(self.edges, self.series, share)
+
+
+def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
+    """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
+
+    The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
+    target along its straight line, or that continues the extremals to nearer levels of the target. It
+    satisfies the necessary conditions; where a system has several averaged extremals the others are not
+    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
+    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
+
+    Parameters
+    ----------
+    system : PhaseSystem
+        Its numbers may be arrays.
+    start : (..., n) array
+        a_0; leading axes, with those of the numbers and of kappa, make a stack of problems.
+    kappa : (...) array
+        Member of the family of (2.11); other than zero to explore it.
+
+    Raises
+    ------
+    ValueError
+        If the frequency is not positive all the way, the running cost is not positive on average, or an
+        input is not finite or wrongly shaped.
+    Infeasible
+        If the target cannot be reached: the mean drift opposes every control and exceeds it.
+    NotConverged
+        If no extremal was found, with what was left of the target.
+
+    Examples
+    --------
+    The rotating pendulum of `PhaseSystem` is sped up from the energy 2 to 5:
+
+    >>> import sympy as sp
+    >>> from pontryagin.averaging import PhaseSystem, Quadratic, solve_averaged
+    >>> a, x, u = sp.symbols("a x u", real=True)
+    >>> speed = sp.sqrt(2 * (a + sp.cos(x)))
+    >>> pendulum = PhaseSystem(f=[speed * (u - speed / 5)], anomaly_rate=speed, control_set=Quadratic(),
+    ...                        slow=[a], control=[u], phase=x, target=[a - 5])
+    >>> solution = solve_averaged(pendulum, [2.0])
+    >>> solution.certificate.holds(1e-10)
+    True
+    """
+    from pontryagin.averaging.system.phase_system import PhaseSystem
+
+    if not isinstance(system, PhaseSystem):
+        raise TypeError(f"system must be a PhaseSystem, got {system!r}")
+    begin = vectors("start", start, len(system.slow))
+    names = tuple(str(symbol) for symbol in system.slow)
+    numbers = tuple(np.asarray(value) for value in system.numbers.values())
+    return solved(
+        system.model,
+        names,
+        begin,
+        numbers,
+        lambda: system,
+        kappa=kappa,
+    )
+
+
+def solved(
+    model: Model,
+    names: tuple[str, ...],
+    start: Array,
+    numbers: tuple[Array, ...],
+    make_system: Callable[[], object],
+    *,
+    kappa: ArrayLike = 0.0,
+    initial_phase: ArrayLike = 0.0,
+    frame: Callable | None = None,
+) -> AveragedSolution:
+    """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
+    family = finite("kappa", kappa, "a number or an array (...)")
+    phase = np.asarray(initial_phase, dtype=float)
+    try:
+        shape = np.broadcast_shapes(
+            start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
+        )
+    except ValueError:
+        raise ValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
+    n = len(names)
+    each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
+    begin = np.broadcast_to(start, (*shape, n))
+    *held, flat_kappa = (number.reshape(-1) for number in each)
+    found = extremals(model, names, begin.reshape(-1, n), tuple(held), flat_kappa)
+    residuals = (
+        found.certificate.boundary,
+        found.certificate.transversality,
+        found.certificate.hamiltonian,
+        found.certificate.maximality,
+    )
+    return AveragedSolution(
+        duration=found.duration.reshape(shape),
+        cost=found.cost.reshape(shape),
+        start=begin,
+        multipliers=found.multipliers.reshape(*shape, model.target),
+        kappa=each[-1],
+        certificate=MaximumPrinciple(*(residual.reshape(shape) for residual in residuals)),
+        names=names,
+        initial_phase=np.broadcast_to(phase, shape),
+        numbers=tuple(each[:-1]),
+        model=model,
+        edges=found.edges.reshape(*shape, -1),
+        series=found.series.reshape(*shape, *found.series.shape[1:]),
+        make_system=make_system,
+        frame=frame,
+    )
+
+
+def _positive_epsilon(epsilon: float) -> float:
+    value = finite("epsilon", epsilon, "a positive number")
+    if value.shape or not value > 0:
+        raise ValueError(f"epsilon must be a positive number, got {epsilon!r}")
+    return float(value)

@@ -1,0 +1,196 @@
+"""Exact extremals of the unaveraged problem, each with its trajectory and its certificate."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.arcs import switched_flow
+from pontryagin.averaging.exact.canonical import (
+    Canonical,
+    y,
+)
+from pontryagin.averaging.exact.family import Family
+from pontryagin.certificate import MaximumPrinciple
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import (
+    Flow,
+    flow,
+)
+from pontryagin.validation import times
+
+
+@dataclass(frozen=True, eq=False)
+class Extremal:
+    """One extremal of the unaveraged problem with n slow variables.
+
+    Attributes
+    ----------
+    cost : float
+        J.
+    duration : float
+        tau_1 = epsilon t_1.
+    kind : str
+        "minimum" or "maximum" of J among the solutions that end at neighbouring anomalies.
+    epsilon : float
+    starting_anomaly, ending_anomaly : float
+        x at the start, in its first turn, and at the end; of `spin_down`, the angle chi of `rotating_frame`.
+    curvature : float
+        d^2 J / dtheta^2 along the family, epsilon dy/dtheta: the sign decides `kind`.
+    initial : (2n + 3,) array
+        (a, p, p_x/epsilon, tau, J) at the start, in the variables of the exact equations.
+    equations : Canonical
+        What it solves.
+    parameters : array
+        epsilon, then the system's numbers.
+    certify : callable
+        Makes the certificate, when it is asked for.
+    turn_to_phase : callable
+        psi of the slow variables (k, n) and the anomalies (k,).
+    view : callable or None
+        From the equations' variables and controls to the problem's own, where they differ.
+    """
+
+    cost: float
+    duration: float
+    kind: str
+    epsilon: float
+    starting_anomaly: float
+    ending_anomaly: float
+    curvature: float
+    initial: Array
+    equations: Canonical = field(repr=False)
+    parameters: Array = field(repr=False)
+    certify: Callable[[], MaximumPrinciple] = field(repr=False)
+    turn_to_phase: Callable[[Array, Array], Array] = field(repr=False)
+    view: Callable[[Array, Array], Array] | None = field(default=None, repr=False)
+
+    @cached_property
+    def certificate(self) -> MaximumPrinciple:
+        """Residuals of the maximum principle, from a second propagation that shares no integrator."""
+        return self.certify()
+
+    @property
+    def turns(self) -> float:
+        """Turns of the anomaly."""
+        return (self.ending_anomaly - self.starting_anomaly) / (2 * np.pi)
+
+    def slow(self, tau: ArrayLike) -> Array:
+        """The slow variables a at slow times (k,), as (k, n)."""
+        seen = self._seen(tau)
+        return seen[:, : _slow(seen)]
+
+    def costate(self, tau: ArrayLike) -> Array:
+        """p at slow times (k,), as (k, n)."""
+        seen = self._seen(tau)
+        return seen[:, _slow(seen) : 2 * _slow(seen)]
+
+    def phase_costate(self, tau: ArrayLike) -> Array:
+        """p_x, conjugate to the anomaly, at slow times (k,): of order epsilon, and zero at the end."""
+        return self.epsilon * self._states(tau)[:, -4]
+
+    def anomaly(self, tau: ArrayLike) -> Array:
+        """x at slow times (k,)."""
+        return self._seen(tau)[:, -1]
+
+    def phase(self, tau: ArrayLike) -> Array:
+        """The rotating phase psi at slow times (k,)."""
+        seen = self._seen(tau)
+        return self.turn_to_phase(seen[:, : _slow(seen)], seen[:, -1])
+
+    def spent(self, tau: ArrayLike) -> Array:
+        """Integral of the running cost up to slow times (k,)."""
+        return self._states(tau)[:, -2]
+
+    def control(self, tau: ArrayLike) -> Array:
+        """u at slow times (k,), as (k, m)."""
+        return self._control(self._states(tau))
+
+    def _control(self, states: Array) -> Array:
+        held = states[:, : 2 * len(self.equations.slow) + 1]
+        return _control(self.equations)(*held.T, states[:, -1], *self.parameters)[0][..., 0]
+
+    def _seen(self, tau: ArrayLike) -> Array:
+        """(a, p, y, tau, J, x) in the averaged solution's variables."""
+        states = self._states(tau)
+        return states if self.view is None else self.view(states, self._control(states))
+
+    def _states(self, tau: ArrayLike) -> Array:
+        """(a, p, y, tau, J, x) at slow times (k,) in any order."""
+        wanted = times("tau", tau, np.zeros(()), np.asarray(self.duration))
+        grid, place = np.unique(np.concatenate([[0.0], wanted]), return_inverse=True)
+        start = np.append(self.initial, self.starting_anomaly)
+        if len(grid) == 1:
+            return np.broadcast_to(start, (len(wanted), len(start)))
+        return _follow(self.equations)(start, grid, self.parameters)[place[1:]]
+
+
+@dataclass(frozen=True, eq=False)
+class Extremals(Sequence[Extremal]):
+    """All extremals found, the least cost first.
+
+    Attributes
+    ----------
+    items : tuple of Extremal
+    epsilon, phase : float
+        psi_0 is the phase.
+    family : Family or None
+        The solutions over their ending anomaly among which the extremals are the stationary ones; None where
+        the trajectory leaves no choice of it. Its ``limits`` say why the search ended on either side.
+    """
+
+    items: tuple[Extremal, ...]
+    epsilon: float
+    phase: float
+    family: Family | None
+
+    @property
+    def traced(self) -> Family:
+        """The family.
+
+        Raises
+        ------
+        ValueError
+            If there is none, as where the least time of one slow variable leaves no choice of the end.
+        """
+        if self.family is None:
+            raise ValueError("these extremals have no family over the ending anomaly")
+        return self.family
+
+    @overload
+    def __getitem__(self, index: int) -> Extremal: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Extremal, ...]: ...
+
+    def __getitem__(self, index):
+        return self.items[index]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __iter__(self) -> Iterator[Extremal]:
+        return iter(self.items)
+
+
+def _slow(states: Array) -> int:
+    """n of states (k, 2n + 4)."""
+    return states.shape[1] // 2 - 2
+
+
+@lru_cache(maxsize=32)
+def _follow(equations: Canonical) -> Flow:
+    arguments = ((*equations.states, equations.anomaly), equations.time_rates, equations.parameters)
+    return switched_flow(equations.modes, *arguments) if equations.modes else flow(*arguments)
+
+
+@lru_cache(maxsize=32)
+def _control(equations: Canonical):
+    import sympy as sp
+
+    arguments = [*equations.slow, *equations.costates, y, equations.anomaly, *equations.parameters]
+    return compiler.function("control", arguments, {"u": sp.Matrix(equations.control)})

@@ -1,0 +1,275 @@
+"""From guesses of the initial costates to what is missing at the end, for many guesses at once.
+
+Unknowns are w = (p0, alpha); y0 follows from H = 0. The end is where the anomaly has turned to theta. What
+is left there is M(a1) and p1 + g' + alpha M', in units of the problem's own size; y1, which vanishes on
+extremals, is what the family of solutions over theta is searched for.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from functools import lru_cache
+
+import numpy as np
+import sympy as sp
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.arcs import switched_ends
+from pontryagin.averaging.exact.canonical import (
+    Canonical,
+    canonical,
+    y,
+)
+from pontryagin.errors import NotConverged
+from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics.lanes import Ends, ends
+
+ROUGH = 1e-9
+"""Tolerance of the flow with derivatives, which direct Newton's method; residuals come from the other."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """Where k guesses lead.
+
+    Attributes
+    ----------
+    theta, unknowns, initial : (k,), (k, n + r), (k,) array
+        Anomaly at the end, (p0, alpha), and y0.
+    residual : (k, n + r) array
+        What is missing, scaled.
+    y, hamiltonian, duration, cost : (k,) array
+        p_x/epsilon, h* = -y r, slow time and J at the end.
+    ends : (k, 2n + 3) array
+        States there.
+    """
+
+    theta: Array
+    unknowns: Array
+    initial: Array
+    residual: Array
+    y: Array
+    hamiltonian: Array
+    duration: Array
+    cost: Array
+    ends: Array
+
+    @property
+    def error(self) -> Array:
+        """Largest entry of the residual, (k,)."""
+        return np.abs(self.residual).max(axis=-1)
+
+    def __getitem__(self, index) -> "Shot":
+        """Those of the guesses."""
+        return Shot(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    def put(self, index, shot: "Shot") -> None:
+        """Overwrite some of the guesses."""
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(shot, f.name)
+
+    @staticmethod
+    def joined(shots: Sequence["Shot"]) -> "Shot":
+        """One after the other."""
+        return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
+
+
+def newton_step(matrices: Array, residuals: Array) -> Array:
+    """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
+    try:
+        return -np.linalg.solve(matrices, residuals[..., None])[..., 0].astype(np.float64)
+    except np.linalg.LinAlgError:
+        return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Derivatives of residual and y of a `Shot` in w and theta."""
+
+    residual_w: Array
+    residual_theta: Array
+    y_w: Array
+    y_theta: Array
+
+    @property
+    def along(self) -> tuple[Array, Array]:
+        """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
+        w = newton_step(self.residual_w, self.residual_theta)
+        return w, self.y_theta + (self.y_w * w).sum(axis=-1)
+
+
+@dataclass(frozen=True)
+class Shooting:
+    """The exact problem of one start and one epsilon.
+
+    Attributes
+    ----------
+    equations : Canonical
+    start : (n,) array
+        a0.
+    anomaly : float
+        x0.
+    parameters : (1 + numbers,) array
+        epsilon, then the system's numbers.
+    scale_a, scale_p, scale_m : (n,), (n,), (r,) array
+        Sizes of slow variables, costates and target.
+    price : float
+        Mean running cost J0/tau1, the size of h*.
+    """
+
+    equations: Canonical
+    start: Array
+    anomaly: float
+    parameters: Array
+    scale_a: Array
+    scale_p: Array
+    scale_m: Array
+    price: float
+
+    def shoot(self, theta: Array, w: Array) -> Shot:
+        """Follow the extremals that leave with p0 to the anomalies theta."""
+        starts = self.starts(w)
+        reached, _ = _carry(self.equations, False)(starts, self.anomaly, theta, self.parameters)
+        return self._shot(theta, w, starts, reached)
+
+    def slopes(self, theta: Array, w: Array) -> tuple[Shot, Slopes]:
+        """The same with derivatives, by the variational equations."""
+        n = len(self.start)
+        starts = self.starts(w)
+        reached, through = _carry(self.equations, True)(starts, self.anomaly, theta, self.parameters)
+        rates = _rates(self.equations)(*reached.T, theta, *self.parameters)[0][..., 0]
+        _, *motion = _start(self.equations)(*starts[:, : 2 * n + 1].T, self.anomaly, *self.parameters)
+        y0_p = -np.stack(motion[:-1], axis=-1) / motion[-1][:, None]
+        by_p = through[..., :n] + through[..., n:] * y0_p[:, None, :]
+        _, _, jacobian, curvature = self.boundary(reached, w)
+        shot = self._shot(theta, w, starts, reached)
+        count, r = len(w), len(self.scale_m)
+        by_w = np.concatenate([by_p, np.zeros((count, by_p.shape[1], r))], axis=-1)
+        a_w, a_theta = by_w[:, :n], rates[:, :n]
+        p_w = by_w[:, n : 2 * n] + curvature @ a_w
+        p_w[..., n:] += jacobian.transpose(0, 2, 1)
+        p_theta = rates[:, n : 2 * n] + (curvature @ a_theta[..., None])[..., 0]
+        return shot, Slopes(
+            np.concatenate([jacobian @ a_w / self.scale_m[:, None], p_w / self.scale_p[:, None]], axis=1),
+            np.concatenate(
+                [(jacobian @ a_theta[..., None])[..., 0] / self.scale_m, p_theta / self.scale_p], axis=1
+            ),
+            by_w[:, 2 * n],
+            rates[:, 2 * n],
+        )
+
+    def starts(self, w: Array) -> Array:
+        """Initial states (k, 2n + 3): y0 from H = 0 by Newton, starting where F is left out."""
+        n, count = len(self.start), len(w)
+        p = w[:, :n]
+        y0 = np.zeros(count)
+        for _ in range(50):
+            value, *_, rate = _start(self.equations)(*self.start, *p.T, y0, self.anomaly, *self.parameters)
+            step = -value / rate
+            y0 = y0 + step
+            if (np.abs(step) <= 4e-16 * (1 + np.abs(y0))).all():
+                break
+        else:
+            raise NotConverged("H = 0 has no solution for the phase's costate", float(np.abs(step).max()))
+        fixed = np.broadcast_to(self.start, (count, n))
+        return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
+
+    def carry(self, starts: Array, begin: float, end: float) -> Array:
+        """States (k, 2n + 3) carried from one anomaly to another, backwards too."""
+        return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
+
+    def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
+        """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
+        n = len(self.start)
+        return _boundary(self.equations)(*reached[:, :n].T, *w[:, n:].T, *self.parameters)
+
+    def missing(self, reached: Array, theta: Array, w: Array) -> tuple[Array, Array, Array]:
+        """Scaled residual (k, n + r), J with the terminal cost, and r, at states reached (k, 2n + 3)."""
+        n = len(self.start)
+        target, gradient, _, _ = self.boundary(reached, w)
+        missed = target[..., 0] / self.scale_m
+        left = (reached[:, n : 2 * n] + gradient[..., 0]) / self.scale_p
+        terminal, rate = _terminal(self.equations)(*reached[:, :n].T, theta, *self.parameters)
+        return np.concatenate([missed, left], axis=1), reached[:, 2 * n + 2] + terminal, rate
+
+    def _shot(self, theta: Array, w: Array, starts: Array, reached: Array) -> Shot:
+        n = len(self.start)
+        residual, cost, rate = self.missing(reached, theta, w)
+        y1 = reached[:, 2 * n]
+        return Shot(
+            theta, w, starts[:, 2 * n], residual, y1, -y1 * rate, reached[:, 2 * n + 1], cost, reached
+        )
+
+
+def shooting(solution, small: float, anomaly: float) -> Shooting:
+    """The exact problem whose first approximation is `solution`, from the anomaly given."""
+    equations = canonical(solution.system)
+    numbers = [float(number) for number in solution.numbers]
+    grid = np.linspace(0.0, 1.0, 33) * solution.duration
+    scale_a = np.abs(solution.slow(grid)).max(axis=0)
+    scale_a = np.where(scale_a > 0, scale_a, scale_a.max())
+    scale_p = np.maximum(np.abs(solution.costate(grid)).max(axis=0), abs(float(solution.cost)) / scale_a)
+    parameters = np.array([small, *numbers])
+    alpha = np.atleast_1d(solution.multipliers)
+    ends_at = solution.slow(grid)[-1]
+    _, _, jacobian, _ = _boundary(equations)(*ends_at, *alpha, *parameters)
+    return Shooting(
+        equations,
+        np.asarray(solution.start, dtype=float),
+        anomaly,
+        parameters,
+        scale_a,
+        scale_p,
+        np.abs(jacobian) @ scale_a,
+        abs(float(solution.cost / solution.duration)),
+    )
+
+
+# --- kernels, compiled once for the same equations -----------------------------------------------------
+
+
+@lru_cache(maxsize=32)
+def _carry(equations: Canonical, derivatives: bool) -> Ends:
+    wrt = (*equations.costates, y) if derivatives else ()
+    arguments = (equations.states, equations.rates, equations.parameters, equations.anomaly, wrt)
+    if equations.modes:
+        return switched_ends(equations.modes, *arguments)
+    return ends(*arguments, tolerance=ROUGH if derivatives else TOLERANCE)
+
+
+@lru_cache(maxsize=32)
+def _rates(equations: Canonical):
+    rates = equations.unswitched(equations.rates)
+    arguments = [*equations.states, equations.anomaly, *equations.parameters]
+    return compiler.function("rates", arguments, {"rates": sp.Matrix(rates)})
+
+
+@lru_cache(maxsize=32)
+def _start(equations: Canonical):
+    arguments = [*equations.slow, *equations.costates, y, equations.anomaly, *equations.parameters]
+    motion = {f"motion_{i}": g for i, g in enumerate(equations.motion)}
+    return compiler.function("start", arguments, {"hamiltonian": equations.hamiltonian, **motion})
+
+
+@lru_cache(maxsize=32)
+def _boundary(equations: Canonical):
+    target = sp.Matrix(equations.boundary)
+    alpha = sp.symbols(f"alpha:{len(target)}", real=True)
+    held = equations.terminal_cost + sum(c * m for c, m in zip(alpha, target, strict=True))
+    gradient = sp.Matrix([held]).jacobian(equations.slow).T
+    return compiler.function(
+        "boundary",
+        [*equations.slow, *alpha, *equations.parameters],
+        {
+            "target": target,
+            "gradient": gradient,
+            "jacobian": target.jacobian(equations.slow),
+            "curvature": gradient.jacobian(equations.slow),
+        },
+    )
+
+
+@lru_cache(maxsize=32)
+def _terminal(equations: Canonical):
+    arguments = [*equations.slow, equations.anomaly, *equations.parameters]
+    return compiler.function("terminal", arguments, {"g": equations.terminal_cost, "r": equations.rate})

@@ -1,0 +1,86 @@
+"""Example 2, (3.3) to (3.9): the energy of an orbit is changed by small thrust."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.averaging.averaged.solution import (
+    AveragedSolution,
+    solved,
+)
+from pontryagin.averaging.system import generated_systems
+from pontryagin.validation import finite, positive
+
+ROUND = 1e-6
+"""Eccentricities from here down have no pericentre to count the phase from."""
+
+
+def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> AveragedSolution:
+    """Bring the energy of a Kepler orbit from E0 to E1 at the least cost l tau_1 + integral of u^2, (3.7).
+
+    Units in which the attracting centre has the parameter 1. The phase is the mean anomaly, the anomaly x the
+    eccentric one.
+
+    Parameters
+    ----------
+    E0, E1 : (...) array
+        Energies, negative.
+    K0 : (...) array
+        Angular momentum at the start, with 0 < e0 = sqrt(1 + 2 E0 K0^2) < 1. The approximation asks for
+        epsilon small beside e0, too: on nearly round orbits the pericentre is not slow.
+    l : (...) array
+        Positive price of slow time.
+
+    Returns
+    -------
+    AveragedSolution
+        In the slow variables (E, K): duration sqrt(2/l) | |E1|^(1/2) - |E0|^(1/2) |, cost 2 l tau_1; E K^2,
+        and with it the eccentricity, stays constant.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not finite, an energy not negative, K0 or l not positive, or the orbit not an
+        ellipse or round.
+
+    Examples
+    --------
+    >>> solution = kepler(E0=-0.5, K0=0.95, E1=-0.35, l=0.1)
+    >>> bool(abs(solution.cost - 0.2 * solution.duration) < 1e-12)
+    True
+    """
+    begin, end = _bound("E0", E0), _bound("E1", E1)
+    momentum, price = positive("K0", K0), positive("l", l)
+    squared = 1 + 2 * begin * momentum**2
+    if (squared < -1e-14).any():
+        most = np.sqrt(-1 / (2 * begin))
+        raise ValueError(
+            f"K0 must be below that of the round orbit of the energy E0, 1/sqrt(2|E0|) = "
+            f"{np.broadcast_to(most, squared.shape)[squared < -1e-14].flat[0]:.6g}, "
+            f"got {np.broadcast_to(momentum, squared.shape)[squared < -1e-14].flat[0]:.6g}"
+        )
+    if (squared <= ROUND**2).any():
+        raise ValueError(
+            f"K0 must leave an eccentricity above {ROUND:g}, got that of a round orbit, on which the phase "
+            "has no pericentre to be counted from"
+        )
+    if (squared == 1).any():
+        raise ValueError("K0 must leave an eccentricity below 1, got one too small to tell from 0")
+    numbers = (end, price)
+    shape = np.broadcast_shapes(begin.shape, momentum.shape)
+    start = np.stack([np.broadcast_to(begin, shape), np.broadcast_to(momentum, shape)], axis=-1)
+    return solved(
+        generated_systems.model("kepler"),
+        ("E", "K"),
+        start,
+        numbers,
+        lambda: generated_systems.system("kepler", numbers),
+    )
+
+
+def _bound(name: str, value: ArrayLike) -> np.ndarray:
+    energy = finite(name, value, "a negative number or an array of them")
+    if not (energy < 0).all():
+        raise ValueError(
+            f"{name} must be negative, that of a bound orbit, got {energy[~(energy < 0)].flat[0]}"
+        )
+    return energy

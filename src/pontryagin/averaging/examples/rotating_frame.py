@@ -1,0 +1,120 @@
+"""Example 3 in a frame that turns with the free body, where its target is regular.
+
+The rigid body of example 3 is to be freed of its equatorial rates, a = 0, where the phase psi has no meaning.
+In a frame that turns about the body's axis with the free precession, (w_x, w_y) = R(chi) (z_1, z_2) and
+chi' = |(d - 1) w_z|: then z' = epsilon R(-chi) (u_x, u_y) is regular throughout, the target is z = 0, and the
+costates of z are constants of the exact motion. psi is chi plus the direction of z.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.derivation import rigid_body as body
+from pontryagin.averaging.system.control_sets import Ellipsoid
+from pontryagin.averaging.system.phase_system import PhaseSystem
+
+SENSE = sp.Symbol("sense", real=True)
+AT_REST = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Turning:
+    """The averaged solution in the turning frame: what the exact problem and the correction ask of it."""
+
+    averaged: AveragedSolution
+    system: PhaseSystem
+    numbers: tuple[Array, ...]
+
+    @property
+    def duration(self) -> Array:
+        """That of the solution, as are the cost and kappa."""
+        return self.averaged.duration
+
+    @property
+    def cost(self) -> Array:
+        """J_0."""
+        return self.averaged.cost
+
+    @property
+    def start(self) -> Array:
+        """(a_0, 0, c_0): chi starts as psi does."""
+        return _inserted(self.averaged.start)
+
+    @property
+    def multipliers(self) -> Array:
+        """Those of z = 0: minus the costates of z."""
+        return -self.costate(np.zeros(1))[..., 0, :2]
+
+    def slow(self, tau: ArrayLike) -> Array:
+        """(z_1, z_2, c), (..., k, 3): z keeps its direction."""
+        return _inserted(self.averaged.slow(tau))
+
+    def costate(self, tau: ArrayLike) -> Array:
+        """Their costates."""
+        return _inserted(self.averaged.costate(tau))
+
+    def seen(self, states: Array, control: Array) -> Array:
+        """States (z, c, p, y, tau, J, chi) (k, 10) as (a, c, p_a, p_c, y, tau, J, psi) (k, 8).
+
+        At rest, psi is the direction that (w_x, w_y) comes from, opposite to the control.
+        """
+        z, zeta, chi = states[:, :2], states[:, 3:5], states[:, -1]
+        sense, a = float(self.averaged.numbers[-1]), np.hypot(*z.T)
+        push = control[:, 0] + 1j * sense * control[:, 1]
+        moving = a > AT_REST * float(self.start[0])
+        place = np.where(moving, z[:, 0] + 1j * z[:, 1], -push * np.exp(-1j * chi))
+        along = place / np.abs(place)
+        p_a = zeta[:, 0] * along.real + zeta[:, 1] * along.imag
+        return np.column_stack([a, states[:, 2], p_a, *states[:, 5:-1].T, chi + np.angle(along)])
+
+
+def turning(solution: AveragedSolution) -> Turning:
+    """The averaged solution of `spin_down` in the turning frame."""
+    numbers = dict(zip(map(str, solution.system.numbers), solution.numbers, strict=True))
+    system = turning_body()
+    return Turning(solution, system, tuple(numbers[str(symbol)] for symbol in system.numbers))
+
+
+def _inserted(values: Array) -> Array:
+    """(a, c) as (a, 0, c)."""
+    return np.insert(values, 1, 0.0, axis=-1)
+
+
+@cache
+def turning_body() -> PhaseSystem:
+    """Example 3 in z, c and chi, from Euler's equations (3.10).
+
+    Examples
+    --------
+    >>> turning_body().f[0]
+    sense*u_y*sin(chi) + u_x*cos(chi)
+    """
+    z = sp.Matrix(sp.symbols("z_1 z_2", real=True))
+    chi = sp.Symbol("chi", real=True)
+    turned, mirrored = sp.rot_ccw_axis3(chi)[:2, :2], sp.diag(1, SENSE)
+    omega = SENSE * body.anomaly_rate()
+    place = mirrored * turned * z
+    rates = body.symmetric_rates().subs({body.w[0]: place[0], body.w[1]: place[1], body.w[2]: body.c})
+    relative = mirrored * rates[:2, :] - turned.diff(chi) * z * omega
+    pushed = (turned.T * relative).applyfunc(_with_sense)
+    return PhaseSystem(
+        f=[sp.expand(rate / body.epsilon) for rate in (*pushed, rates[2])],
+        omega=omega,
+        control_set=Ellipsoid(list(body.semiaxes)),
+        slow=[*z, body.c],
+        control=list(body.u),
+        phase=chi,
+        target=list(z),
+        numbers={**dict.fromkeys(body.semiaxes, 1.0), body.d: 0.5, SENSE: 1.0},
+    )
+
+
+def _with_sense(expression: sp.Expr) -> sp.Expr:
+    """Simplified, the sense being 1 or -1."""
+    return sp.trigsimp(sp.expand(sp.expand(expression).subs(SENSE**2, 1)))

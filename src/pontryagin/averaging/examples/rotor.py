@@ -1,0 +1,127 @@
+"""Example 1, (3.1): a rotor with a mass and a potential that depend on its angle, sped up or braked."""
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.averaging.averaged.solution import (
+    AveragedSolution,
+    solved,
+)
+from pontryagin.validation import finite, positive
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+LOOK = 1440
+"""How finely a turn is searched for the potential's maximum and the mass's minimum."""
+
+
+def rotor(
+    a0: ArrayLike,
+    a1: ArrayLike,
+    mass: Any = 1,
+    potential: Any = 0,
+    force: Any = 0,
+    peak: ArrayLike | None = None,
+    k: ArrayLike | None = None,
+) -> AveragedSolution:
+    """Bring the energy of m x'' + m' x'^2/2 + V' = epsilon (u + f) from a0 to a1, (3.1).
+
+    Parameters
+    ----------
+    a0, a1 : (...) array
+        Energies m x'^2/2 + V, above the potential's maximum.
+    mass, potential : sympy.Expr or number
+        m > 0 and V, 2 pi-periodic in the symbol ``x``.
+    force : sympy.Expr or number
+        f, 2 pi-periodic in ``x``; it may hold the rate x' > 0 as the symbol ``v``. Symbols are taken by
+        name, whatever they are assumed to be.
+    peak : (...) array
+        Least time with |u| <= peak; or
+    k : (...) array
+        least k tau_1 + integral of u^2. Exactly one of the two.
+
+    Returns
+    -------
+    AveragedSolution
+        In the slow variable a.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Naming the argument: an unknown symbol, an energy that does not exceed the potential's maximum (omega
+        vanishes on the way), a mass, peak or k that is not positive, both or none of peak and k.
+    Infeasible
+        If the mean drift opposes every control and exceeds it on the way.
+
+    Examples
+    --------
+    >>> solution = rotor(1.0, 4.0, peak=1.0)
+    >>> round(float(solution.duration), 12) == round(2**0.5, 12)
+    True
+    """
+    from pontryagin.averaging.system import derived_systems
+
+    if (peak is None) == (k is None):
+        raise ValueError("exactly one of peak and k must be given")
+    bound = None if peak is None else positive("peak", peak)
+    price = None if k is None else positive("k", k)
+    begin = finite("a0", a0, "a number or an array (...)")
+    end = finite("a1", a1, "a number or an array (...)")
+    m, V = _of("mass", mass, "x"), _of("potential", potential, "x")
+    lightest = _over_a_turn(m).min()
+    if not lightest > 0:
+        raise ValueError(f"mass must be positive for every x, got {lightest:.6g}")
+    top = _over_a_turn(V).max()
+    for name, energy in (("a0", begin), ("a1", end)):
+        if not (energy > top).all():
+            raise ValueError(
+                f"{name} must exceed the potential's maximum {top:.6g}, for omega vanishes there, "
+                f"got {energy.min():.6g}"
+            )
+    f = _of("force", force, "xv")
+    return solved(
+        derived_systems.rotor_model(m, V, f, bound is not None),
+        ("a",),
+        begin[..., None],
+        (end, *(value for value in (bound, price) if value is not None)),
+        lambda: derived_systems.rotor(m, V, f, end, bound, price),
+    )
+
+
+def _of(name: str, value: Any, letters: str) -> "sp.Expr":
+    """An expression in the derivation's own x and v."""
+    import sympy as sp
+
+    from pontryagin.averaging.derivation import rotor as derivation
+    from pontryagin.averaging.system.checks import require_periodic
+
+    if isinstance(value, str):
+        raise TypeError(f"{name} must be a SymPy expression or a number, got the text {value!r}")
+    try:
+        expression = sp.sympify(value)
+    except sp.SympifyError:
+        raise TypeError(f"{name} must be a SymPy expression or a number, got {value!r}") from None
+    if not isinstance(expression, sp.Expr) or expression.has(sp.nan, sp.oo, sp.zoo, sp.I):
+        raise ValueError(f"{name} must be a real, finite expression, got {value!r}")
+    known = {letter: getattr(derivation, letter) for letter in letters}
+    unknown = sorted({str(symbol) for symbol in expression.free_symbols} - set(known))
+    if unknown:
+        raise ValueError(
+            f"{name} may hold {' and '.join(known)} only, got unknown symbols {', '.join(unknown)}"
+        )
+    mine = expression.xreplace({symbol: known[str(symbol)] for symbol in expression.free_symbols})
+    require_periodic(name, mine, derivation.x, {})
+    return mine
+
+
+@lru_cache(maxsize=64)
+def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
+    from pontryagin.averaging.derivation import rotor as derivation
+    from pontryagin.numerics import compile as compiler
+
+    angles = 2 * np.pi * np.arange(LOOK) / LOOK
+    return compiler.function("values", [derivation.x], {"value": expression})(angles)[0]

@@ -1,0 +1,112 @@
+"""The flight in the plane along an extremal of example 2: place, thrust and osculating ellipse.
+
+Energy, angular momentum and the anomaly say where on which ellipse the spacecraft is; how the ellipse lies is
+the angle gamma of its pericentre, which is integrated here. Fixed axes through the attracting centre, the
+first through the pericentre at the start.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.derivation import kepler as elements
+from pontryagin.averaging.derivation import kepler_orbit as orbit
+from pontryagin.averaging.exact.extremal import Extremal
+from pontryagin.numerics import compile as compiler
+
+A_TURN = 80
+"""Samples a turn."""
+FINER = 4
+"""Steps of the quadrature for gamma to a sample."""
+
+
+@dataclass(frozen=True)
+class Flight:
+    """The motion at slow times (k,).
+
+    Attributes
+    ----------
+    tau : (k,) array
+    slow : (k, 2) array
+        E and K.
+    pericentre : (k,) array
+        gamma, rad; 0 at the start.
+    anomaly : (k,) array
+        True anomaly in a turn.
+    control : (k, 2) array
+        u_r, u_phi.
+    place, thrust : (k, 2) array
+        In fixed axes; `thrust` is the control turned into them.
+    """
+
+    tau: Array
+    slow: Array
+    pericentre: Array
+    anomaly: Array
+    control: Array
+    place: Array
+    thrust: Array
+
+    def ellipses(self, points: int) -> Array:
+        """The osculating ellipse at each time as a closed line, (k, points, 2)."""
+        return ellipses(self.slow, self.pericentre, points)
+
+
+def fly(extremal: Extremal) -> Flight:
+    """Follow an extremal of `kepler` through the plane."""
+    samples = FINER * max(A_TURN, int(np.ceil(A_TURN * extremal.turns)))
+    tau = np.linspace(0.0, extremal.duration, samples + 1)
+    slow, control, eccentric = extremal.slow(tau), extremal.control(tau), extremal.anomaly(tau)
+    true, rate = _turning()(*slow.T, eccentric, *control.T)
+    pericentre = CubicSpline(tau, rate).antiderivative()(tau)
+    shown = slice(None, None, FINER)
+    at = (*slow[shown].T, pericentre[shown], true[shown])
+    thrust = _thrust()(*at, *control[shown].T)[0][..., 0]
+    return Flight(
+        tau[shown],
+        slow[shown],
+        pericentre[shown],
+        true[shown],
+        control[shown],
+        _place()(*at)[0][..., 0],
+        thrust,
+    )
+
+
+def ellipses(slow: Array, pericentre: Array, points: int) -> Array:
+    """Orbits of energies and angular momenta (k, 2), pericentres at angles (k,), as lines (k, points, 2).
+
+    Examples
+    --------
+    >>> ellipses(np.array([[-0.5, 0.8]]), np.zeros(1), 3).round(12) + 0.0
+    array([[[ 0.4,  0. ],
+            [-1.6,  0. ],
+            [ 0.4,  0. ]]])
+    """
+    turn = np.linspace(0.0, 2 * np.pi, points)
+    each = (np.asarray(column)[..., None] for column in (*slow.T, pericentre))
+    return _place()(*each, turn)[0][..., 0]
+
+
+@lru_cache(maxsize=1)
+def _place() -> Callable[..., tuple[Array, ...]]:
+    at = [elements.energy, elements.momentum, elements.gamma, elements.anomaly]
+    return compiler.function("place", at, {"place": orbit.position()})
+
+
+@lru_cache(maxsize=1)
+def _thrust() -> Callable[..., tuple[Array, ...]]:
+    at = [elements.energy, elements.momentum, elements.gamma, elements.anomaly, *elements.CONTROL]
+    return compiler.function("thrust", at, {"thrust": orbit.any_thrust()})
+
+
+@lru_cache(maxsize=1)
+def _turning() -> Callable[..., tuple[Array, ...]]:
+    true = orbit.true_anomaly()
+    at = [elements.energy, elements.momentum, elements.eccentric, *elements.CONTROL]
+    rate = orbit.pericentre_rate().subs(elements.anomaly, true)
+    return compiler.function("turning", at, {"true": true, "rate": rate})

@@ -1,0 +1,116 @@
+"""What the replays of all examples have in common: the averaged extremal and an exact one against time.
+
+Time is t = tau/epsilon. The averaged extremal is orange, the exact one blue.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.exact.extremal import Extremal
+from pontryagin.display.plotting import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+)
+from pontryagin.display.recording import (
+    Plot,
+    Recording,
+    View,
+)
+
+AVERAGED, EXACT = ORANGE, BLUE
+SECONDS = 40.0
+"""How long a replay takes."""
+AVERAGED_SAMPLES = 201
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """An averaged solution of one problem and an exact extremal of it.
+
+    Raises
+    ------
+    ValueError
+        If the averaged solution is that of a stack.
+    """
+
+    averaged: AveragedSolution
+    exact: Extremal
+
+    def __post_init__(self) -> None:
+        shape = self.averaged.duration.shape
+        if shape:
+            raise ValueError(f"solution must be that of one problem, got a stack of shape {shape}")
+
+    @property
+    def epsilon(self) -> float:
+        """The epsilon of the exact extremal."""
+        return self.exact.epsilon
+
+    @property
+    def last(self) -> float:
+        """The later of both arrivals, in t."""
+        return max(self.exact.duration, float(self.averaged.duration)) / self.epsilon
+
+    @property
+    def speed(self) -> float:
+        """Units of t a second, for a replay of `SECONDS`."""
+        return self.last / SECONDS
+
+    @cached_property
+    def grid(self) -> Array:
+        """Slow times of the averaged extremal, (k,)."""
+        return np.linspace(0.0, float(self.averaged.duration), AVERAGED_SAMPLES)
+
+    def averaged_cost(self) -> Array:
+        """Integral of the mean running cost over `grid`: its rate is eta d xi/d tau, for h0 vanishes."""
+        solution = self.averaged
+        rate = (solution.costate(self.grid) * solution.mean_rate(self.grid)).sum(axis=-1)
+        return CubicSpline(self.grid, rate).antiderivative()(self.grid)
+
+
+def panel(title: str, entity: str, legend: str = "LeftTop") -> Plot:
+    """A plot over all times."""
+    return Plot(title, entity, whole=True, legend=legend)
+
+
+def slow_plots(pair: Pair, words: Mapping[str, str]) -> tuple[list[View], list[View]]:
+    """Two columns: the slow variables and their differences; the cost and the anomaly's costate."""
+    slow = [panel(words[name], f"slow-{name}") for name in pair.averaged.names]
+    return [*slow, panel("exact less averaged, over epsilon", "difference")], [
+        panel("cost so far", "cost"),
+        panel("costate of the anomaly over epsilon", "costate", "LeftBottom"),
+    ]
+
+
+def slow_curves(recording: Recording, pair: Pair, tau: Array) -> None:
+    """The curves of `slow_plots`, the exact ones at slow times (k,)."""
+    averaged, exact = pair.averaged.slow(pair.grid), pair.exact.slow(tau)
+    both = tau[tau <= float(pair.averaged.duration)]
+    apart = (exact[: len(both)] - pair.averaged.slow(both)) / pair.epsilon
+    curves = {f"slow-{name}": (averaged[:, i], exact[:, i]) for i, name in enumerate(pair.averaged.names)}
+    curves["cost"] = (pair.averaged_cost(), pair.exact.spent(tau))
+    curves["costate"] = (np.zeros(len(pair.grid)), pair.exact.phase_costate(tau) / pair.epsilon)
+    for entity, (first, second) in curves.items():
+        recording.curve(f"{entity}/averaged", pair.grid / pair.epsilon, first, "averaged", AVERAGED)
+        recording.curve(f"{entity}/exact", tau / pair.epsilon, second, "exact", EXACT)
+    for name, values, colour in zip(pair.averaged.names, apart.T, (GREEN, PURPLE), strict=False):
+        recording.curve(f"difference/{name}", both / pair.epsilon, values, name, colour)
+
+
+def arrivals(recording: Recording, pair: Pair) -> None:
+    """When the averaged and the exact extremal arrive, and at what cost, as events."""
+    arrived = {
+        "averaged": (float(pair.averaged.duration), float(pair.averaged.cost)),
+        f"exact {pair.exact.kind}": (pair.exact.duration, pair.exact.cost),
+    }
+    for name, (duration, cost) in sorted(arrived.items(), key=lambda item: item[1]):
+        t = duration / pair.epsilon
+        recording.event("events", t, f"t = {t:.2f}: {name} arrives, cost {cost:.6f}")

@@ -1,0 +1,1 @@
+"""Phase systems: equations of motion, control sets, and the averaged Hamiltonian h0 made from them."""

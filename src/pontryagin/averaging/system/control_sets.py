@@ -1,0 +1,315 @@
+"""Convex sets of controls, each as the function sigma(s) = max over u of s'u less the control's own cost."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from pontryagin.averaging.system.checks import (
+    listed,
+    numeric,
+    require_count,
+    require_positive,
+)
+from pontryagin.numerics import compile as compiler
+
+Number: TypeAlias = "float | sp.Expr"
+
+
+class ControlSet(Protocol):
+    """What `PhaseSystem` asks of a set of controls."""
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """sigma(s), convex in s."""
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """The control (m, 1) that attains it: the gradient of sigma."""
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """What the control itself costs per unit of slow time."""
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """Raise ValueError unless the set is convex, bounded (or strictly costed) and of this dimension."""
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """Unbounded controls that cost u'Ru.
+
+    Parameters
+    ----------
+    weight : number, sympy.Expr or symmetric positive definite (m, m) matrix
+        R; a number stands for that multiple of the identity.
+
+    Examples
+    --------
+    >>> p = sp.Symbol("p", real=True)
+    >>> Quadratic().support([p]), Quadratic().maximiser([p])[0]
+    (p**2/4, p/2)
+    """
+
+    weight: object = 1
+
+    def _matrix(self, dimension: int) -> sp.Matrix:
+        if hasattr(self.weight, "__len__") or hasattr(self.weight, "shape"):
+            return sp.ImmutableMatrix(self.weight)
+        return sp.ImmutableMatrix(sp.sympify(self.weight) * sp.eye(dimension))
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """s' R^-1 s / 4."""
+        row = sp.Matrix([*s])
+        return sp.expand((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """R^-1 s / 2."""
+        return self._matrix(len(s)).inv() * sp.Matrix([*s]) / 2
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """u'Ru."""
+        row = sp.Matrix([*u])
+        return sp.expand((row.T * self._matrix(len(u)) * row)[0])
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """R must be symmetric positive definite."""
+        matrix = self._matrix(dimension)
+        if matrix.shape != (dimension, dimension):
+            raise ValueError(
+                f"Quadratic: weight must be a number or ({dimension}, {dimension}), got shape {matrix.shape}"
+            )
+        entries = np.stack(numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
+        for values in entries.reshape(-1, dimension, dimension):
+            if not np.allclose(values, values.T, rtol=1e-12, atol=0):
+                raise ValueError(f"Quadratic: weight must be symmetric, got {values.tolist()}")
+            if not np.linalg.eigvalsh(values)[0] > 0:
+                raise ValueError(f"Quadratic: weight must be positive definite, got {values.tolist()}")
+
+
+@dataclass(frozen=True)
+class Ball:
+    """|u| <= radius.
+
+    Examples
+    --------
+    >>> p, q = sp.symbols("p q", real=True)
+    >>> Ball(2).support([p, q])
+    2*sqrt(p**2 + q**2)
+    """
+
+    radius: Number = 1
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """Radius times |s|."""
+        return sp.sympify(self.radius) * _norm(s)
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """Radius times s / |s|."""
+        return sp.sympify(self.radius) * _unit(s)
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Nothing."""
+        return sp.Integer(0)
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """The radius must be positive."""
+        require_positive("Ball: radius", [self.radius], numbers)
+
+
+@dataclass(frozen=True)
+class Ellipsoid:
+    """sum of (u_i / l_i)^2 <= 1.
+
+    Parameters
+    ----------
+    semiaxes : sequence of m numbers or expressions
+        l_i > 0.
+
+    Examples
+    --------
+    >>> p, q = sp.symbols("p q", real=True)
+    >>> Ellipsoid([1, 2]).support([p, q])
+    sqrt(p**2 + 4*q**2)
+    """
+
+    semiaxes: Sequence[Number]
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """sqrt(sum of l_i^2 s_i^2)."""
+        return _norm(self._scaled(s))
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """l_i^2 s_i / support."""
+        unit = _unit(self._scaled(s))
+        return sp.Matrix([sp.sympify(l) * part for l, part in zip(self.semiaxes, unit, strict=True)])
+
+    def _scaled(self, s: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Nothing."""
+        return sp.Integer(0)
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """The semiaxes must be positive, one for each control."""
+        require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
+        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
+
+
+@dataclass(frozen=True)
+class Box:
+    """|u_i| <= l_i.
+
+    Parameters
+    ----------
+    bounds : sequence of m numbers or expressions
+        l_i > 0.
+
+    Examples
+    --------
+    >>> p, q = sp.symbols("p q", real=True)
+    >>> Box([1, 2]).support([p, q])
+    Abs(p) + 2*Abs(q)
+    """
+
+    bounds: Sequence[Number]
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """sum of l_i |s_i|."""
+        return sp.Add(
+            *(sp.sympify(l) * _of_one(sp.Abs, part) for l, part in zip(self.bounds, s, strict=True))
+        )
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """l_i sign(s_i)."""
+        return sp.Matrix(
+            [sp.sympify(l) * _of_one(sp.sign, part) for l, part in zip(self.bounds, s, strict=True)]
+        )
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Nothing."""
+        return sp.Integer(0)
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """The bounds must be positive, one for each control."""
+        require_count("Box: bounds", self.bounds, dimension)
+        require_positive("Box: bounds", self.bounds, numbers)
+
+
+@dataclass(frozen=True)
+class BoundedQuadratic:
+    """|u| <= radius, at the cost weight |u|^2.
+
+    Examples
+    --------
+    >>> p = sp.Symbol("p", real=True)
+    >>> BoundedQuadratic(1).support([p])
+    Piecewise((p**2/4, Abs(p) <= 2), (Abs(p) - 1, True))
+    """
+
+    radius: Number = 1
+    weight: Number = 1
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """|s|^2 / (4 weight) while the free maximum lies inside, radius |s| - weight radius^2 beyond."""
+        radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
+        squares = sp.Add(*(part**2 for part in s))
+        return sp.Piecewise(
+            (squares / (4 * weight), norm <= 2 * weight * radius),
+            (radius * norm - weight * radius**2, True),
+        )
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """s / (2 weight), cut to the radius."""
+        radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
+        inside = norm <= 2 * weight * radius
+        return sp.Matrix(
+            [
+                sp.Piecewise((part / (2 * weight), inside), (radius * unit, True))
+                for part, unit in zip(s, _unit(s), strict=True)
+            ]
+        )
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Weight times |u|^2."""
+        return sp.sympify(self.weight) * sp.Add(*(part**2 for part in u))
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """Radius and weight must be positive."""
+        require_positive("BoundedQuadratic: radius", [self.radius], numbers)
+        require_positive("BoundedQuadratic: weight", [self.weight], numbers)
+
+
+@dataclass(frozen=True)
+class Custom:
+    """Any compact convex set, by its support function.
+
+    Parameters
+    ----------
+    of : callable
+        From m SymPy expressions s to sigma(s) as a SymPy expression, convex and homogeneous of degree one.
+        Write its kinks with Abs, Max or Piecewise: the average is split there.
+
+    Examples
+    --------
+    The cylinder of the paper's third example, a disc in x, y times an interval in z:
+
+    >>> p, q, r = sp.symbols("p q r", real=True)
+    >>> cylinder = Custom(lambda s: sp.sqrt(s[0]**2 + s[1]**2) + 2 * sp.Abs(s[2]))
+    >>> list(cylinder.maximiser([p, q, r]))
+    [p/sqrt(p**2 + q**2), q/sqrt(p**2 + q**2), 2*sign(r)]
+    """
+
+    of: Callable[[Sequence[sp.Expr]], sp.Expr]
+
+    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
+        """The function given."""
+        return sp.sympify(self.of([*s]))
+
+    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
+        """Its gradient, by the envelope theorem."""
+        free = [sp.Dummy(f"s{i}", real=True) for i in range(len(s))]
+        value = self.support(free)
+        at = dict(zip(free, s, strict=True))
+        return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Nothing."""
+        return sp.Integer(0)
+
+    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+        """Homogeneity and subadditivity on pairs of directions, which together are convexity."""
+        free = [sp.Dummy(f"s{i}", real=True) for i in range(dimension)]
+        value = self.support(free)
+        unknown = value.free_symbols - set(free) - set(numbers)
+        if unknown:
+            raise ValueError(f"Custom: the support function holds unknown symbols {listed(unknown)}")
+        held = sorted(value.free_symbols & set(numbers), key=str)
+        evaluate = compiler.function("support", [*free, *held], {"sigma": value})
+        constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in held]
+        pairs = np.random.default_rng(1977).standard_normal((2, dimension, 512))
+        first, second, both, tripled, opposite = (
+            evaluate(*s, *constants)[0]
+            for s in (pairs[0], pairs[1], pairs[0] + pairs[1], 3 * pairs[0], -pairs[0])
+        )
+        scale = 1e-12 * (np.abs(first) + np.abs(second) + np.abs(both))
+        if not (np.abs(tripled - 3 * first) <= 3 * scale).all():
+            raise ValueError("Custom: a support function must be homogeneous of degree one, this one is not")
+        if not (both <= first + second + scale).all() or not (first + opposite >= -scale).all():
+            raise ValueError("Custom: not the support function of a convex set, sigma is not convex")
+
+
+def _norm(s: Sequence[sp.Expr]) -> sp.Expr:
+    return _of_one(sp.Abs, s[0]) if len(s) == 1 else sp.sqrt(sp.Add(*(part**2 for part in s)))
+
+
+def _unit(s: Sequence[sp.Expr]) -> sp.Matrix:
+    return sp.Matrix([_of_one(sp.sign, s[0])]) if len(s) == 1 else sp.Matrix([*s]) / _norm(s)
+
+
+def _of_one(function: type[sp.Function], value: sp.Expr) -> sp.Expr:
+    """Abs or sign of a real expression: a root in it is of a positive quantity, and stays outside."""
+    roots = {power: sp.Dummy(positive=True) for power in value.atoms(sp.Pow) if not power.exp.is_integer}
+    back = {positive: power for power, positive in roots.items()}
+    return function(sp.sympify(value).xreplace(roots)).xreplace(back)

@@ -1,0 +1,156 @@
+"""The numeric side of a phase system: its kernels, and the averaged Hamiltonian by quadrature of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
+from pontryagin.averaging.system.jets import (
+    Jet,
+    Kernel,
+    evaluate,
+    jet,
+    width,
+)
+from pontryagin.averaging.system.means import (
+    SOLVING,
+    Rule,
+    find_switches,
+    mean,
+)
+
+BESIDE = 1e-9
+"""How far beside a switch its one-sided derivatives are taken; they enter Newton's matrix only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Kernels of a `PhaseSystem`; each takes the system's numbers as its last arguments.
+
+    Attributes
+    ----------
+    slow, target : int
+        n and r.
+    mean : kernel of (a, p), or None
+        Columns of the jet of h0 in (a, p), where the average is known in closed form.
+    density : kernel of (a, p, x), or None
+        Columns of the jet of h* dpsi/dx at p_x = 0, and its derivative in x. Where the frequency is an
+        integral, the same of h* / r, and the jet of 1 / r in a. None where `mean` is given.
+    frequency : kernel of a, or None
+        Columns of the jet of omega in a, None where it is an integral.
+    switching : kernel of (a, p, x), or None
+        Functions at whose zeros the density is not smooth, and their derivatives in x.
+    boundary : kernel of a
+        Columns of the jets in a of M_1, ..., M_r and g.
+    control : kernel of (a, p, x)
+        u* at p_x = 0.
+    rates : kernel of (a, x, u)
+        f and the whole running cost.
+    pace : kernel of (a, x)
+        1 / r, proportional to dpsi/dx.
+    """
+
+    slow: int
+    target: int
+    mean: Kernel | None
+    density: Kernel | None
+    frequency: Kernel | None
+    switching: Kernel | None
+    boundary: Kernel
+    control: Kernel
+    rates: Kernel
+    pace: Kernel
+
+    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: Rule = SOLVING) -> tuple[Jet, Jet]:
+        """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
+        shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
+        flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
+        held = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
+        a = flat[:, : self.slow].T
+        if self.mean is None:
+            h, turn = self._quadrature(flat, held, rule)
+        else:
+            h, turn = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow), None
+        if turn is None:
+            assert self.frequency is not None
+            omega = jet(evaluate(self.frequency, *a, *held), self.slow).padded(2 * self.slow)
+        else:
+            omega = jet(_one(len(flat), 2 * self.slow), 2 * self.slow) / turn
+            h = h / turn
+        return _shaped(h, shape), _shaped(omega, shape)
+
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Jet, Jet | None]:
+        """Means of the density, and of 1 / r where the frequency is an integral."""
+        assert self.density is not None
+        n = self.slow
+        density = _over(self.density, tuple(z.T), numbers)
+        switches = self.switches(z, numbers)
+        own, judged = width(2 * n), np.arange(1 + 2 * n)
+        if self.frequency is None:
+            judged = np.append(judged, own + 1 + np.arange(1 + n))
+        columns = mean(density, switches, rule, judged)
+        h = jet(columns[:, :own], 2 * n)
+        if not np.isnan(switches).all():
+            h = Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
+        turn = None if self.frequency is not None else jet(columns[:, own + 1 :], n).padded(2 * n)
+        return h, turn
+
+    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
+        """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
+        a = tuple(z[:, : self.slow].T)
+        control = _over(self.control, tuple(z.T), numbers)
+
+        def density(x: Array, index: NDArray[np.intp]) -> Array:
+            u = np.moveaxis(control(x, index), -1, 0)
+            here, held = [c[index, None] for c in a], [v[index, None] for v in numbers]
+            pace = evaluate(self.pace, *here, x, *held)
+            return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *held), pace], axis=-1)
+
+        means = mean(density, self.switches(z, numbers), rule)
+        means = means[:, :-1] / means[:, -1:]
+        return means[:, :-1], means[:, -1]
+
+    def switches(self, z: Array, numbers: tuple[Array, ...]) -> Array:
+        """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), filled up by nan."""
+        if self.switching is None:
+            return np.full((len(z), 0), np.nan)
+        return find_switches(_over(self.switching, tuple(z.T), numbers), len(z))
+
+    def _jumps(self, density, switches: Array) -> Array:
+        """What moving switches add to the Hessian: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
+        count = 2 * self.slow
+        point, which = np.nonzero(~np.isnan(switches))
+        at = switches[point, which][:, None]
+        jump = (density(at + BESIDE, point) - density(at - BESIDE, point))[:, 0]
+        gradient, slope = jump[:, 1 : 1 + count], jump[:, width(count)]
+        kinks = np.divide(1, slope, out=np.zeros_like(slope), where=slope != 0) / (2 * np.pi)
+        result = np.zeros((len(switches), count, count))
+        np.add.at(result, point, kinks[:, None, None] * gradient[:, :, None] * gradient[:, None, :])
+        return result
+
+    def ends(self, a: Array, numbers: tuple[Array, ...]) -> tuple[Jet, Jet]:
+        """Jets in a of M, stacked along the axis before the derivatives' (..., r), and of g (...)."""
+        columns = evaluate(self.boundary, *np.moveaxis(a, -1, 0), *numbers)
+        each = columns.reshape(*columns.shape[:-1], self.target + 1, -1)
+        return jet(each[..., :-1, :], self.slow), jet(each[..., -1, :], self.slow)
+
+
+def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]):
+    """The kernel as a density: `point`'s coordinates, then x, then the numbers."""
+
+    def density(x: Array, index: NDArray[np.intp]) -> Array:
+        return evaluate(kernel, *(c[index, None] for c in point), x, *(v[index, None] for v in numbers))
+
+    return density
+
+
+def _one(points: int, variables: int) -> Array:
+    return np.broadcast_to(np.eye(1, width(variables)), (points, width(variables)))
+
+
+def _shaped(flat: Jet, shape: tuple[int, ...]) -> Jet:
+    k = flat.gradient.shape[-1]
+    return Jet(
+        flat.value.reshape(shape), flat.gradient.reshape(*shape, k), flat.hessian.reshape(*shape, k, k)
+    )

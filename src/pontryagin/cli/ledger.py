@@ -1,0 +1,35 @@
+"""``pontryagin ledger``: the entries of the ledger as a table, CSV or JSON."""
+
+from typing import Annotated
+
+import typer
+
+from pontryagin import ledger as book
+from pontryagin.terminal import console
+
+Text = str | None
+
+
+def ledger(
+    paper: Annotated[Text, typer.Option(metavar="NAME", help="A paper, by (part of) its name.")] = None,
+    verdict: Annotated[Text, typer.Option(metavar="VERDICT", help=f"{', '.join(book.VERDICTS)}.")] = None,
+    csv: Annotated[Text, typer.Option(metavar="FILE", help="Write CSV, to - for standard output.")] = None,
+    json: Annotated[Text, typer.Option(metavar="FILE", help="Write JSON, to - for standard output.")] = None,
+) -> None:
+    """What the papers print, and whether it holds: every formula, number and claim with its verdict.
+
+    \b
+    Examples:
+      pontryagin ledger --verdict misprint
+      pontryagin ledger --paper gorelov --csv ledger.csv
+    """
+    with console.blaming({"paper": "--paper", "verdict": "--verdict"}):
+        entries = book.entries(paper, verdict)
+    if csv:
+        console.emit("--csv", csv, book.to_csv(entries))
+    if json:
+        console.emit("--json", json, book.to_json(entries) + "\n")
+    if not csv and not json:
+        from rich.console import Console
+
+        Console().print(book.table(entries))

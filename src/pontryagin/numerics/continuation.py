@@ -1,0 +1,275 @@
+"""Curves of solutions: followed by pseudo-arclength or over the parameter, to a value of it, round folds.
+
+A family is a system of equations with a parameter. `follow` predicts along the tangent of the curve of its
+solutions and corrects across it, so that the curve may turn back (a fold: two solutions meet) and give
+several solutions at one value of the parameter. `march` goes over the parameter itself, by secants, and ends
+at a fold. `crossings` finds where on a curve a function vanishes, `reach` polishes the first of those.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import NotConverged
+from pontryagin.numerics.newton import E, Scales, ones
+
+Family = Callable[[Array, float], tuple[E, Array]]
+"""Unknowns (n,) and the parameter to the equations and the residual's derivative in the parameter, (m,)."""
+
+CLOSE = 1e-9
+"""Size of a correction, in shares of the scales, after which a point of a curve is taken."""
+CLOSE_ENOUGH = 1e-5
+"""The same from the second correction on: the error after it is its square."""
+CORRECTIONS = 6
+"""Corrections after which a step is shortened."""
+LEAST_STEP = 1e-5
+"""Arclength of a step below which a curve is given up."""
+
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Point(Generic[E]):
+    """A point of a curve: unknowns (n,), the parameter, and the equations there."""
+
+    unknowns: Array
+    parameter: float
+    equations: E
+
+
+def follow(
+    family: Family[E],
+    unknowns: Array,
+    start: float,
+    sense: float,
+    *,
+    scales: Scales = ones,
+    step: float = 0.1,
+    largest: float = 0.5,
+    steps: int = 400,
+    rows: int | None = None,
+) -> Iterator[Point[E]]:
+    """Points of the curve through a solution, by pseudo-arclength.
+
+    Parameters
+    ----------
+    family : function of unknowns and the parameter
+    unknowns : (n,) array
+        A solution.
+    start : float
+        Its parameter.
+    sense : float
+        Positive where the parameter is to grow at first, negative where it is to fall.
+    scales : function of unknowns, optional
+        What the unknowns are measured by; the parameter is measured by 1.
+    step, largest : float
+        The first arclength of a step, and the largest.
+    steps : int
+        The most points.
+    rows : int, optional
+        Only the first so many equations hold along the curve, in as many unknowns.
+
+    Yields
+    ------
+    Point
+        The first is the start itself. The curve ends where the steps become too short or too many.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> def circle(x, p):
+    ...     return SimpleNamespace(residual=x**2 + p**2 - 1, jacobian=np.diag(2 * x)), np.array([2 * p])
+    >>> points = [point.parameter for point in follow(circle, np.array([1.0]), 0.0, 1.0, steps=30)]
+    >>> max(points) > 0.9, min(points) < -0.9
+    (True, True)
+    """
+    values, by_parameter = family(unknowns, start)
+    here = Point(unknowns, start, values)
+    yield here
+    direction = np.append(np.zeros(len(unknowns)), np.sign(sense))
+    for _ in range(steps):
+        scale = np.append(scales(here.unknowns), 1.0)
+        tangent = _tangent(here.equations.jacobian[:rows, :rows], by_parameter, scale, direction)
+        while True:
+            landed = _land(family, here, scale, tangent, step, rows)
+            if landed is not None:
+                break
+            step /= 2
+            if step < LEAST_STEP:
+                return
+        point, by_parameter, effort = landed
+        direction = np.append(point.unknowns - here.unknowns, point.parameter - here.parameter) / scale
+        here = point
+        yield here
+        step = min(largest, step * (2.0 if effort <= 2 else 1.3 if effort == 3 else 0.7))
+
+
+def _tangent(jacobian: Array, by_parameter: Array, scale: Array, direction: Array) -> Array:
+    """The scaled unit tangent of the curve that does not turn back from a direction."""
+    matrix = np.column_stack([jacobian, by_parameter]) * scale
+    matrix /= np.linalg.norm(matrix, axis=1, keepdims=True)
+    tangent = np.asarray(np.linalg.svd(matrix)[2][-1])
+    return tangent if tangent @ direction >= 0 else -tangent
+
+
+def _land(
+    family: Family[E], here: Point[E], scale: Array, tangent: Array, step: float, rows: int | None
+) -> tuple[Point[E], Array, int] | None:
+    """Predict along the tangent, correct across it: the new point, its slope in the parameter, the effort."""
+    start = np.append(here.unknowns, here.parameter)
+    y = start + step * scale * tangent
+    last = np.inf
+    for effort in range(1, CORRECTIONS + 1):
+        try:
+            values, by_parameter = family(y[:-1], float(y[-1]))
+        except (NotConverged, FloatingPointError, OverflowError):
+            return None
+        across = tangent @ ((y - start) / scale) - step
+        matrix = np.vstack([np.column_stack([values.jacobian[:rows, :rows], by_parameter]) * scale, tangent])
+        try:
+            change = np.linalg.solve(matrix, -np.append(values.residual[:rows], across))
+        except np.linalg.LinAlgError:
+            return None
+        size = float(np.linalg.norm(change))
+        if not size < min(max(2 * last, 1e-8), step):
+            return None
+        y, last = y + scale * change, size
+        if size < CLOSE or (size < CLOSE_ENOUGH and effort > 1):
+            return Point(y[:-1], float(y[-1]), values), by_parameter, effort
+    return None
+
+
+def between(a: Point[E], b: Point[E], parameter: float) -> Array:
+    """Unknowns at a value of the parameter, by the secant through two points."""
+    share = (parameter - a.parameter) / (b.parameter - a.parameter)
+    return a.unknowns + share * (b.unknowns - a.unknowns)
+
+
+def crossings(
+    points: Iterable[Point[E]], function: Callable[[Point[E]], float]
+) -> Iterator[tuple[Array, float]]:
+    """Unknowns and parameters, by the secant, where a function changes its sign between points of a curve.
+
+    Where it vanishes at the very first point, that one comes first.
+    """
+    last: Point[E] | None = None
+    before = 0.0
+    for point in points:
+        here = function(point)
+        if last is None:
+            if here == 0:
+                yield point.unknowns, point.parameter
+        elif before * here <= 0 and before != 0:
+            share = before / (before - here)
+            yield (
+                last.unknowns + share * (point.unknowns - last.unknowns),
+                last.parameter + share * (point.parameter - last.parameter),
+            )
+        last, before = point, here
+
+
+def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array], R], reason: str) -> R:
+    """The solution at a value of the parameter, where the curve first has it.
+
+    Parameters
+    ----------
+    points : iterable of Point
+        The curve; a generator that raises or ends bounds the search.
+    parameter : float
+        The value.
+    polish : function of unknowns
+        Newton's method at that value, from unknowns by the secant.
+    reason : str
+        What `NotConverged` says if the curve ends before.
+
+    Raises
+    ------
+    NotConverged
+        If the curve does not come to the value; the residual is how far from it the nearest point is.
+    """
+    nearest = np.inf
+
+    def missing(point: Point[E]) -> float:
+        nonlocal nearest
+        nearest = min(nearest, abs(point.parameter - parameter))
+        return point.parameter - parameter
+
+    for unknowns, _ in crossings(points, missing):
+        return polish(unknowns)
+    raise NotConverged(reason, float(nearest))
+
+
+def march(
+    solve_at: Callable[[float, Array], Array],
+    unknowns: Array,
+    start: float,
+    end: float,
+    *,
+    first: float = 0.25,
+    largest: float = 1.0,
+    least: float = 1 / 128,
+    growth: float = 1.6,
+    tries: int = 60,
+) -> Iterator[tuple[float, Array]]:
+    """Solutions on the way from one value of the parameter to another, each guessed by the secant before it.
+
+    Parameters
+    ----------
+    solve_at : function of the parameter and a guess (n,)
+        The solution there, (n,); it raises `NotConverged` where the guess is too far, which halves the step.
+    unknowns : (n,) array
+        The solution at ``start``.
+    start, end : float
+        Values of the parameter.
+    first, largest, least : float
+        The first step, the largest, and the one below which the march is given up, in shares of the way.
+    growth : float
+        By what a step grows after each success.
+    tries : int
+        The most steps tried.
+
+    Yields
+    ------
+    float, (n,) array
+        The parameter and the solution, the start included. The last is at ``end`` if that was reached.
+
+    Examples
+    --------
+    >>> steps = march(lambda p, guess: np.sqrt([p]), np.array([1.0]), 1.0, 4.0)
+    >>> [(round(p, 3), x.round(3).tolist()) for p, x in steps]
+    [(1.0, [1.0]), (1.75, [1.323]), (2.95, [1.718]), (4.0, [2.0])]
+    """
+    way = end - start
+    at, step = start, first
+    before: tuple[float, Array] | None = None
+    yield at, unknowns
+    for _ in range(tries):
+        if at == end:
+            return
+        there = end if abs(end - at) <= step * abs(way) * 1.0001 else at + step * way
+        guess = unknowns.copy()
+        if before is not None:
+            guess += (there - at) / (at - before[0]) * (unknowns - before[1])
+        try:
+            found = solve_at(there, guess)
+        except NotConverged:
+            step /= 2
+            if step < least:
+                return
+            continue
+        before, at, unknowns = (at, unknowns), there, found
+        yield at, unknowns
+        step = min(largest, growth * step)
+
+
+def by_differences(evaluate: Callable[[Array, float], E], difference: float) -> Family[E]:
+    """A family whose derivative in the parameter is taken by central differences."""
+
+    def family(unknowns: Array, parameter: float) -> tuple[E, Array]:
+        before, after = (evaluate(unknowns, parameter + shift) for shift in (-difference, difference))
+        return evaluate(unknowns, parameter), (after.residual - before.residual) / (2 * difference)
+
+    return family

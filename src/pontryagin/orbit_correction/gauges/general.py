@@ -1,0 +1,124 @@
+"""The gauge of the 0-controllable set of any system with ellipsoidal controls, Lemmas 7 and 9."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
+from pontryagin.certificate import Certificate
+from pontryagin.errors import Infeasible
+from pontryagin.numerics.jit import compiled
+from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
+from pontryagin.orbit_correction.gauges.proof import require_closed, unit
+from pontryagin.orbit_correction.system.discrete import DiscreteSystem
+from pontryagin.validation import vectors
+
+SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
+
+COMPILE_FROM = 40
+"""The compiled kernel is loaded when the number of states times that of steps exceeds this."""
+
+FLAT = 1e-13
+"""A set is flat along an axis in which its width, relative to the largest one, is below this.
+
+Widths are measured in units of the reach of the controls along each coordinate.
+"""
+
+VANISHING = 1e-100
+"""Steps that add less than this share of the reach are set to zero: their squares would underflow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """How much of its peak a system needs to bring states to the origin in given steps.
+
+    Attributes
+    ----------
+    alpha : (...) array
+        Minkowski functional of the 0-controllable set at the state: at most 1 where it can be done.
+    costate : (..., n) array
+        psi_0, unit; zeros for the zero state.
+    certificate : Certificate
+        alpha of controls that reach the origin exactly, and the bound that psi_0 proves.
+    """
+
+    alpha: Array
+    costate: Array
+    certificate: Certificate
+
+
+def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
+    """The gauge of the set of states that the system brings to the origin in `steps` steps, Lemmas 7 and 9.
+
+    Parameters
+    ----------
+    system : DiscreteSystem
+        Dynamics and ellipsoids.
+    x0 : (..., n) array_like
+        States.
+    steps : int
+        Number of steps, at least one.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
+    pontryagin.Infeasible
+        If the controls span less than the whole space.
+    """
+    if not isinstance(system, DiscreteSystem):
+        raise TypeError(f"system must be a DiscreteSystem, got {type(system).__name__}")
+    if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 1:
+        raise ValueError(f"steps must be a positive whole number, got {steps!r}")
+    n = system.step(0)[0].shape[0]
+    return gauge_of_factors(system.factors(int(steps)), vectors("x0", x0, n))
+
+
+def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
+    """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
+
+    A flat sum is taken as a set of the plane that it spans: states there have a gauge, others none.
+    """
+    n, shape = factors.shape[1], x0.shape[:-1]
+    reach = np.abs(factors).max(axis=(0, 2))
+    reach = np.where(reach > 0, reach, reach.max(initial=0.0))
+    if not (reach > 0).all():
+        raise Infeasible("the controls do nothing: only the zero state needs none")
+    scaled = factors / reach[:, None]
+    scaled[np.abs(scaled).max(axis=(1, 2)) < VANISHING] = 0.0
+    rows = -x0.reshape(int(np.prod(shape)), n)
+    size = np.abs(rows).max(axis=1, initial=0.0)
+    targets = rows / np.where(size > 0, size, 1.0)[:, None] / reach
+    longest = np.abs(targets).max(axis=1, initial=0.0)
+    targets /= np.where(longest > 0, longest, 1.0)[:, None]
+    axes, widths, _ = np.linalg.svd(np.moveaxis(scaled, 0, 1).reshape(n, -1), full_matrices=False)
+    thick = widths > FLAT * widths[0]
+    axes, widths = axes[:, thick], widths[thick]
+    whitening = (axes / widths).T
+    within = whitening @ targets.T
+    _require_reachable(targets - within.T @ (axes * widths).T, x0)
+    costates, results = np.empty(within.T.shape), np.empty((len(targets), 3))
+    run = compiled(gauge_stack, SIGNATURE, len(targets) * len(factors) > COMPILE_FROM)
+    with np.errstate(all="ignore"):
+        run(
+            np.ascontiguousarray(whitening @ scaled),
+            np.ascontiguousarray(within.T),
+            costates,
+            results,
+        )
+        scale = size * longest
+        lower, upper = (results[:, i].reshape(shape) * scale.reshape(shape) for i in range(2))
+    proof = Certificate(results[:, 2].reshape(shape), upper, lower)
+    require_closed(proof, "the gauge")
+    return Gauge(lower, unit(costates @ whitening / reach).reshape(*shape, n), proof)
+
+
+def _require_reachable(left: Array, x0: Array) -> None:
+    outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
+    if outside.any():
+        state = x0.reshape(left.shape)[int(np.argmax(outside))]
+        raise Infeasible(
+            f"the controls do not span the state space: x0 = {state.tolist()} is out of their reach, "
+            "whatever their size"
+        )

@@ -1,0 +1,160 @@
+"""Value classes: frozen dataclasses of arrays that compare, hash, pickle and copy by value."""
+
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, fields, is_dataclass
+from functools import cached_property, partial, wraps
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Class = TypeVar("Class")
+
+NAN = object()
+"""Stands for nan in what is compared, since nan does not equal itself."""
+
+
+def value_class(cls: type[Class]) -> type[Class]:
+    """Make the instances of a dataclass values; a decorator above ``@dataclass(frozen=True, eq=False)``.
+
+    Two instances are equal if they are of one class and all their fields are: arrays entry by entry with nan
+    equal to nan, nested dataclasses, tuples and mappings by what they hold, functions by identity. A field
+    made with ``field(compare=False)`` is left out. Equal instances have equal hashes.
+
+    Arrays in fields, in tuples and mappings in fields, and in cached properties become read-only, without a
+    copy: a class that takes arrays from a user copies them in ``__post_init__``. Pickles and copies hold the
+    fields alone, so that cached properties are computed anew, and are read-only again. What of ``__eq__``,
+    ``__hash__``, ``__getstate__`` and ``__setstate__`` a class defines itself is kept.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @value_class
+    ... @dataclass(frozen=True, eq=False)
+    ... class Reading:
+    ...     time: float
+    ...     levels: NDArray[np.float64]
+    >>> one, two = (Reading(0.5, np.array([1.0, np.nan])) for _ in range(2))
+    >>> one == two, hash(one) == hash(two), one == 0.5, one.levels.flags.writeable
+    (True, True, False, False)
+    """
+    for attribute in vars(cls).values():
+        if isinstance(attribute, cached_property):
+            attribute.func = _read_only(attribute.func)
+    methods = {"__eq__": _equal, "__hash__": _hash, "__getstate__": _state, "__setstate__": _restore}
+    own = vars(cls).keys() - {"__init__"}
+    for name, method in ({"__init__": _initialiser(cls)} | methods).items():
+        if name not in own:
+            setattr(cls, name, method)
+    return cls
+
+
+def freeze(value: object) -> None:
+    """Make an array read-only, or those in a tuple or a mapping."""
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif isinstance(value, tuple):
+        for entry in value:
+            freeze(entry)
+    elif isinstance(value, Mapping):
+        for entry in value.values():
+            freeze(entry)
+
+
+def _initialiser(cls: Any) -> Any:
+    """``__init__`` of a dataclass, as `dataclass` writes it but filling ``__dict__`` at once.
+
+    This takes half the time of a frozen dataclass's own, and pays for making the arrays read-only.
+    """
+    given = {entry.name: entry for entry in fields(cls)}
+    parameters = [entry for entry in given.values() if entry.init]
+    plain = [_parameter(entry) for entry in parameters if not entry.kw_only]
+    named = [_parameter(entry) for entry in parameters if entry.kw_only]
+    lines = [
+        f"def __init__({', '.join(['self', *plain, *(['*', *named] if named else [])])}):",
+        "    values = self.__dict__",
+        *(f"    values[{name!r}] = {_initial(entry)}" for name, entry in given.items()),
+        *(["    self.__post_init__()"] if hasattr(cls, "__post_init__") else []),
+        "    for value in values.values():",
+        "        kind = type(value)",
+        "        if kind is ndarray:",
+        "            value.setflags(False)",
+        "        elif kind is tuple or kind is dict:",
+        "            freeze(value)",
+    ]
+    names: dict[str, Any] = {"given": given, "MISSING": MISSING, "ndarray": np.ndarray, "freeze": freeze}
+    exec("\n".join(lines), names)
+    return wraps(cls.__init__)(names["__init__"])
+
+
+def _parameter(entry: Field[Any]) -> str:
+    """A field as a parameter of ``__init__``; its default is MISSING where a factory makes it."""
+    required = entry.default is MISSING and entry.default_factory is MISSING
+    return entry.name if required else f"{entry.name}=given[{entry.name!r}].default"
+
+
+def _initial(entry: Field[Any]) -> str:
+    """What ``__init__`` stores in a field."""
+    if entry.default_factory is MISSING:
+        return entry.name if entry.init else f"given[{entry.name!r}].default"
+    made = f"given[{entry.name!r}].default_factory()"
+    return f"{made} if {entry.name} is MISSING else {entry.name}" if entry.init else made
+
+
+def _read_only(function: Any) -> Any:
+    """The function of a cached property, with read-only arrays in what it returns."""
+
+    @wraps(function)
+    def computed(self: object) -> Any:
+        result = function(self)
+        freeze(result)
+        return result
+
+    return computed
+
+
+def _equal(self: Any, other: object) -> Any:
+    if type(other) is not type(self):
+        return NotImplemented
+    return self is other or _key(self) == _key(other)
+
+
+def _hash(self: Any) -> int:
+    return hash(_key(self))
+
+
+def _state(self: Any) -> dict[str, Any]:
+    return {entry.name: getattr(self, entry.name) for entry in fields(self)}
+
+
+def _restore(self: Any, state: dict[str, Any]) -> None:
+    freeze(state)
+    self.__dict__.update(state)
+
+
+def _key(value: Any) -> Any:
+    """A hashable object that two values share if and only if they are equal."""
+    if isinstance(value, np.ndarray):
+        return _array_key(value)
+    if isinstance(value, list | tuple):
+        return tuple(map(_key, value))
+    if isinstance(value, Mapping):
+        return frozenset((_key(name), _key(entry)) for name, entry in value.items())
+    if isinstance(value, partial):
+        return partial, value.func, _key(value.args), _key(value.keywords)
+    if is_dataclass(value) and not isinstance(value, type):
+        return type(value), *(_key(getattr(value, x.name)) for x in fields(value) if x.compare)
+    if isinstance(value, float | np.floating) and value != value:
+        return NAN
+    if hasattr(value, "as_immutable"):  # a matrix of SymPy
+        return value.as_immutable()
+    return value
+
+
+def _array_key(array: NDArray[Any]) -> Any:
+    """Shape, type and entries of an array, with one zero and one nan."""
+    if array.dtype.kind == "O":
+        return array.shape, tuple(map(_key, array.ravel().tolist()))
+    if array.dtype.kind in "fc":
+        array = np.where(np.isnan(array), np.nan, array) + 0.0
+    return array.shape, array.dtype.str, array.tobytes()
