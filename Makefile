@@ -62,7 +62,7 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 .PHONY: judge
 judge: $(EXTRA) ## solve the rendezvous directly, from cold starts, for comparison
 	@echo "== rendezvous by collocation"
-	@$(PY) -m pontryagin.rendezvous.judge.table
+	@$(PY) -m pontryagin.rendezvous.judge
 
 .PHONY: lint
 lint: $(READY) ## style and types

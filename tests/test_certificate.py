@@ -3,24 +3,36 @@
 import numpy as np
 import pytest
 
-from pontryagin.certificate import Certificate, MaximumPrinciple
+from pontryagin.certificate import ACCEPTED, Certificate, MaximumPrinciple
 
 
 def certificate(residual, primal, dual):
     return Certificate(np.array(residual), np.array(primal), np.array(dual))
 
 
-def test_the_gap_is_relative_for_large_values_and_absolute_for_small_ones():
-    gap = certificate([0.0] * 3, [200.0, 0.5, -200.0], [100.0, 0.25, -300.0]).gap
-    assert gap.tolist() == [0.5, 0.25, 0.5]
+def test_the_gap_is_relative_to_the_larger_of_both_values():
+    gap = certificate([0.0] * 4, [200.0, 0.5, -200.0, 3e-150], [100.0, 1.0, -250.0, 0.0]).gap
+    assert gap.tolist() == [0.5, 0.5, 0.2, 1.0]
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-12, 1.0, 1e300])
+def test_it_means_the_same_in_every_unit(unit):
+    assert certificate(0.0, 1.0 * unit, (1 - 1e-9) * unit).holds()
+    assert not certificate(0.0, 1.0 * unit, (1 - 1e-7) * unit).holds()
+
+
+def test_a_small_value_does_not_hold_against_a_bound_of_zero():
+    assert not certificate(0.0, 1e-11, 0.0).holds(0.5)
+    assert certificate(0.0, 0.0, 0.0).holds(0.0)
 
 
 def test_it_holds_for_nothing_that_is_not_small():
-    assert certificate(1e-11, 1.0, 1.0).holds()
-    assert not certificate(1e-9, 1.0, 1.0).holds()
-    assert not certificate(-1e-9, 1.0, 1.0).holds()
-    assert not certificate(0.0, 1.0, 1.0 - 1e-9).holds()
-    assert not certificate(0.0, 1.0, 1.0 + 1e-9).holds(), "a bound above the value is as wrong as a low one"
+    assert certificate(ACCEPTED, 1.0, 1.0).holds()
+    more = 10 * ACCEPTED
+    assert not certificate(more, 1.0, 1.0).holds()
+    assert not certificate(-more, 1.0, 1.0).holds()
+    assert not certificate(0.0, 1.0, 1.0 - more).holds()
+    assert not certificate(0.0, 1.0, 1.0 + more).holds(), "a bound above the value is as wrong as a low one"
 
 
 @pytest.mark.parametrize("place", range(3))

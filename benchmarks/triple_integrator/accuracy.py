@@ -6,7 +6,8 @@ from benchmarks.contest import worst
 from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import MOMENT_CLASSES, TRANSFER_CLASSES
 from benchmarks.triple_integrator.transfers import by_pontryagin
-from pontryagin.triple_integrator import Maneuver, arrival, minimum_energy, minimum_impulse, minimum_peak
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
+from pontryagin.triple_integrator.least_time import arrival
 
 HEADINGS = ("problem", "class", "problems", "unsolved", "worst miss", "worst gap")
 

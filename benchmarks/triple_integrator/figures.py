@@ -6,12 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.triple_integrator.transfers import Cell
-from pontryagin.display.plotting import (
-    INK,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, SEQUENTIAL, styled, subplots
 
 
 @styled

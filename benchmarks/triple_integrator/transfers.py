@@ -14,7 +14,7 @@ from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import Transfers
 from pontryagin.arrays import Array
 from pontryagin.triple_integrator import minimum_time
-from pontryagin.triple_integrator import time as least_time
+from pontryagin.triple_integrator.least_time import time as least_time
 
 REACHED = 1e-9
 """Largest relative miss with which an answer counts as one."""

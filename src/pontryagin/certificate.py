@@ -1,4 +1,4 @@
-"""Certificates: the primal residual, the dual bound and the gap that make an answer an answer."""
+"""Certificates of answers: lower bounds where the problem is convex, residuals of the maximum principle."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,9 +6,16 @@ from functools import cached_property
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.value import value_class
+
+ACCEPTED = 1e-8
+"""Largest residual, and largest gap relative to the value, of an answer that is handed out."""
+
+TINY = np.finfo(float).tiny
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Certificate:
     """How far a solution of a convex problem can be from the optimum.
 
@@ -24,8 +31,9 @@ class Certificate:
 
     Examples
     --------
-    >>> Certificate(np.array(1e-15), np.array(32.0), np.array(32.0)).holds()
-    True
+    >>> proof = Certificate(np.array(1e-15), np.array(32.0), np.array(31.0))
+    >>> float(proof.gap), proof.holds(), proof.holds(0.1)
+    (0.03125, False, True)
     """
 
     primal_residual: Array
@@ -34,15 +42,28 @@ class Certificate:
 
     @cached_property
     def gap(self) -> Array:
-        """(primal - dual) / max(1, |primal|), elementwise."""
-        return (self.primal_value - self.dual_value) / np.maximum(1.0, np.abs(self.primal_value))
+        """|primal - dual| / max(|primal|, |dual|), (...); 0 where both are 0.
 
-    def holds(self, tol: float = 1e-10) -> bool:
+        It does not depend on the unit of the cost. A bound above the value counts like one below it, since
+        neither can be so of an optimum.
+        """
+        primal, dual = self.primal_value, self.dual_value
+        gap: Array = np.abs(primal - dual) / np.maximum(np.maximum(np.abs(primal), np.abs(dual)), TINY)
+        return gap
+
+    @cached_property
+    def residual(self) -> Array:
+        """The larger of |primal_residual| and the gap, (...)."""
+        residual: Array = np.maximum(np.abs(self.primal_residual), self.gap)
+        return residual
+
+    def holds(self, tol: float = ACCEPTED) -> bool:
         """Whether every residual and every gap of the stack is within `tol`; nan never is."""
-        return bool(np.all(np.abs(self.primal_residual) <= tol) and np.all(np.abs(self.gap) <= tol))
+        return bool(np.all(self.residual <= tol))
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class MaximumPrinciple:
     """How exactly an extremal satisfies the necessary conditions of the maximum principle.
 
@@ -76,8 +97,9 @@ class MaximumPrinciple:
     def residual(self) -> Array:
         """The largest of the four, (...)."""
         parts = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
-        return np.max(np.broadcast_arrays(*parts), axis=0)
+        residual: Array = np.max(np.broadcast_arrays(*parts), axis=0)
+        return residual
 
-    def holds(self, tol: float = 1e-10) -> bool:
+    def holds(self, tol: float = ACCEPTED) -> bool:
         """Whether every residual of the stack is within `tol`; nan never is."""
         return bool(np.all(self.residual <= tol))

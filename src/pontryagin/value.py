@@ -24,7 +24,8 @@ def value_class(cls: type[Class]) -> type[Class]:
     Arrays in fields, in tuples and mappings in fields, and in cached properties become read-only, without a
     copy: a class that takes arrays from a user copies them in ``__post_init__``. Pickles and copies hold the
     fields alone, so that cached properties are computed anew, and are read-only again. What of ``__eq__``,
-    ``__hash__``, ``__getstate__`` and ``__setstate__`` a class defines itself is kept.
+    ``__hash__``, ``__getstate__`` and ``__setstate__`` a class defines itself is kept, and so is the
+    ``__init__`` of a dataclass with ``init=False``, which makes its arrays read-only by `freeze`.
 
     Examples
     --------
@@ -38,14 +39,14 @@ def value_class(cls: type[Class]) -> type[Class]:
     >>> one == two, hash(one) == hash(two), one == 0.5, one.levels.flags.writeable
     (True, True, False, False)
     """
-    for attribute in vars(cls).values():
-        if isinstance(attribute, cached_property):
+    for attribute in (attribute for base in cls.__mro__ for attribute in vars(base).values()):
+        if isinstance(attribute, cached_property) and not hasattr(attribute.func, "freezes"):
             attribute.func = _read_only(attribute.func)
     methods = {"__eq__": _equal, "__hash__": _hash, "__getstate__": _state, "__setstate__": _restore}
-    own = vars(cls).keys() - {"__init__"}
-    for name, method in ({"__init__": _initialiser(cls)} | methods).items():
-        if name not in own:
-            setattr(cls, name, method)
+    for name in methods.keys() - vars(cls).keys():
+        setattr(cls, name, methods[name])
+    if cls.__dataclass_params__.init:  # type: ignore[attr-defined]
+        setattr(cls, "__init__", _initialiser(cls))  # noqa: B010
     return cls
 
 
@@ -110,6 +111,7 @@ def _read_only(function: Any) -> Any:
         freeze(result)
         return result
 
+    computed.freezes = True  # type: ignore[attr-defined]
     return computed
 
 

@@ -9,6 +9,7 @@ import resource
 import subprocess
 import sys
 import sysconfig
+import warnings
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -367,6 +368,18 @@ class TestReport:
     def test_every_stage_is_in_the_help(self):
         told = run("report", "--help").stdout
         assert all(stage in told for stage in build.STAGES)
+
+
+class TestWarnings:
+    def test_a_warning_is_one_line_and_no_failure(self, monkeypatch):
+        def noisy(paper, verdict):
+            warnings.warn("heyoka is not installed;\nflows use DOP853", UserWarning, stacklevel=1)
+            return ()
+
+        monkeypatch.setattr(ledger, "entries", noisy)
+        result = run("ledger", "--json", "-")
+        assert (result.exit_code, result.stdout) == (0, "[]\n")
+        assert result.stderr == "Warning: heyoka is not installed; flows use DOP853\n"
 
 
 class TestHelp:

@@ -5,17 +5,9 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from pontryagin.numerics import jit
-from pontryagin.triple_integrator import (
-    Maneuver,
-    arrival,
-    energy,
-    impulse,
-    minimum_energy,
-    minimum_impulse,
-    minimum_peak,
-    minimum_time,
-    peak,
-)
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak, minimum_time
+from pontryagin.triple_integrator.least_time import arrival
+from pontryagin.triple_integrator.norms import energy, impulse, peak
 
 COUNT = 100_000
 KERNELS = {

@@ -96,7 +96,7 @@ def test_in_one_plane_the_printed_conditions_leave_nu3_free():
     def residual(unknowns, nu3):
         rho, s1, e, duration = unknowns
         member = meetings.Meeting("", (rho, s1, e, 0.0, 0.0, nu3), duration)
-        end = conditions(meetings.flown(member, np.array([0.0, duration]))[-1], 0.0)
+        end = conditions(meetings.trajectory(member, np.array([0.0, duration]))[-1], 0.0)
         return [*end["ends"], *end["law"]]
 
     at = np.array([*TRUE.costates[:3], TRUE.duration])

@@ -1,4 +1,4 @@
-"""The command line: what it prints is what the solver found, and every mistake is one line."""
+"""The command line prints the numbers of the solver, and every error in one line."""
 
 import json
 import math
@@ -16,22 +16,17 @@ from pontryagin.rendezvous import (
     Chaser,
     Orbit,
     Rendezvous,
+    schema,
     solve,
     transcript,
-)
-from pontryagin.rendezvous import (
-    schema as asked,
 )
 from pontryagin.rendezvous.problem.cases import (
     cases,
     chaser_on,
 )
-from pontryagin.rendezvous.reduced.homotopy import Root
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.root import Root
 
 CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}
 TARGET = {"parameter": 1.5, "eccentricity": 0.1, "anomaly": 0.6, "attitude": [1, 0, 0, 0]}
@@ -75,38 +70,38 @@ def leap():
 
 
 class TestAnswers:
-    def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(self, write, leap):
+    def test_json_holds_every_digit_of_the_solver_s_numbers(self, write, leap):
         result = run("--file", write(LEAP), "--json", "--samples", "5")
         assert (result.exit_code, result.stderr) == (0, "")
-        told = json.loads(result.stdout)
-        assert told["solution"]["duration"] == leap.duration == 6.0
-        assert told["solution"]["cost"] == leap.cost
-        assert told["solution"]["arrival_anomaly"] == leap.arrival_anomaly
-        assert told["solution"]["revolutions"] == leap.revolutions
-        assert told["solution"]["initial_costate"] == leap.initial_costate.tolist()
-        assert told["solution"]["arcs"] == ["unsaturated"] and told["solution"]["switch_times"] == []
-        for name, value in told["certificate"].items():
+        output = json.loads(result.stdout)
+        assert output["solution"]["duration"] == leap.duration == 6.0
+        assert output["solution"]["cost"] == leap.cost
+        assert output["solution"]["arrival_anomaly"] == leap.arrival_anomaly
+        assert output["solution"]["revolutions"] == leap.revolutions
+        assert output["solution"]["initial_costate"] == leap.initial_costate.tolist()
+        assert output["solution"]["arcs"] == ["unsaturated"] and output["solution"]["switch_times"] == []
+        for name, value in output["certificate"].items():
             assert value == float(getattr(leap.certificate, name)), name
-        assert told["certificate"]["residual"] < 1e-10
-        assert told["others"]["cost"] == [other.cost for other in leap.others]
-        assert told["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
-        assert told["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
-        assert told["searched"]["ends"] == leap.searched.ends and len(leap.searched.ends) == 2
+        assert output["certificate"]["residual"] < 1e-10
+        assert output["others"]["cost"] == [other.cost for other in leap.others]
+        assert output["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
+        assert output["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
+        assert output["searched"]["ends"] == leap.searched.ends and len(leap.searched.ends) == 2
         t = np.linspace(0, 6, 5)
-        assert told["samples"]["t"] == t.tolist()
+        assert output["samples"]["t"] == t.tolist()
         for name in ("state", "costate", "control"):
-            assert told["samples"][name] == getattr(leap, name)(t).tolist(), name
-        end, start = told["samples"]["state"][-1], told["samples"]["state"][0]
+            assert output["samples"][name] == getattr(leap, name)(t).tolist(), name
+        end, start = output["samples"]["state"][-1], output["samples"]["state"][0]
         assert start[:4] == pytest.approx([1, 0, 1, 0.6], abs=1e-14)
         assert end[0] == pytest.approx(1.5 / (1 + 0.1 * math.cos(end[3])), abs=1e-12)
 
-    def test_the_problem_that_json_tells_is_a_file_for_the_command(self, leap):
-        told = asked.written(leap.problem)
-        again = asked.read(json.dumps(told))
-        assert asked.written(again) == told
+    def test_the_problem_in_the_json_output_is_an_input_file(self, leap):
+        output = schema.to_dict(leap.problem)
+        again = schema.read(json.dumps(output))
+        assert schema.to_dict(again) == output
         assert again.peak == math.inf and again.duration == 6.0
 
-    def test_the_table_tells_the_times_the_cost_the_arcs_and_what_was_searched(self, write, leap):
+    def test_the_table_holds_times_cost_arcs_and_the_extent_of_the_search(self, write, leap):
         path = write(LEAP | {"peak": 0.5})
         result = run("--file", path)
         assert result.exit_code == 0, result.stderr
@@ -120,8 +115,8 @@ class TestAnswers:
         assert re.search(r"^ +from durations +6 *$", shown, re.MULTILINE)
         assert "that none costs less elsewhere is not claimed" in " ".join(shown.split())
 
-    def test_the_others_found_are_a_line_each_and_the_rest_is_counted(self):
-        told = {
+    def test_up_to_six_other_extremals_are_listed_and_the_rest_is_counted(self):
+        output = {
             "problem": {"duration": None},
             "others": {
                 "count": 8,
@@ -130,14 +125,14 @@ class TestAnswers:
                 "revolutions": [0.5] * 8,
             },
         }
-        lines = transcript.shown(told)["others found"]
+        lines = transcript.table(output)["others found"]
         assert list(lines) == ["2", "3", "4", "5", "6", "7", "further"]
         assert lines["2"] == "cost 1, time 2.5, 0.50 revolutions"
         assert lines["further"] == "2, up to the cost 8"
-        assert transcript.shown(told)["problem"]["duration"] == "free"
+        assert transcript.table(output)["problem"]["duration"] == "free"
 
-    def test_files_are_drawn_and_recorded(self, write, tmp_path, leap, monkeypatch):
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: leap)
+    def test_a_figure_and_a_recording_are_written(self, write, tmp_path, leap, monkeypatch):
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: leap)
         files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
         result = run("--file", write(LEAP), *files)
         assert result.exit_code == 0, result.stderr
@@ -151,11 +146,11 @@ class TestAnswers:
         shown = run("--list").stdout
         for name, case in cases().items():
             assert re.search(rf"^ +{name} +{re.escape(case.title[:30])}", shown, re.MULTILINE), name
-        told = json.loads(run("--list", "--json").stdout)
-        assert told == {"cases": {name: case.title for name, case in cases().items()}}
+        output = json.loads(run("--list", "--json").stdout)
+        assert output == {"cases": {name: case.title for name, case in cases().items()}}
 
     def test_a_case_is_the_problem_of_that_name(self, monkeypatch):
-        """The solver is left out: what it is asked is what counts."""
+        """The solver is replaced by a function that keeps the problem it is given."""
 
         class Reached(Exception):
             pass
@@ -163,30 +158,29 @@ class TestAnswers:
         def reached(problem):
             raise Reached(problem)
 
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", reached)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", reached)
         for name in ("mars", "mixed-bounded"):
-            with pytest.raises(Reached) as asked_for:
+            with pytest.raises(Reached) as reached_with:
                 run("--case", name)
-            assert asked.written(asked_for.value.args[0]) == asked.written(cases()[name].problem)
+            assert schema.to_dict(reached_with.value.args[0]) == schema.to_dict(cases()[name].problem)
 
 
 class TestFiles:
     def read(self, **changes):
-        return asked.read(json.dumps(LEAP | changes))
+        return schema.read(json.dumps(LEAP | changes))
 
-    def test_what_is_left_out_has_the_values_told(self):
-        problem = asked.read(json.dumps({"chaser": CRAFT, "target": TARGET, "peak": 0.1}))
+    def test_missing_keys_have_their_default_values(self):
+        problem = schema.read(json.dumps({"chaser": CRAFT, "target": TARGET, "peak": 0.1}))
         assert (problem.time_weight, problem.energy_weight, problem.gravity) == (1.0, 0.0, 1.0)
         assert problem.duration is None and self.read(duration=None, time_weight=1).duration is None
 
-    def test_angles_stand_for_the_attitude_and_texts_for_numbers(self):
+    def test_angles_may_replace_the_attitude_and_texts_numbers(self):
         target = self.read(target=TILTED).target
         known = Orbit.from_angles(1.5, 0.1, 0.0, math.pi / 9, -0.3, 0.6)
         assert target.parameter == 1.5 and np.array_equal(target.attitude, known.attitude)
 
     @pytest.mark.parametrize("orbit", [TARGET, TILTED])
-    def test_the_chaser_may_be_on_an_orbit(self, orbit):
-        """It is then where the target of that orbit is, and moves as it does: by Newton's law of areas."""
+    def test_a_chaser_given_as_an_orbit_has_its_energy_and_areal_constant(self, orbit):
         craft = self.read(chaser=orbit, gravity=4).chaser
         place = self.read(target=orbit).target
         assert craft.c == pytest.approx(math.sqrt(4 * 1.5), rel=1e-15)
@@ -196,15 +190,15 @@ class TestFiles:
         assert np.allclose(craft.attitude, chaser_on(place, 4.0).attitude)
 
     @pytest.mark.parametrize("name", list(cases()))
-    def test_every_case_survives_the_way_through_a_file(self, name):
+    def test_every_case_is_read_as_it_was_written(self, name):
         problem = cases()[name].problem
-        again = asked.read(json.dumps(asked.written(problem)))
-        told, known = asked.written(again), asked.written(problem)
+        again = schema.read(json.dumps(schema.to_dict(problem)))
+        output, known = schema.to_dict(again), schema.to_dict(problem)
         for part in ("chaser", "target"):
-            assert told[part].keys() == known[part].keys()
+            assert output[part].keys() == known[part].keys()
             for key, value in known[part].items():
-                assert told[part][key] == pytest.approx(value, rel=1e-15, abs=1e-16), (part, key)
-        assert {key: told[key] for key in asked.OPTIONAL} == {key: known[key] for key in asked.OPTIONAL}
+                assert output[part][key] == pytest.approx(value, rel=1e-15, abs=1e-16), (part, key)
+        assert {key: output[key] for key in schema.OPTIONAL} == {key: known[key] for key in schema.OPTIONAL}
 
 
 BAD = {
@@ -300,21 +294,37 @@ TEXTS = {
 }
 
 
-class TestMistakes:
+class TestErrors:
     @pytest.mark.parametrize("name", BAD)
-    def test_a_bad_value_is_named_by_its_key(self, write, name):
+    def test_the_error_of_a_wrong_value_names_its_key(self, write, name):
         changes, begins = BAD[name]
         path = write(LEAP | changes)
-        told = f"--file:{begins}" if begins.startswith(" ") else f"--file: {path}, {begins}"
-        assert_refused(run("--file", path), told)
+        output = f"--file:{begins}" if begins.startswith(" ") else f"--file: {path}, {begins}"
+        assert_refused(run("--file", path), output)
+
+    @pytest.mark.parametrize(
+        ("changes", "argument"),
+        [
+            ({"target": TARGET | {"eccentricity": -1}}, "target.eccentricity"),
+            ({"chaser": {"r": 1}}, "chaser.v1"),
+            ({"mass": 1}, "mass"),
+            ({"target": TARGET | {"attitude": [1, "up", 0, 0]}}, "target.attitude[1]"),
+            ({"peak": -1}, "peak"),
+            ({"energy_weight": 0}, "time_weight"),
+        ],
+    )
+    def test_the_error_carries_the_key_as_its_argument(self, changes, argument):
+        with pytest.raises(ValueError, match=re.escape(argument)) as error:
+            schema.read(json.dumps(LEAP | changes))
+        assert error.value.argument == argument
 
     @pytest.mark.parametrize("name", TEXTS)
-    def test_a_bad_text_is_named(self, write, name):
+    def test_the_error_of_a_wrong_text_names_the_fault(self, write, name):
         text, begins = TEXTS[name]
         path = write(text)
         assert_refused(run("--file", path), f"--file: {path}, {begins}")
 
-    def test_a_file_that_cannot_be_read_is_named(self, tmp_path):
+    def test_the_error_of_an_unreadable_file_names_it(self, tmp_path):
         assert_refused(run("--file", tmp_path / "none.json"), f"--file cannot read {tmp_path / 'none.json'}")
         assert_refused(run("--file", tmp_path), f"--file cannot read {tmp_path}")
         (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\x00")
@@ -336,24 +346,24 @@ class TestMistakes:
             (["--peak", "1"], "No such option: --peak"),
         ],
     )
-    def test_what_was_typed_wrong_is_named_in_one_line(self, arguments, begins):
+    def test_the_error_of_a_wrong_option_names_it_in_one_line(self, arguments, begins):
         assert_refused(run(*arguments), begins)
 
-    def test_numbers_that_overflow_are_refused_by_name(self, write):
+    def test_the_error_of_an_overflow_names_the_argument(self, write):
         path = write(LEAP | {"chaser": CRAFT | {"c": 1e200}})
         assert_refused(run("--file", path), f"--file: {path}, chaser must start on an ellipse")
 
-    def test_a_bound_too_small_for_the_time_exits_with_1_and_the_reason(self, write):
+    def test_an_infeasible_problem_exits_with_1_and_the_reason(self, write):
         path = write(LEAP | {"peak": 0.02})
         assert_refused(run("--file", path), "no extremal of this duration stays within the peak", status=1)
 
-    def test_an_answer_that_does_not_close_is_not_handed_out(self, write, leap, monkeypatch):
-        """A start that is off by 1e-4 is flown to another place."""
+    def test_a_solution_whose_certificate_does_not_close_is_refused(self, write, leap, monkeypatch):
+        """Costates that are wrong by 1e-4 lead to another place."""
         scaled = leap.problem.scaled
         setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
         moved = leap.root.unknowns + 1e-4
-        wrong = replace(leap, root=Root(moved, equations(setting, moved), 0.0), searched=Search())
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: wrong)
+        wrong = replace(leap, root=Root(moved, equations(setting, moved)), searched=Search())
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: wrong)
         assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
 
 
@@ -362,7 +372,7 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
     shown = run("--help").stdout
     block = re.search(r"^ +(\{\"chaser\".*?\})\n\n", shown, re.DOTALL | re.MULTILINE)
     assert block is not None
-    problem = asked.read(block[1])
+    problem = schema.read(block[1])
     assert problem.duration == 9.0 and problem.peak == math.inf
     tilted = Orbit.from_angles(1.5, 0.1, 0.0, 20 * math.pi / 180, 0.0, 0.6)
     assert np.array_equal(problem.target.attitude, tilted.attitude)
@@ -373,19 +383,19 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
         solved.append(given)
         return leap
 
-    monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", known)
+    monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", known)
     examples = re.findall(r"^ +pontryagin (.*)$", shown, re.MULTILINE)
     assert len(examples) == 4
     for example in examples:
         assert CliRunner().invoke(app, example).exit_code == 0, example
-    assert [asked.written(given)["duration"] for given in solved] == [8.0, 8.0, 9.0]
+    assert [schema.to_dict(given)["duration"] for given in solved] == [8.0, 8.0, 9.0]
 
 
 def test_the_file_in_the_readme_is_a_problem():
     block = re.search(r"```json\n(.*?)```", (repository() / "README.md").read_text(), re.DOTALL)
     assert block is not None
-    problem = asked.read(block[1])
+    problem = schema.read(block[1])
     known = cases()["mixed-bounded"].problem
-    assert asked.written(problem)["chaser"] == asked.written(known)["chaser"]
+    assert schema.to_dict(problem)["chaser"] == schema.to_dict(known)["chaser"]
     assert problem.target.attitude == pytest.approx(known.target.attitude, abs=1e-15)
     assert (problem.peak, problem.duration, problem.time_weight) == (0.08, None, 0.0036)

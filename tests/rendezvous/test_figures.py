@@ -1,4 +1,4 @@
-"""What the figures and tables show is what the solutions are: lines are read back and checked."""
+"""The lines of the figures and the entries of the tables agree with the solutions."""
 
 import csv
 import functools
@@ -30,21 +30,20 @@ def space() -> Extremal:
 
 
 class TestPaths:
-    def test_the_way_starts_at_the_craft_and_ends_at_the_target(self):
+    def test_the_path_leads_from_the_craft_to_the_target(self):
         problem = space().problem
-        times, places, thrust = paths.flown(problem, space().flight, 50)
+        times, places, thrust = paths.flight_path(problem, space().flight, 50)
         assert_allclose(places[0], [1, 0, 0], atol=1e-14)
         assert_allclose(places[-1], paths.target_at(problem, space().duration), atol=1e-10)
         assert times[-1] == pytest.approx(space().duration)
         assert_allclose(np.linalg.norm(thrust, axis=1), np.linalg.norm(space().control(times), axis=1))
 
-    def test_the_way_obeys_newton_s_law(self):
-        """Second differences of the places are gravity and the thrust."""
-        times, places, thrust = paths.flown(space().problem, space().flight, 4001)
+    def test_the_second_differences_of_the_path_are_gravity_and_thrust(self):
+        times, places, thrust = paths.flight_path(space().problem, space().flight, 4001)
         step = times[1] - times[0]
-        pull = -places / np.linalg.norm(places, axis=1, keepdims=True) ** 3
-        bent = (places[2:] - 2 * places[1:-1] + places[:-2]) / step**2
-        assert np.abs(bent - (pull + thrust)[1:-1]).max() < 1e-4
+        gravity = -places / np.linalg.norm(places, axis=1, keepdims=True) ** 3
+        acceleration = (places[2:] - 2 * places[1:-1] + places[:-2]) / step**2
+        assert np.abs(acceleration - (gravity + thrust)[1:-1]).max() < 1e-4
 
     def test_both_orbits_are_ellipses_about_the_centre(self):
         problem = Rendezvous(
@@ -53,7 +52,7 @@ class TestPaths:
             peak=0.1,
         )
         for points, size in (
-            (paths.first_orbit(problem), 1 / (2 - 0.2**2 - 1.05**2)),
+            (paths.initial_orbit(problem), 1 / (2 - 0.2**2 - 1.05**2)),
             (paths.target_orbit(problem), 1.5 / (1 - 0.3**2)),
         ):
             r = np.linalg.norm(points, axis=1)
@@ -64,7 +63,7 @@ class TestPaths:
 
 
 class TestSeries:
-    def test_the_lines_are_the_thrust_and_the_costates(self):
+    def test_the_curves_are_the_thrust_and_the_costates(self):
         axes = figures.series(space()).axes
         times = axes[0].lines[0].get_xdata()
         drawn = np.array([line.get_ydata() for line in axes[0].lines]).T
@@ -76,7 +75,7 @@ class TestSeries:
         shown = np.array([line.get_ydata() for ax in axes[4:] for line in ax.lines]).T
         assert_allclose(shown * units, space().costate(times), atol=1e-12)
 
-    def test_the_switch_is_where_n_meets_its_line(self):
+    def test_the_switch_is_where_n_reaches_its_threshold(self):
         axes = figures.series(space()).axes
         curve, line = axes[2].lines[0], axes[2].lines[1].get_ydata()[0]
         switch = np.interp(space().switch_times[0], curve.get_xdata(), curve.get_ydata())
@@ -84,7 +83,7 @@ class TestSeries:
         assert [patch.get_x() for patch in axes[0].patches] == [0.0]
         assert axes[0].patches[0].get_width() == pytest.approx(space().switch_times[0])
 
-    def test_h_does_not_drift(self):
+    def test_the_hamiltonian_is_constant(self):
         flight = space().flight
         times = np.linspace(0, flight.duration, 101)
         assert np.abs(drift(space(), times, flight.sample(times))).max() < 1e-12
@@ -92,7 +91,7 @@ class TestSeries:
         times = np.linspace(0, fixed.flight.duration, 101)
         assert np.abs(drift(fixed, times, fixed.flight.sample(times))).max() < 1e-12
 
-    def test_units_are_those_of_the_trade(self):
+    def test_problems_in_km_and_s_are_shown_in_larger_units(self):
         own = labels.units(case("mars").problem)
         assert own.time == DAY and own.axis("$t$", "time") == "$t$ [d]"
         assert labels.units(case("glonass").problem).axis("$x$", "length") == "$x$ [$10^3$ km]"
@@ -100,20 +99,20 @@ class TestSeries:
 
 
 class TestSpace:
-    def test_the_line_ends_at_the_star(self):
+    def test_the_path_ends_at_the_meeting_which_is_at_the_target(self):
         ax = figures.orbit(space()).axes[0]
-        way = next(line for line in ax.lines if line.get_label() == "the way of the craft")
+        path = next(line for line in ax.lines if line.get_label() == "the way of the craft")
         star = next(line for line in ax.lines if line.get_label() == "meeting")
-        assert_allclose(np.array(way.get_data_3d())[:, -1], np.ravel(star.get_data_3d()))
-        there = paths.target_at(space().problem, space().duration)
-        assert_allclose(np.ravel(star.get_data_3d()), there, atol=1e-10)
+        assert_allclose(np.array(path.get_data_3d())[:, -1], np.ravel(star.get_data_3d()))
+        target = paths.target_at(space().problem, space().duration)
+        assert_allclose(np.ravel(star.get_data_3d()), target, atol=1e-10)
 
     def test_there_is_a_panel_for_each_case(self):
         found = {"one": space(), "two": solved("circle-energy")}
         assert [ax.get_title() for ax in figures.trajectories(found).axes] == ["one", "two"]
 
 
-class TestFalse:
+class TestFalseMeetings:
     family = staticmethod(functools.cache(lambda: false_family(solved("ellipse-mixed"), [0.0, -0.5])))
 
     def test_the_gap_drawn_is_the_distance_missed(self):
@@ -123,7 +122,7 @@ class TestFalse:
         assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
 
     @pytest.mark.parametrize(("name", "angle"), [("ellipse-mixed", -0.5), ("mixed", -0.35)])
-    def test_the_craft_ends_on_the_orbit_as_turned_and_not_on_the_target_s(self, name, angle):
+    def test_the_craft_ends_on_the_rotated_orbit_and_not_on_the_target_s(self, name, angle):
         (ax,) = figures.false_meetings(false_family(solved(name), [angle])).axes
         lines = {line.get_label(): line for line in ax.lines}
         places = {
@@ -131,14 +130,14 @@ class TestFalse:
             for label, line in lines.items()
         }
         end = places["craft at $t_k$"]
-        turned, orbit = (
+        rotated, orbit = (
             np.linalg.norm(places[label] - end, axis=1).min()
             for label in ("that orbit as turned", "orbit of the target")
         )
-        assert turned < 0.03 < 0.05 < orbit
+        assert rotated < 0.03 < 0.05 < orbit
         assert np.linalg.norm(end - places["target at $t_k$"]) > 0.2
 
-    def test_the_axis_of_the_turn_is_named(self):
+    def test_the_label_names_the_axis_of_the_rotation(self):
         plane = figures.missed(self.family()).axes[2]
         assert plane.get_xlabel() == r"turn of $\lambda(t_k)$ about the normal of the plane [°]"
         space_ = figures.missed(false_family(solved("mixed"), [-0.1, 0.0, 0.1])).axes[2]
@@ -146,18 +145,18 @@ class TestFalse:
         costs = space_.lines[0].get_ydata()
         assert costs[0] < costs[1] < costs[2]
 
-    def test_dots_stand_where_the_meeting_is_true(self):
+    def test_the_dots_mark_the_true_meetings(self):
         axes = figures.missed(self.family()).axes
         assert axes[1].lines[1].get_xdata() == [0.0]
         assert_allclose(axes[2].lines[0].get_ydata(), self.family().costs)
 
-    def test_one_singular_value_is_in_the_grey(self):
+    def test_one_singular_value_of_the_printed_conditions_is_zero_to_rounding(self):
         ax = figures.singular_values({"case": solved("ellipse-mixed")}).axes[0]
         printed, repaired = (np.sort(line.get_xdata()) for line in ax.lines)
         assert (len(printed), len(repaired)) == (8, 7)
         assert printed[0] < 1e-15 < 1e-5 < printed[1] and repaired[0] > 1e-5
 
-    def test_the_table_says_what_the_members_are(self):
+    def test_the_table_holds_the_angles_and_the_residuals(self):
         rows = tables.family(self.family())
         assert rows["turned by [°]"] == ["0", "-29"] and rows["(6) [°]"][1] == "28.6"
         ranks = tables.ranks({"case": self.family()})
@@ -165,8 +164,7 @@ class TestFalse:
 
 
 class TestRevolutions:
-    def test_the_branch_is_level_at_the_extremal_and_its_slope_is_the_end_law(self):
-        """dJ/dt_k = alpha1 - alpha2 p(t_k)^2, against differences along the curve."""
+    def test_the_slope_of_the_cost_over_the_duration_vanishes_at_the_extremal(self):
         best = solved("ellipse-mixed")
         points = branch(best, 1, (5.0, 17.0), 0.06)
         assert_allclose(points[0], [best.duration, best.cost], rtol=1e-9)
@@ -175,14 +173,13 @@ class TestRevolutions:
         mirrored = branch(best, -1, (5.0, 17.0), 0.06)
         assert mirrored[-1, 0] < best.duration < points[-1, 0]
 
-    def test_all_extremals_are_dots(self):
+    def test_the_dots_are_the_extremals(self):
         best = solved("ellipse-mixed")
         ax = figures.revolutions({"case": best}).axes[0]
         dots = [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
         assert_allclose(dots, [[one.duration, one.cost] for one in [best, *best.others]])
 
-    def test_the_true_meeting_a_turn_later_is_among_the_extremals(self):
-        """What the curve of false meetings comes to at 360° is an extremal that the search has found too."""
+    def test_the_meeting_at_360_degrees_on_the_curve_of_false_meetings_is_among_the_extremals(self):
         with (figures_folder() / "42-rendezvous-false-meetings" / "family.csv").open() as file:
             (row,) = (row for row in csv.DictReader(file) if row["turned by [°]"] == "360")
         best = solved("ellipse-mixed")
@@ -190,12 +187,12 @@ class TestRevolutions:
         wanted = (float(row["$t_k$"]), float(row["$J$"]))
         assert min(np.abs(np.subtract(one, wanted)).max() for one in found) < 2e-6
 
-    def test_a_bound_is_refused(self):
+    def test_a_branch_of_a_bounded_problem_is_refused(self):
         with pytest.raises(ValueError, match=r"must be of a problem without a bound, got a peak of 0\.08"):
             branch(space(), 1, (5.0, 15.0), 1.0)
 
 
-def test_the_tables_hold_what_was_solved():
+def test_the_tables_hold_the_numbers_of_the_solutions():
     found = {name: solved(name) for name in ("mixed-bounded", "ellipse-mixed")}
     rows = tables.solutions(found)
     assert rows["arcs"] == ["SU", "U"]
@@ -208,8 +205,8 @@ def test_the_tables_hold_what_was_solved():
     wanted = [float(one.certificate.residual) for one in found.values()]
     assert_allclose(largest, wanted, rtol=0.5)
     assert largest.max() < 1e-10
-    judged = tables.judge(found)
-    assert judged["direct/J − 1, 40"][1].endswith("(another)")
+    direct = tables.judge(found)
+    assert direct["direct/J − 1, 40"][1].endswith("(another)")
     several = {name: 1 + len(best.others) for name, best in found.items() if best.others}
     assert {name: tables.others(found)["case"].count(name) for name in several} == several
     assert rows["others"] == [len(best.others) for best in found.values()]
@@ -217,13 +214,13 @@ def test_the_tables_hold_what_was_solved():
 
 
 class TestElements:
-    def test_a_case_that_is_met_from_a_cold_start_is_told_from_one_that_is_carried_over(self):
-        assert elements._started("circle-energy")[1] == "cold"
-        assert elements._started("ellipse-mixed")[1] == "carried (cold: 0.0393)"
+    def test_the_start_of_each_case_is_described(self):
+        assert elements._with_start("circle-energy")[1] == "cold"
+        assert elements._with_start("ellipse-mixed")[1] == "carried (cold: 0.0393)"
         for name in ("circle-energy", "ellipse-mixed"):
             assert elements.in_elements(name).cost == pytest.approx(solved(name).cost, rel=1e-10)
 
-    def test_all_cases_are_in_the_table_and_agree(self):
+    def test_the_solutions_in_both_sets_of_variables_agree_in_all_cases(self):
         with (figures_folder() / "43-rendezvous-elements" / "agreement.csv").open() as file:
             rows = list(csv.DictReader(file))
         assert [row["case"] for row in rows] == list(cases())
@@ -231,7 +228,7 @@ class TestElements:
         assert max(float(row[name]) for row in rows for name in columns) < 1e-9
         assert {row["start"].split()[0] for row in rows} == {"cold", "carried"}
 
-    def test_h_does_not_drift_and_the_costates_are_those_of_the_flight(self):
+    def test_the_hamiltonian_is_constant_and_the_costates_are_those_of_the_flight(self):
         solution = elements.in_elements("ellipse-mixed")
         figure = elements_costates.costates_along(solution)
         first, second, last = figure.axes
@@ -247,11 +244,11 @@ class TestElements:
         assert np.abs(elements_costates.drift(solution, wrong, phi)).max() > 1e-9
 
 
-def test_a_figure_is_the_same_every_time():
+def test_a_figure_is_drawn_the_same_every_time():
     assert svg_of(figures.orbit(space())) == svg_of(figures.orbit(space()))
 
 
-def test_a_case_is_solved_once_and_a_name_that_is_none_is_refused():
+def test_an_unknown_case_is_refused():
     with pytest.raises(ValueError, match="name must be one of"):
         figures.solved("moon")
     assert math.isclose(labels.units(case("mixed").problem).length, 1)

@@ -1,4 +1,4 @@
-"""What is kept in files belongs to the cases of today: direct costs, and what small weights of time do."""
+"""The kept results of the direct method and of small weights of time belong to the present cases."""
 
 import csv
 from dataclasses import replace
@@ -21,28 +21,28 @@ from pontryagin.rendezvous.problem.cases import (
     fuel_cases,
 )
 
-KEPT = judge.verdicts()
-SQUARE = {name: KEPT[name] for name in cases()}
+KEPT = judge.direct_results()
+ENERGY = {name: KEPT[name] for name in cases()}
 FUEL = {name: KEPT[name] for name in fuel_cases()}
 QUICK = ("circle-energy", "ellipse-mixed", "mixed")
-UNEVEN = {"ellipse"}
-"""The error of its direct cost has changed sign between the meshes."""
+SIGN_CHANGES = {"ellipse"}
+"""Cases in which the error of the direct cost changes sign between the meshes."""
 
 
 def allowed(mesh: int) -> float:
-    """Relative error of a direct cost: of an order between two and three in the length of an interval."""
+    """Relative error allowed to a direct cost: of the order 2.5 in the length of an interval."""
     return 5e-6 * (40 / mesh) ** 2.5
 
 
 def published() -> dict[str, float]:
-    """Our costs in the report's table."""
+    """The costs in the report's table of solutions."""
     with (figures_folder() / "41-rendezvous-cases" / "solutions.csv").open() as file:
         return {row["case"]: float(row["$J$"]) for row in csv.DictReader(file)}
 
 
-def test_there_is_a_row_for_every_case_and_it_is_of_that_problem():
-    known = judge.judged_cases()
-    assert list(KEPT) == list(known) == [*SQUARE, *FUEL]
+def test_there_is_a_row_with_the_checksum_of_every_case():
+    known = judge.all_cases()
+    assert list(KEPT) == list(known) == [*ENERGY, *FUEL]
     assert {name: one.checksum for name, one in KEPT.items()} == {
         name: judge.checksum(one.problem, isinstance(one, FuelCase)) for name, one in known.items()
     }
@@ -65,33 +65,33 @@ def test_the_checksum_changes_with_every_number(name):
     assert len(sums) == len(changed) + 2
 
 
-def test_the_fine_mesh_agrees_with_the_report_s_costs_to_its_error():
-    ours, fine = published(), judge.MESHES[1]
-    assert list(ours) == list(SQUARE)
-    apart = {name: one.costs[1] / ours[name] - 1 for name, one in SQUARE.items()}
-    assert max(abs(value) for value in apart.values()) < allowed(fine)
+def test_the_costs_on_the_fine_mesh_agree_with_those_of_the_report():
+    indirect, fine = published(), judge.MESHES[1]
+    assert list(indirect) == list(ENERGY)
+    errors = {name: one.costs[1] / indirect[name] - 1 for name, one in ENERGY.items()}
+    assert max(abs(value) for value in errors.values()) < allowed(fine)
 
 
-def test_the_coarse_error_is_larger_where_it_is_the_same_extremal():
-    ours = published()
-    apart = {name: [abs(cost / ours[name] - 1) for cost in one.costs] for name, one in SQUARE.items()}
-    same = {name: errors for name, errors in apart.items() if errors[0] < allowed(judge.MESHES[0])}
-    assert len(same) >= len(SQUARE) - 1
-    assert all(coarse > 4 * fine for name, (coarse, fine) in same.items() if name not in UNEVEN)
+def test_the_error_on_the_coarse_mesh_is_larger_where_both_meshes_find_the_same_extremal():
+    indirect = published()
+    both = {name: [abs(cost / indirect[name] - 1) for cost in one.costs] for name, one in ENERGY.items()}
+    same = {name: errors for name, errors in both.items() if errors[0] < allowed(judge.MESHES[0])}
+    assert len(same) >= len(ENERGY) - 1
+    assert all(coarse > 4 * fine for name, (coarse, fine) in same.items() if name not in SIGN_CHANGES)
 
 
-def test_direct_costs_of_least_fuel_come_nearer_with_the_mesh_and_are_not_lower_by_more_than_that():
-    """Case by case the error depends on where the switches fall in their intervals; the largest shrinks."""
+def test_the_largest_error_of_the_direct_costs_of_least_fuel_shrinks_with_the_mesh():
+    """In a single case the error depends on where the switches fall in their intervals."""
     with (figures_folder() / "43-rendezvous-elements" / "fuel.csv").open() as file:
-        ours = [float(row["$J_2$"]) for row in csv.DictReader(file)]
-    apart = np.array([one.costs for one in FUEL.values()]) / np.array(ours)[:, None] - 1
-    coarse, fine = np.abs(apart).max(axis=0)
+        indirect = [float(row["$J_2$"]) for row in csv.DictReader(file)]
+    errors = np.array([one.costs for one in FUEL.values()]) / np.array(indirect)[:, None] - 1
+    coarse, fine = np.abs(errors).max(axis=0)
     assert coarse < 5e-4 and fine < 1.2e-4 and coarse > 3 * fine
-    assert apart.min() > -1e-4
+    assert errors.min() > -1e-4
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_a_direct_cost_is_that_of_an_extremal_and_not_lower_by_more_than_its_error(name):
+def test_a_direct_cost_is_that_of_an_extremal_and_not_below_the_best_by_more_than_its_error(name):
     best = solved(name)
     for mesh, cost, duration in zip(judge.MESHES, KEPT[name].costs, KEPT[name].durations, strict=True):
         assert abs(excess(best, cost)) < allowed(mesh)
@@ -99,28 +99,27 @@ def test_a_direct_cost_is_that_of_an_extremal_and_not_lower_by_more_than_its_err
         assert nearest(best, cost).duration == pytest.approx(duration, rel=1e-3)
 
 
-def test_the_file_is_read_as_it_was_written(tmp_path, monkeypatch):
+def test_direct_results_are_read_as_they_were_written(tmp_path, monkeypatch):
     monkeypatch.setattr(judge, "FILE", tmp_path / "judge.csv")
     judge.write(KEPT)
-    assert judge.verdicts() == KEPT
+    assert judge.direct_results() == KEPT
 
 
-def test_the_judge_judges_anew():
-    """One case, where CasADi is installed."""
+def test_the_direct_method_reproduces_a_kept_result():
     pytest.importorskip("casadi")
-    again = judge.judged(case("circle-energy"))
+    again = judge.solve_directly(case("circle-energy"))
     assert np.allclose(again.costs, KEPT["circle-energy"].costs, rtol=1e-9)
 
 
 @pytest.mark.parametrize("weight", [1e-1, 1e-2, 1e-3])
-def test_the_rows_of_small_weights_are_what_is_found(weight):
+def test_the_rows_of_small_weights_are_reproduced(weight):
     kept = next(one for one in small_weight.rows() if one.time_weight == weight)
     again = small_weight.row(solve(small_weight.problem(weight)))
     assert (again.duration, again.cost) == pytest.approx((kept.duration, kept.cost), rel=1e-9)
     assert again.condition == pytest.approx(kept.condition, rel=1e-2)
 
 
-def test_the_condition_number_grows_as_the_weight_of_time_falls_and_the_residual_with_it():
+def test_condition_number_and_residual_grow_as_the_weight_of_time_falls():
     rows = small_weight.rows()[2:]
     condition, residual = (
         np.array([getattr(one, name) for one in rows]) for name in ("condition", "residual")
@@ -129,7 +128,7 @@ def test_the_condition_number_grows_as_the_weight_of_time_falls_and_the_residual
     assert np.all(residual < 1e-14 * condition)
 
 
-def test_the_file_of_small_weights_is_read_as_it_was_written(tmp_path, monkeypatch):
+def test_rows_of_small_weights_are_read_as_they_were_written(tmp_path, monkeypatch):
     kept = small_weight.rows()
     monkeypatch.setattr(small_weight, "FILE", tmp_path / "small_weight.csv")
     small_weight.write(kept)

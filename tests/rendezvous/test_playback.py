@@ -1,4 +1,4 @@
-"""Recordings hold the solver's arrays, and craft and target move by Newton's law in them."""
+"""Recordings hold the solver's arrays, and the recorded craft and target obey Newton's law."""
 
 import math
 import subprocess
@@ -14,18 +14,17 @@ from scipy.spatial.transform import Rotation
 from pontryagin.display.recording import read_back
 from pontryagin.io.files import repository
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, playback
-from pontryagin.rendezvous.false_meetings.meeting import (
-    distance,
-    false_meeting,
-)
+from pontryagin.rendezvous.false_meetings.family import false_meeting
+from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
+from pontryagin.rendezvous.families import bounded
 from pontryagin.rendezvous.figures.profile import profile
 from pontryagin.rendezvous.playback.motion import (
     EVEN,
     TURN,
-    passage,
+    motion_of,
 )
-from pontryagin.rendezvous.reduced.bound import bounded
-from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.conditions import Setting
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.start import cold_start
 
@@ -34,13 +33,13 @@ TIME = math.sqrt(LENGTH**3 / GRAVITY)
 START = [math.cos(0.3), 0.0, math.sin(0.3), 0.0]
 ENERGY_WEIGHT = 3e5
 ANGLE = -25
-"""By which the end of the false meeting is turned about nu*, in degrees."""
+"""Angle about nu* of the false meeting, in degrees."""
 
 
 def transfer(peak, duration, turns=0):
-    """From a circle to an inclined ellipse in km and s, in fixed time; peak, duration with fM = r = 1."""
-    turned = Rotation.from_quat(START, scalar_first=True) * Rotation.from_euler("x", 20, degrees=True)
-    target = Orbit(1.5 * LENGTH, 0.1, turned.as_quat(scalar_first=True), 0.6)
+    """From a circle to an inclined ellipse in km and s, in fixed time; `peak`, `duration` with fM = r = 1."""
+    attitude = Rotation.from_quat(START, scalar_first=True) * Rotation.from_euler("x", 20, degrees=True)
+    target = Orbit(1.5 * LENGTH, 0.1, attitude.as_quat(scalar_first=True), 0.6)
     problem = Rendezvous(
         Chaser(LENGTH, 0.0, math.sqrt(GRAVITY * LENGTH), START),
         target,
@@ -53,7 +52,7 @@ def transfer(peak, duration, turns=0):
     scaled = problem.scaled
     loose = Setting(scaled, scaled.ratio, math.inf, duration=scaled.duration)
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    return Extremal(problem, bounded(setting, loose, cold_start(loose, turns)))
+    return Extremal(problem, bounded(SHOOTING, setting, loose, cold_start(loose, turns)))
 
 
 def recorded(extremal, path, true=None):
@@ -101,7 +100,7 @@ def test_every_recording_is_in_the_readme():
 
 
 @pytest.mark.parametrize("which", ["met", "missed"])
-def test_the_series_are_those_of_the_solver(which, request):
+def test_the_recorded_series_are_those_of_the_solver(which, request):
     *_, extremal, held = request.getfixturevalue(which)
     problem = extremal.problem
     t, _ = curve(held, "thrust/p1")
@@ -123,7 +122,7 @@ def test_the_series_are_those_of_the_solver(which, request):
     assert left.max() <= math.log10(2 * extremal.certificate.hamiltonian + 1e-16) + 1
 
 
-def test_the_bound_and_where_it_binds_are_shown_where_there_is_one(met, missed):
+def test_the_bound_and_its_threshold_are_recorded_if_the_thrust_is_bounded(met, missed):
     extremal, held = met
     assert_allclose(curve(held, "magnitude/bound")[1], extremal.problem.peak, rtol=1e-12)
     threshold = curve(held, "switching/saturation")[1]
@@ -141,7 +140,7 @@ def in_scene(problem, vectors):
     return axes.inv().apply(vectors) / problem.target.parameter
 
 
-def test_the_places_are_those_of_the_states(met):
+def test_the_recorded_places_and_axes_are_those_of_the_states(met):
     extremal, held = met
     t, craft = held["/orbit/craft"]["time"], held["/orbit/craft"]["translation"]
     flown = t <= extremal.duration * (1 + 1e-12)
@@ -150,11 +149,11 @@ def test_the_places_are_those_of_the_states(met):
     places = eta.apply(states[:, :1] * [1.0, 0.0, 0.0])
     assert_allclose(craft[flown], in_scene(extremal.problem, places), atol=1e-6)
     for i, axis in enumerate(np.eye(3), start=1):
-        there = in_scene(extremal.problem, eta.apply(axis)) * extremal.problem.target.parameter
-        assert_allclose(held[f"/axes/eta-{i}"]["vectors"][flown], there, atol=1e-6)
+        expected = in_scene(extremal.problem, eta.apply(axis)) * extremal.problem.target.parameter
+        assert_allclose(held[f"/axes/eta-{i}"]["vectors"][flown], expected, atol=1e-6)
         arrow = held[f"/orbit/eta-{i}"]
         assert_allclose(arrow["origins"], craft, atol=1e-6)
-        assert_allclose(_units(arrow["vectors"])[flown], there, atol=1e-5)
+        assert_allclose(_units(arrow["vectors"])[flown], expected, atol=1e-5)
 
 
 def _units(vectors):
@@ -167,13 +166,12 @@ def newton(t, place, velocity, push=lambda t: np.zeros(3)):
     def rates(time, state):
         return [*state[3:], *(-state[:3] / np.linalg.norm(state[:3]) ** 3 + push(time))]
 
-    whole = solve_ivp(rates, t[[0, -1]], [*place, *velocity], "DOP853", t, rtol=1e-10, atol=1e-11)
-    return whole.y.T
+    return solve_ivp(rates, t[[0, -1]], [*place, *velocity], "DOP853", t, rtol=1e-10, atol=1e-11).y.T
 
 
 @pytest.mark.parametrize("which", ["met", "missed"])
-def test_newton_s_law_leads_through_the_recorded_places(which, request):
-    """The craft under the recorded thrust, then coasting; the target coasting all the time."""
+def test_the_recorded_places_obey_newton_s_law(which, request):
+    """The craft moves under the recorded thrust until t_k and coasts afterwards; the target always coasts."""
     *_, extremal, held = request.getfixturevalue(which)
     problem = extremal.problem
     unit = math.sqrt(problem.target.parameter**3 / GRAVITY)
@@ -195,13 +193,13 @@ def test_newton_s_law_leads_through_the_recorded_places(which, request):
     assert_allclose(led[:, :3], goal, atol=1e-5)
 
 
-def test_at_the_meeting_craft_and_target_become_one(met):
+def test_from_t_k_on_craft_and_target_have_one_place_and_one_attitude(met):
     extremal, held = met
-    t, apart = curve(held, "distance/target")
+    t, distance = curve(held, "distance/target")
     craft, goal = held["/orbit/craft"], held["/orbit/goal"]
     after = t >= extremal.duration * (1 - 1e-12)
-    assert after.sum() > 20 and apart[after].max() < 1e-9 and apart[0] > 0.2
-    assert_allclose(apart, np.linalg.norm(craft["translation"] - goal["translation"], axis=1), atol=1e-6)
+    assert after.sum() > 20 and distance[after].max() < 1e-9 and distance[0] > 0.2
+    assert_allclose(distance, np.linalg.norm(craft["translation"] - goal["translation"], axis=1), atol=1e-6)
     for i in (1, 2, 3):
         mine, theirs = held[f"/axes/eta-{i}"]["vectors"], held[f"/axes/eta-star-{i}"]["vectors"]
         assert_allclose(_units(mine)[after], _units(theirs)[after], atol=1e-6)
@@ -209,7 +207,7 @@ def test_at_the_meeting_craft_and_target_become_one(met):
     assert "/orbit/phantom" not in held and "/orbit/gap" not in held
 
 
-def test_without_thrust_the_craft_would_go_round_the_target_s_orbit_at_the_end(met):
+def test_the_osculating_orbit_at_t_k_is_that_of_the_target(met):
     _, held = met
     lines = held["/orbit/osculating"]["strips"].reshape(len(held["/thrust/p1"]["time"]), -1, 3)
     assert_allclose(lines[0], held["/orbit/start"]["strips"].reshape(-1, 3), atol=1e-6)
@@ -221,7 +219,7 @@ def test_without_thrust_the_craft_would_go_round_the_target_s_orbit_at_the_end(m
     assert_allclose(np.linalg.norm(lines[0], axis=1), 1 / 1.5, atol=1e-6)
 
 
-def test_the_arrow_is_the_thrust_and_the_trail_the_way(met):
+def test_the_arrow_is_the_thrust_and_the_trail_is_the_path(met):
     _, held = met
     arrows = held["/orbit/thrust"]
     longest = np.linalg.norm(arrows["vectors"], axis=1)
@@ -235,26 +233,27 @@ def test_the_arrow_is_the_thrust_and_the_trail_the_way(met):
     assert_allclose(pieces[:, 1], places[1:], atol=1e-6)
 
 
-class TestMissed:
-    def test_the_target_is_away_and_the_phantom_is_met(self, missed):
+class TestFalseMeeting:
+    def test_the_target_is_missed_and_the_rotated_target_is_met(self, missed):
         _, extremal, held = missed
-        t, apart = curve(held, "distance/target")
+        t, distance = curve(held, "distance/target")
         after = t >= extremal.duration * (1 - 1e-12)
-        gap = distance(extremal) / extremal.problem.target.parameter
-        assert gap > 0.2 and apart[after][0] == pytest.approx(gap, rel=1e-9)
-        assert apart[after].min() > 0.2
+        meeting = RotatedMeeting(extremal, math.radians(ANGLE))
+        gap = meeting.distance / extremal.problem.target.parameter
+        assert gap > 0.2 and distance[after][0] == pytest.approx(gap, rel=1e-9)
+        assert distance[after].min() > 0.2
         assert curve(held, "distance/phantom")[1][after].max() < 1e-9
         assert held["/events"]["text"][-1].endswith(f"the target is {gap:.2f} p* away")
         assert "conditions left" in held["/events"]["text"][-1]
 
-    def test_the_gap_leads_from_the_craft_to_the_target_from_the_end_on(self, missed):
+    def test_the_gap_is_the_vector_from_the_craft_to_the_target_from_t_k_on(self, missed):
         _, extremal, held = missed
         gap, goal = held["/orbit/gap"], held["/orbit/goal"]["translation"]
         after = gap["time"] >= extremal.duration * (1 - 1e-12)
         assert_allclose((gap["origins"] + gap["vectors"])[after], goal[after], atol=1e-6)
         assert not gap["vectors"][~after].any()
 
-    def test_the_phantom_is_the_target_turned_about_nu_star(self, missed):
+    def test_the_rotated_target_is_the_target_rotated_about_nu_star_by_the_angle(self, missed):
         _, extremal, held = missed
         goal, phantom = (held[f"/orbit/{name}"]["translation"] for name in ("goal", "phantom"))
         nu = Rotation.from_quat(START, scalar_first=True).apply(extremal.initial_costate[3:])
@@ -271,21 +270,21 @@ class TestMissed:
         ring = held["/orbit/target"]["strips"].reshape(-1, 3)
         assert_allclose(held["/orbit/phantom-orbit"]["strips"].reshape(-1, 3), turn.apply(ring), atol=1e-6)
 
-    def test_the_true_way_is_beside_it(self, missed):
+    def test_the_path_of_the_true_optimum_is_recorded_too(self, missed):
         true, _, held = missed
         end = true.state([true.duration])[0]
-        way = held["/orbit/true"]["strips"].reshape(-1, 3)
-        radius = np.linalg.norm(way[[0, -1]], axis=1)
+        path = held["/orbit/true"]["strips"].reshape(-1, 3)
+        radius = np.linalg.norm(path[[0, -1]], axis=1)
         assert_allclose(radius, [1 / 1.5, end[0] / true.problem.target.parameter], atol=1e-6)
         assert any(text.startswith("grey: the true optimum") for text in held["/events"]["text"])
 
 
-def test_where_the_thrust_turns_fast_there_are_more_samples():
-    """At a thrust that all but vanishes on the way its direction turns over."""
-    flown = passage(transfer(math.inf, 4.0))
-    along = _units(flown.thrust[: flown.meeting])
-    assert np.linalg.norm(np.diff(along, axis=0), axis=1).max() < 1.01 * TURN
-    even = _units(flown.extremal.control(np.linspace(0, flown.extremal.duration, EVEN)))
+def test_the_direction_of_the_thrust_changes_little_between_samples():
+    """A thrust that nearly vanishes on the way reverses its direction there."""
+    motion = motion_of(transfer(math.inf, 4.0))
+    directions = _units(motion.thrust[: motion.meeting])
+    assert np.linalg.norm(np.diff(directions, axis=0), axis=1).max() < 1.01 * TURN
+    even = _units(motion.extremal.control(np.linspace(0, motion.extremal.duration, EVEN)))
     assert np.linalg.norm(np.diff(even, axis=0), axis=1).max() > 1.5 * TURN
 
 

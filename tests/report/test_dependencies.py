@@ -22,8 +22,8 @@ def source(checkout):
     checkout.module("plain/__init__.py", "from .energy import solve")
     checkout.module("plain/energy.py", "from .. import certificate\ndef solve(): ...")
     checkout.module("plain/figures.py")
-    checkout.module("lazy.py", "from importlib import import_module\ndef attach(name): import_module(name)")
-    checkout.module("paper/__init__.py", "from pontryagin import lazy\n__all__ = lazy.attach(__name__)")
+    checkout.module("paper/__init__.py", "import lazy_loader\nlazy_loader.attach_stub(__name__, __file__)")
+    checkout.module("paper/__init__.pyi", "from .peak import solve as solve")
     checkout.module("paper/peak.py", "import pontryagin.compile")
     checkout.module("computed/__init__.py")
     checkout.module("computed/all.py", "from importlib import import_module\nimport_module('.' + input())")
@@ -56,8 +56,10 @@ def names(source, *code):
         ("from pontryagin.certificate import Certificate", {"pontryagin", "certificate"}),
         ("import pontryagin.compile", {"pontryagin", "compile", "certificate"}),
         ("from pontryagin.plain import solve", {"pontryagin", "plain", "plain.energy", "certificate"}),
-        ("import pontryagin.lazy", {"pontryagin", "lazy"}),
-        ("import pontryagin.paper", {"pontryagin", "lazy", "paper", "paper.peak", "compile", "certificate"}),
+        (
+            "import pontryagin.paper",
+            {"pontryagin", "paper", "__init__.pyi", "paper.peak", "compile", "certificate"},
+        ),
         ("import pontryagin.computed.all", {"pontryagin", "computed", "computed.all", "computed.hidden"}),
         ("import pontryagin.exact.one", {"pontryagin", "exact", "exact.one", "lonely"}),
         ("import pontryagin.table", {"pontryagin", "table", "lonely"}),
@@ -79,7 +81,7 @@ def test_code_depends_on_what_its_imports_reach_and_on_nothing_else(source, code
     ],
 )
 def test_what_cannot_be_decided_depends_on_all_papers(source, code):
-    everything = {name.removeprefix("pontryagin.") for name in source.modules} | {"a.txt"}
+    everything = {name.removeprefix("pontryagin.") for name in source.modules} | {"a.txt", "__init__.pyi"}
     assert names(source, code) == everything - {"report", "cli"}
 
 
@@ -88,7 +90,7 @@ def test_what_lies_beside_the_report_is_no_paper_s_business(source):
     (source.folder / "report" / "report.css").write_text("p { margin: 0 }")
     (source.folder / "table" / "ends.csv").write_text("1")
     found = names(Source(source.folder), "import pontryagin.files")
-    assert found == {"pontryagin", "files", "a.txt", "ends.csv"}
+    assert found == {"pontryagin", "files", "a.txt", "ends.csv", "__init__.pyi"}
 
 
 def test_a_key_changes_with_every_part_and_with_their_borders(tmp_path):

@@ -55,9 +55,8 @@ def parameters(thing):
     """What a caller passes: the fields of a dataclass, the arguments of a function."""
     if dataclasses.is_dataclass(thing):
         return [field.name for field in dataclasses.fields(thing) if field.init]
-    if inspect.isclass(thing):
-        return []
-    return [name for name in inspect.signature(thing).parameters if name not in ("self", "cls")]
+    called = thing.__init__ if inspect.isclass(thing) else thing
+    return [name for name in inspect.signature(called).parameters if name not in ("self", "cls")]
 
 
 def section(doc, title):

@@ -22,9 +22,9 @@ from pontryagin.triple_integrator import (
     minimum_time,
     search,
 )
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.derivation import coverage, peak
 from pontryagin.triple_integrator.figures import duration, overpayment, sphere, tables
-from pontryagin.triple_integrator.rigid_body import RigidBody
 
 MOVING = Maneuver([0.2, -0.3, 0.5], [1, 0.4, -0.2], t0=1.0, tf=3.0)
 STACK = Maneuver(np.zeros((2, 3)), np.ones((2, 3)), 1.0)

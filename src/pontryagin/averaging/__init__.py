@@ -32,26 +32,6 @@ The costate of the cost is -1 throughout, and the costs that the paper carries a
 are integrals here, so that a system's slow variables are its physical ones.
 """
 
-from pontryagin import lazy
+import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy.attach(
-    __name__,
-    {
-        "PhaseSystem": "system.phase_system",
-        "solve_averaged": "averaged.solution",
-        "smooth_example": "examples.smooth",
-        "rotor": "examples.rotor",
-        "kepler": "examples.kepler",
-        "spin_down": "examples.spin_down",
-        "AveragedSolution": "averaged.solution",
-        "Quadratic": "system.control_sets",
-        "Ball": "system.control_sets",
-        "Ellipsoid": "system.control_sets",
-        "Box": "system.control_sets",
-        "BoundedQuadratic": "system.control_sets",
-        "Custom": "system.control_sets",
-        "derivation": "",
-        "figures": "",
-        "playback": "",
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

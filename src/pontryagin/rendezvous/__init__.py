@@ -44,27 +44,6 @@ F1               driving                    u^2 q + (w, q) w; in the derivation 
 -                switching                  n in inertial axes, of the solutions in the elements
 """
 
-from pontryagin import lazy
+import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy.attach(
-    __name__,
-    {
-        "Orbit": "problem.orbit",
-        "Chaser": "problem.chaser",
-        "Rendezvous": "problem.rendezvous",
-        "solve": "reduced.solution",
-        "Extremal": "reduced.solution",
-        "RendezvousCertificate": "reduced.certificate",
-        "carry": "reduced.multistart",
-        "Carried": "reduced.multistart",
-        "multistart": "reduced.multistart",
-        "false_meeting": "false_meetings.meeting",
-        "false_family": "false_meetings.family",
-        "Elements": "elements.elements",
-        "solve_in_elements": "elements.solution",
-        "least_fuel": "elements.least_fuel",
-        "ElementsExtremal": "elements.solution",
-        "ElementsCertificate": "elements.certificate",
-        "derivation": "",
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,4 +1,4 @@
-"""``pontryagin solve rendezvous``: the report's cases, and any other problem from a file."""
+"""``pontryagin solve rendezvous``: a case of the report, or a problem from a file."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -25,9 +25,10 @@ def solve(
     ] = None,
     record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
 ) -> None:
-    """Meet a target on a Kepler orbit under low thrust, at the least price of time and thrust.
+    """Meet a target on a Kepler orbit under low thrust, at the least cost of time and thrust.
 
-    The best extremal found is printed with its certificate and with the others; what was searched is told.
+    The best extremal found is printed with its certificate, the other extremals found, and the extent of the
+    search.
 
     A file for --file is a JSON object like this one; angles are in radians, and a number may be a text such
     as "20*pi/180":
@@ -39,9 +40,9 @@ def solve(
        "time_weight": 0, "energy_weight": 1, "peak": "inf", "gravity": 1, "duration": 9}
 
     An orbit may have "attitude", its quaternion with the scalar part first, in place of the three angles; the
-    chaser may be given like the target, and is then on that orbit at its anomaly. Left out, time_weight is 1,
-    energy_weight 0, gravity 1, and duration, or null for it, leaves the time free. What --json prints as the
-    problem is such an object.
+    chaser may be given like the target, and is then on that orbit at its anomaly. By default time_weight is
+    1, energy_weight 0, gravity 1, and the duration free, as with null. The problem that --json prints is such
+    an object.
 
     \b
     Examples:
@@ -62,12 +63,12 @@ def solve(
     _files(extremal, plot, record)
     from pontryagin.rendezvous import transcript
 
-    told = transcript.transcript(extremal)
+    report = transcript.transcript(extremal)
     if json:
         sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
-        typer.echo(json_io.to_json(told | sampled))
+        typer.echo(json_io.to_json(report | sampled))
     else:
-        console.show(_title(problem, case), transcript.shown(told), transcript.conclusion(told))
+        console.show(_title(problem, case), transcript.table(report), transcript.conclusion(report))
 
 
 def _list(json: bool) -> None:
@@ -81,7 +82,7 @@ def _list(json: bool) -> None:
 
 
 def _problem(case: Text, file: File) -> Any:
-    from pontryagin.rendezvous import schema as asked
+    from pontryagin.rendezvous import schema
     from pontryagin.rendezvous.problem.cases import cases
 
     if file is None:
@@ -93,21 +94,21 @@ def _problem(case: Text, file: File) -> Any:
         return known[case].problem
     console.excluded("--file", {"--case": case is not None})
     with console.reading("--file", file), console.solving({}):
-        return asked.read(file.read_text(encoding="utf-8-sig"))
+        return schema.read(file.read_text(encoding="utf-8-sig"))
 
 
 def _solved(problem: Any, option: str) -> Any:
     from pontryagin.errors import Infeasible, NotConverged
-    from pontryagin.rendezvous.reduced.solution import solve as solver
+    from pontryagin.rendezvous.reduced.solve import solve as solve_problem
 
     with console.solving({}):
         try:
-            extremal = solver(problem)
+            extremal = solve_problem(problem)
         except Infeasible as reason:
             if problem.free and not problem.time_weight:
                 raise console.Refusal(option, f": {reason}") from reason
             raise
-        if not extremal.certificate.holds(console.ACCEPTED):
+        if not extremal.certificate.holds():
             raise NotConverged("the certificate does not close", float(extremal.certificate.residual))
     return extremal
 

@@ -1,5 +1,6 @@
-"""Writes `kernels.py` from the derivation: ``python -m pontryagin.rendezvous.generate``."""
+"""``python -m pontryagin.rendezvous.generate``: write `kernels.py` from the derivation."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import sympy as sp
@@ -47,7 +48,8 @@ def in_any_chart(expression: sp.Expr) -> sp.Expr:
     return expression.subs(repair.length, chart * repair.length)
 
 
-def _named(prefix: str, values) -> dict[str, sp.Expr]:
+def _named(prefix: str, values: Iterable[sp.Expr]) -> dict[str, sp.Expr]:
+    """Expressions by a common prefix and their number."""
     return {f"{prefix}{i}": value for i, value in enumerate(values)}
 
 
@@ -57,20 +59,18 @@ def _rates() -> list[str]:
         form = forms.repaired(mode)
         chi_rate = repair.with_length(in_any_chart(repair.chi_rate())).subs(forms.thrust(mode))
         arguments = [*form.states, *form.parameters, chart]
-        doc = f"Rates of (11) to (14), phi* and chi, {mode}."
+        doc = f"Rates of (11), (12), (13), (14), phi* and chi, {mode}."
         texts.append(source(mode, arguments, _named("d", [*form.rates[:-1], chi_rate]), doc))
-        whole = forms.full(mode)
+        full = forms.full(mode)
         doc = f"Rates of the 16 equations, {mode}."
-        texts.append(
-            source(f"full_{mode}", [*whole.states, *whole.parameters], _named("d", whole.rates), doc)
-        )
+        texts.append(source(f"full_{mode}", [*full.states, *full.parameters], _named("d", full.rates), doc))
     return texts
 
 
 def shortest_turn(nu: sp.Matrix) -> sp.Matrix:
     """T(nu) in either chart."""
-    put_in = dict(zip(principle.nu, nu, strict=True)) | {repair.length: principle.size(nu)}
-    return repair.shortest_turn(chart).subs(put_in)
+    values = dict(zip(principle.nu, nu, strict=True)) | {repair.length: principle.size(nu)}
+    return repair.shortest_turn(chart).subs(values)
 
 
 def relative_attitude() -> sp.Matrix:
@@ -112,17 +112,17 @@ def _ends() -> list[str]:
 
 def _principle() -> list[str]:
     n = principle.switching()
-    seen = [model.r, model.c, principle.s1, principle.e, principle.nu[0]]
-    whole = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
+    visible = [model.r, model.c, principle.s1, principle.e, principle.nu[0]]
+    reduced = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
     weights = [principle.time_weight, principle.energy_weight]
     thrust = [*model.thrust]
     return [
-        source("switching", seen, _named("n", n), "n_eta of (9)."),
-        source("switching_square", seen, {"square": n.dot(n)}, "|n_eta|^2."),
+        source("switching", visible, _named("n", n), "n_eta of (9)."),
+        source("switching_square", visible, {"square": n.dot(n)}, "|n_eta|^2."),
         source(
             "hamiltonian",
             [
-                *whole,
+                *reduced,
                 *thrust,
                 reduction.anomaly_constant,
                 model.gravity,
@@ -135,7 +135,7 @@ def _principle() -> list[str]:
         ),
         source(
             "terminal_law",
-            [*seen, *thrust, *weights],
+            [*visible, *thrust, *weights],
             {"value": terminal.law()},
             "(n, p) - alpha1 - alpha2 p^2.",
         ),
@@ -155,20 +155,22 @@ def _cartesian() -> list[str]:
         source("cartesian", place, _named("x", [*position, *velocity]), "R and V of r, v1, c and lambda.")
     )
     costate = [*(-primer.carried()), *principle.switching()]
-    whole = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
-    texts.append(source("primer", whole, _named("psi", costate), "psi_R and psi_V, seen in eta."))
+    reduced = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
+    texts.append(source("primer", reduced, _named("psi", costate), "psi_R and psi_V, seen in eta."))
     return texts
 
 
 def _elements() -> list[str]:
     A, B, a, b = sapunkov.A, sapunkov.B, sapunkov_principle.a, sapunkov_principle.b
     phi, thrust = sapunkov.half_anomaly, [*sapunkov.force]
-    put_in = sapunkov_principle.written_out
-    rates = put_in(sp.Matrix([*sapunkov_principle.state_rates(), *sapunkov_principle.closed_costate_rates()]))
+    written_out = sapunkov_principle.written_out
+    rates = written_out(
+        sp.Matrix([*sapunkov_principle.state_rates(), *sapunkov_principle.closed_costate_rates()])
+    )
     clock, moving = rates[8], [*rates[:8], *rates[9:]]
-    n = put_in(sapunkov_principle.switching())
-    place = put_in(sp.Matrix([part for vector in sapunkov_principle.place() for part in vector]))
-    kappa = put_in(sapunkov_principle.phase_costate() / sapunkov.time_rate())
+    n = written_out(sapunkov_principle.switching())
+    place = written_out(sp.Matrix([part for vector in sapunkov_principle.place() for part in vector]))
+    kappa = written_out(sapunkov_principle.phase_costate() / sapunkov.time_rate())
     texts = [
         source(
             "element_rates",
@@ -189,7 +191,7 @@ def _elements() -> list[str]:
 
 
 def main() -> None:
-    """Write the file beside this one."""
+    """Write `kernels.py` beside this module."""
     write(Path(__file__).with_name("kernels.py"), kernels())
 
 

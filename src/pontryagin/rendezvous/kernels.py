@@ -7,7 +7,7 @@ from numpy import cos, sin, sqrt
 
 
 def unsaturated(r, v1, c, phi, rho, s1, e, nu1, nu2, nu3, chi, fM, p_star, e_star, c_star, alpha2, chart):
-    """Rates of (11) to (14), phi* and chi, unsaturated."""
+    """Rates of (11), (12), (13), (14), phi* and chi, unsaturated."""
     x0 = 1/alpha2
     x1 = (1/2)*x0
     x2 = (r*r)
@@ -78,7 +78,7 @@ def full_unsaturated(r, v1, c, phi, lambda0, lambda1, lambda2, lambda3, rho, s1,
 
 
 def saturated(r, v1, c, phi, rho, s1, e, nu1, nu2, nu3, chi, fM, p_star, e_star, c_star, p_max, chart):
-    """Rates of (11) to (14), phi* and chi, saturated."""
+    """Rates of (11), (12), (13), (14), phi* and chi, saturated."""
     x0 = (r*r)
     x1 = 1/x0
     x2 = (c*c)

@@ -1,4 +1,4 @@
-"""A rendezvous as a JSON text: read with every mistake named by its key, and written.
+"""A rendezvous as a JSON text. Errors name the key whose value is refused.
 
 ::
 
@@ -14,10 +14,10 @@
     }
 
 The keys are the arguments of `Chaser`, `Orbit`, `Orbit.from_angles` and `Rendezvous`. An orbit has its
-``attitude``, or in its place ``node``, ``inclination`` and ``pericentre`` in radians; the chaser may be given
-as an orbit too, on which it is at its ``anomaly``. ``peak`` must be there, ``"inf"`` for no bound; the other
-keys of the outermost object may be left out and are then 1, 0, 1 and null, a duration left free. A number may
-be written as a text, like ``"20*pi/180"``.
+``attitude``, or in its place ``node``, ``inclination`` and ``pericentre`` in radians; the chaser may also be
+given as an orbit, on which it is at its ``anomaly``. ``peak`` is required, ``"inf"`` for no bound. By default
+``time_weight`` is 1, ``energy_weight`` 0, ``gravity`` 1, and ``duration`` null, which leaves it free. A
+number may be written as a text, like ``"20*pi/180"``.
 """
 
 import json
@@ -26,6 +26,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.io import formula, json_io
 from pontryagin.rendezvous.problem.cases import chaser_on
 from pontryagin.rendezvous.problem.chaser import Chaser
@@ -35,7 +36,7 @@ from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 Keys = tuple[str, ...]
 
-NEEDED: Keys = ("chaser", "target", "peak")
+REQUIRED: Keys = ("chaser", "target", "peak")
 OPTIONAL: Keys = ("time_weight", "energy_weight", "gravity", "duration")
 STATE: Keys = ("r", "v1", "c", "attitude")
 ORBIT: Keys = ("parameter", "eccentricity", "anomaly", "attitude")
@@ -43,25 +44,26 @@ ANGLES: Keys = ("parameter", "eccentricity", "anomaly", "node", "inclination", "
 
 
 def read(text: str) -> Rendezvous:
-    """The rendezvous that a JSON text asks for.
+    """The rendezvous that a JSON text describes.
 
     Raises
     ------
     ValueError
-        If the text is not JSON, a key is missing, unknown or there twice, or a value is not what it should
-        be: named by its key, as in ``target.eccentricity``.
+        If the text is not JSON, a key is missing, unknown or there twice, or a value is refused; the message
+        names the key, as in ``target.eccentricity``.
 
     Examples
     --------
-    >>> asked = read('{"chaser": {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}, "peak": 0.1, "target":'
-    ...              '{"parameter": 1.5, "eccentricity": 0, "attitude": [1, 0, 0, 0], "anomaly": "pi/4"}}')
-    >>> asked.free, asked.peak, round(asked.target.anomaly, 6)
+    >>> problem = read('{"chaser": {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}, "peak": 0.1,'
+    ...                ' "target": {"parameter": 1.5, "eccentricity": 0, "attitude": [1, 0, 0, 0],'
+    ...                ' "anomaly": "pi/4"}}')
+    >>> problem.free, problem.peak, round(problem.target.anomaly, 6)
     (True, 0.1, 0.785398)
     """
-    whole = json_io.from_json(text)
-    given = _object("", whole, NEEDED, OPTIONAL)
-    there = [key for key in OPTIONAL if key in given and (key, given[key]) != ("duration", None)]
-    values = {key: _number(key, given[key]) for key in there}
+    value = json_io.from_json(text)
+    given = _object("", value, REQUIRED, OPTIONAL)
+    present = [key for key in OPTIONAL if key in given and (key, given[key]) != ("duration", None)]
+    values = {key: _number(key, given[key]) for key in present}
     unbounded = given["peak"] == "inf"
     values["peak"] = math.inf if unbounded else _number("peak", given["peak"], ', or "inf" for no bound')
     gravity = number("gravity", values.get("gravity", 1.0), 0.0, excluded=True)
@@ -69,13 +71,13 @@ def read(text: str) -> Rendezvous:
     return Rendezvous(_chaser(given["chaser"], gravity), target, **values)
 
 
-def written(problem: Rendezvous) -> dict[str, Any]:
-    """The problem as `read` takes it.
+def to_dict(problem: Rendezvous) -> dict[str, Any]:
+    """The JSON object that `read` turns into the problem.
 
     Examples
     --------
     >>> problem = Rendezvous(Chaser(1, 0, 1, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6))
-    >>> read(json.dumps(written(problem))).target.parameter
+    >>> read(json.dumps(to_dict(problem))).target.parameter
     1.5
     """
     parts = {
@@ -96,42 +98,46 @@ def _chaser(given: Any, gravity: float) -> Chaser:
     values = _object("chaser", given, STATE)
     numbers = {key: _number(f"chaser.{key}", values[key]) for key in STATE[:3]}
     attitude = _quaternion("chaser.attitude", values["attitude"])
-    with _named("chaser."):
+    with _prefixed("chaser."):
         return Chaser(**numbers, attitude=attitude)
 
 
 def _orbit(name: str, given: Any, why: str = "the target moves on an ellipse") -> Orbit:
-    turned = isinstance(given, Mapping) and bool(set(given) & set(ANGLES[3:]))
-    keys = ANGLES if turned else ORBIT
+    by_angles = isinstance(given, Mapping) and bool(set(given) & set(ANGLES[3:]))
+    keys = ANGLES if by_angles else ORBIT
     values = _object(name, given, keys)
     numbers = {key: _number(f"{name}.{key}", values[key]) for key in keys if key != "attitude"}
     if numbers["eccentricity"] >= 1:
-        raise ValueError(f"{name}.eccentricity must be less than 1: {why}, got {numbers['eccentricity']:g}")
-    with _named(f"{name}."):
-        if turned:
+        raise ArgumentValueError(
+            f"{name}.eccentricity must be less than 1: {why}, got {numbers['eccentricity']:g}",
+            f"{name}.eccentricity",
+        )
+    with _prefixed(f"{name}."):
+        if by_angles:
             return Orbit.from_angles(**numbers)
     attitude = _quaternion(f"{name}.attitude", values["attitude"])
-    with _named(f"{name}."):
+    with _prefixed(f"{name}."):
         return Orbit(**numbers, attitude=attitude)
 
 
-def _object(name: str, given: Any, needed: Keys, optional: Keys = ()) -> Mapping[str, Any]:
-    """A JSON object that has the keys needed and no others."""
-    takes = ", ".join((*needed, *optional))
+def _object(name: str, given: Any, required: Keys, optional: Keys = ()) -> Mapping[str, Any]:
+    """A JSON object that has the required keys, and of others only optional ones."""
+    takes = ", ".join((*required, *optional))
     if not isinstance(given, Mapping):
-        raise ValueError(f"{name or 'the text'} takes an object with {takes}, got {_shown(given)}")
+        place = name or "the text"
+        raise ArgumentValueError(f"{place} takes an object with {takes}, got {_excerpt(given)}", name or None)
     dot = f"{name}." if name else ""
     for key in given:
-        if key not in (*needed, *optional):
-            raise ValueError(f"{dot}{key} is unknown here: takes {takes}")
-    for key in needed:
+        if key not in (*required, *optional):
+            raise ArgumentValueError(f"{dot}{key} is unknown here: takes {takes}", f"{dot}{key}")
+    for key in required:
         if key not in given:
-            raise ValueError(f"{dot}{key} is missing")
+            raise ArgumentValueError(f"{dot}{key} is missing", f"{dot}{key}")
     return given
 
 
-def _number(name: str, value: Any, otherwise: str = "") -> float:
-    """A JSON number, or a text that stands for one."""
+def _number(name: str, value: Any, alternative: str = "") -> float:
+    """A JSON number, or the value of a text such as "pi/4"."""
     try:
         if isinstance(value, str):
             return formula.number(value)
@@ -139,24 +145,24 @@ def _number(name: str, value: Any, otherwise: str = "") -> float:
             return float(value)
     except (ValueError, OverflowError):
         pass
-    raise ValueError(f"{name} takes a number{otherwise}, got {_shown(value)}")
+    raise ArgumentValueError(f"{name} takes a number{alternative}, got {_excerpt(value)}", name)
 
 
 def _quaternion(name: str, value: Any) -> list[float]:
     if not isinstance(value, list) or len(value) != 4:
-        raise ValueError(f"{name} takes four numbers, scalar part first, got {_shown(value)}")
+        raise ArgumentValueError(f"{name} takes four numbers, scalar part first, got {_excerpt(value)}", name)
     return [_number(f"{name}[{i}]", entry) for i, entry in enumerate(value)]
 
 
-def _shown(value: Any) -> str:
+def _excerpt(value: Any) -> str:
     text = json.dumps(value, ensure_ascii=False)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 @contextmanager
-def _named(place: str) -> Iterator[None]:
-    """Put the place of an object before the key that the library names."""
+def _prefixed(place: str) -> Iterator[None]:
+    """Put the name of the enclosing object before the argument that an error of the library names."""
     try:
         yield
-    except (TypeError, ValueError) as reason:
-        raise ValueError(f"{place}{reason}") from None
+    except (ArgumentTypeError, ArgumentValueError) as reason:
+        raise ArgumentValueError(f"{place}{reason}", f"{place}{reason.argument}") from None

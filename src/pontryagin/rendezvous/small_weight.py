@@ -1,7 +1,7 @@
-"""``python -m pontryagin.rendezvous.small_weight``: a case at ever smaller weights of time.
+"""``python -m pontryagin.rendezvous.small_weight``: the case ``mixed`` at decreasing weights of time.
 
-The less time costs, the more revolutions the best flight makes, and the worse its costates are conditioned.
-The last rows take minutes, so that what was found is kept in ``small_weight.csv``.
+With a smaller weight the best flight makes more revolutions, and its costates are worse conditioned. The last
+rows take minutes to compute, so the results are kept in ``small_weight.csv``.
 """
 
 import csv
@@ -13,14 +13,12 @@ from pathlib import Path
 from pontryagin.display.tables import csv_table
 from pontryagin.rendezvous.problem.cases import case
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    solve,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.solve import solve
 
 FILE = Path(__file__).with_name("small_weight.csv")
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-"""alpha1, at alpha2 = 1."""
+"""The weights alpha1, with alpha2 = 1."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +28,9 @@ class Row:
     Attributes
     ----------
     time_weight, duration, cost, revolutions : float
-        alpha1, t_k, J, and how often the craft goes round.
+        alpha1, t_k, J, and the revolutions of the craft.
     condition, residual : float
-        Of its certificate.
+        Condition number and largest residual of its certificate.
     """
 
     time_weight: float
@@ -55,16 +53,21 @@ def problem(time_weight: float) -> Rendezvous:
 
 
 def row(best: Extremal) -> Row:
-    """What is kept of an extremal."""
-    proof = best.certificate
+    """The numbers of an extremal that are kept."""
+    certificate = best.certificate
     weight = best.problem.time_weight
     return Row(
-        weight, best.duration, best.cost, best.revolutions, float(proof.condition), float(proof.residual)
+        weight,
+        best.duration,
+        best.cost,
+        best.revolutions,
+        float(certificate.condition),
+        float(certificate.residual),
     )
 
 
 def rows() -> list[Row]:
-    """What ``small_weight.csv`` contains, alpha1 falling.
+    """The contents of ``small_weight.csv``, by decreasing alpha1.
 
     Examples
     --------
@@ -76,7 +79,7 @@ def rows() -> list[Row]:
 
 
 def write(found: Iterable[Row]) -> None:
-    """Keep rows in ``small_weight.csv``."""
+    """Write rows to ``small_weight.csv``."""
     several = list(found)
     forms = {"condition": ".3g", "residual": ".1e", "time_weight": "g", "revolutions": ".4f"}
     FILE.write_text(
@@ -90,7 +93,7 @@ def write(found: Iterable[Row]) -> None:
 
 
 def main(weights: Iterable[float] = ()) -> None:
-    """Solve for the weights given, or all; the others' rows are kept."""
+    """Solve for the given weights, or all; the rows of the others are kept."""
     chosen = list(weights) or list(WEIGHTS)
     found = {one.time_weight: one for one in rows()} if weights else {}
     for weight in chosen:

@@ -1,16 +1,17 @@
-"""A rendezvous in words and numbers: what the command line prints as a table or as JSON."""
+"""A solved rendezvous as the command line prints it, as a table or as JSON."""
 
 from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.rendezvous import schema as asked
+from pontryagin.rendezvous import schema
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 Report = dict[str, dict[str, Any]]
+"""Headings, and under each its quantities by name."""
 
-PROOF = (
+CERTIFICATE = (
     "boundary",
     "attitude",
     "transversality",
@@ -22,17 +23,18 @@ PROOF = (
     "residual",
     "condition",
 )
-SHOWN = 6
-"""Extremals beside the best one that a table lists; JSON holds all."""
+"""The residuals of the certificate that are printed."""
+LISTED = 6
+"""Number of extremals besides the best one that a table lists; JSON holds all."""
 
 
 def transcript(extremal: Extremal) -> Report:
-    """One solution as headings with their quantities, named as the attributes of the library.
+    """One solution as headings with their quantities, which have the names of the library's attributes.
 
     Parameters
     ----------
     extremal : Extremal
-        As `solve` returns it.
+        The solution that `solve` returned.
 
     Examples
     --------
@@ -40,12 +42,12 @@ def transcript(extremal: Extremal) -> Report:
     >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
     >>> problem = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6),
     ...                      time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
-    >>> told = transcript(solve(problem))
-    >>> told["solution"]["arcs"], round(told["solution"]["cost"], 6)
+    >>> report = transcript(solve(problem))
+    >>> report["solution"]["arcs"], round(report["solution"]["cost"], 6)
     (['unsaturated'], 0.023882)
     """
-    told: Report = {
-        "problem": asked.written(extremal.problem),
+    report: Report = {
+        "problem": schema.to_dict(extremal.problem),
         "solution": {
             "duration": extremal.duration,
             "cost": extremal.cost,
@@ -55,7 +57,7 @@ def transcript(extremal: Extremal) -> Report:
             "switch_times": extremal.switch_times,
             "initial_costate": extremal.initial_costate,
         },
-        "certificate": {name: getattr(extremal.certificate, name) for name in PROOF},
+        "certificate": {name: getattr(extremal.certificate, name) for name in CERTIFICATE},
         "others": {
             "count": len(extremal.others),
             "cost": [other.cost for other in extremal.others],
@@ -66,13 +68,13 @@ def transcript(extremal: Extremal) -> Report:
     }
     if extremal.searched is not None:
         log, unit = extremal.searched, extremal.problem.scaled.time
-        told["searched"] = {
+        report["searched"] = {
             "durations": [unit * duration for duration in log.durations],
             "revolutions": sorted(set(log.revolutions)),
             "ends": list(log.ends),
             "given_up": list(log.given_up),
         }
-    return told
+    return report
 
 
 def samples(extremal: Extremal, count: int) -> dict[str, Array]:
@@ -86,35 +88,35 @@ def samples(extremal: Extremal, count: int) -> dict[str, Array]:
     return {"t": t} | {name: part(t) for name, part in parts.items()}
 
 
-def shown(told: Report) -> Report:
-    """The same for a table: a line for each of the two craft, and one for each other extremal."""
+def table(report: Report) -> Report:
+    """The report as a table shows it: a line for each of the two craft, and one for each other extremal."""
     problem = {
         key: ", ".join(f"{name} {_short(item)}" for name, item in value.items())
         if isinstance(value, dict)
         else value
-        for key, value in told["problem"].items()
+        for key, value in report["problem"].items()
     }
     problem["duration"] = "free" if problem["duration"] is None else problem["duration"]
-    others = told["others"]
+    others = report["others"]
     lines: dict[str, Any] = {}
     columns = zip(others["cost"], others["duration"], others["revolutions"], strict=True)
     for place, (cost, duration, revolutions) in enumerate(columns, start=2):
-        if place <= SHOWN + 1:
+        if place <= LISTED + 1:
             lines[f"{place}"] = f"cost {cost:.8g}, time {duration:.8g}, {revolutions:.2f} revolutions"
-    if others["count"] > SHOWN:
-        lines["further"] = f"{others['count'] - SHOWN}, up to the cost {max(others['cost']):.8g}"
-    table = told | {"problem": problem, "others found": lines or {"none": ""}}
-    del table["others"]
-    if "searched" in told:
-        searched = told["searched"]
-        table["searched"] = {
+    if others["count"] > LISTED:
+        lines["further"] = f"{others['count'] - LISTED}, up to the cost {max(others['cost']):.8g}"
+    rows = report | {"problem": problem, "others found": lines or {"none": ""}}
+    del rows["others"]
+    if "searched" in report:
+        searched = report["searched"]
+        rows["searched"] = {
             "from durations": [float(f"{duration:.5g}") for duration in searched["durations"]],
             "revolutions more": searched["revolutions"],
             "walks ended": searched["ends"],
             "ways given up": len(searched["given_up"]),
         }
     order = ("problem", "solution", "certificate", "others found", "searched")
-    return {heading: table[heading] for heading in order if heading in table}
+    return {heading: rows[heading] for heading in order if heading in rows}
 
 
 def _short(value: Any) -> str:
@@ -123,19 +125,19 @@ def _short(value: Any) -> str:
     return f"({text})" if isinstance(value, list) else text
 
 
-def conclusion(told: Report) -> str:
-    """What the numbers say.
+def conclusion(report: Report) -> str:
+    """The cost, the largest residual, and what is not claimed, in two sentences.
 
     Examples
     --------
-    >>> told = {"others": {"count": 0}, "solution": {"cost": 0.5}, "certificate": {"residual": 1e-13}}
-    >>> conclusion(told)[:72]
+    >>> report = {"others": {"count": 0}, "solution": {"cost": 0.5}, "certificate": {"residual": 1e-13}}
+    >>> conclusion(report)[:72]
     'The extremal found costs 0.5, every condition met to 1e-13. Extremals sa'
     """
-    count = told["others"]["count"] + 1
+    count = report["others"]["count"] + 1
     found = f"The best of {count} extremals" if count > 1 else "The extremal found"
     return (
-        f"{found} costs {told['solution']['cost']:.10g}, every condition met to "
-        f"{float(told['certificate']['residual']):.0e}. Extremals satisfy necessary conditions; that none "
+        f"{found} costs {report['solution']['cost']:.10g}, every condition met to "
+        f"{float(report['certificate']['residual']):.0e}. Extremals satisfy necessary conditions; that none "
         "costs less elsewhere is not claimed."
     )

@@ -13,8 +13,8 @@ from functools import cache, cached_property
 from pathlib import Path
 
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
-_LAZY = "lazy"
-"""The module whose computed imports lie below the package that calls its `attach`."""
+_LAZY = {"attach", "attach_stub"}
+"""Functions of `lazy_loader` that import modules below the package that calls them."""
 _PAPERS = "papers"
 """The module whose `room` imports a module of each paper by its name."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
@@ -76,8 +76,8 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
         if module in known:
             continue
         known.add(module)
-        if module in {f"{source.folder.name}.{name}" for name in (_LAZY, _PAPERS)}:
-            continue  # what their computed imports reach is counted where their functions are called
+        if module == f"{source.folder.name}.{_PAPERS}":
+            continue  # what its computed imports reach is counted where its function is called
         text = source.modules[module].read_text(encoding="utf-8")
         open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
     files = {source.modules[module] for module in known}
@@ -133,7 +133,7 @@ def _needed(source: Source, text: str, package: str) -> set[str]:
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     function = call.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    if name == "attach":
+    if name in _LAZY:
         return source.below(package)
     if name == "room":
         names = {str(node.value) for node in ast.walk(call) if isinstance(node, ast.Constant)}

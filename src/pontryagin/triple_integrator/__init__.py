@@ -26,23 +26,6 @@ a0, am, aT      impulses            at the start, in the middle, at the end
 R               norm                total impulse
 """
 
-from pontryagin import lazy
+import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy.attach(
-    __name__,
-    {
-        "Maneuver": "maneuver",
-        "minimum_energy": "energy",
-        "minimum_peak": "peak",
-        "minimum_impulse": "impulse",
-        "minimum_norm": "norm",
-        "minimum_time": "time",
-        "maximum_entropy": "entropy",
-        "attitude": "",
-        "coupling": "",
-        "search": "",
-        "derivation": "",
-        "figures": "",
-        "playback": "",
-    },
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,4 +1,4 @@
-"""``pontryagin solve triple-integrator``: the five problems of the folder from the command line."""
+"""``pontryagin solve triple-integrator``: least norms and least time from the command line."""
 
 import math
 from pathlib import Path
@@ -7,18 +7,21 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
-from pontryagin.io import json_io
+from pontryagin.io import json_io, rows
 from pontryagin.terminal import console
 from pontryagin.triple_integrator import transcript
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
-"""Options whose last check is left to the solvers."""
+"""The options of the arguments that the solvers check."""
 
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}
-"""Exponents whose problems have solvers of their own."""
+"""The solvers for special exponents q of the norm; `minimum_norm` solves the others."""
 
 Text = str | None
 File = Path | None
+
+without_warnings = np.errstate(all="ignore")
+"""An overflow makes the certificate fail, which is reported as an error; a warning would repeat it."""
 
 
 def solve(
@@ -85,24 +88,20 @@ def solve(
     _print(solution, json, samples)
 
 
-in_silence = np.errstate(all="ignore")
-"""What overflows fails its certificate; a warning beside the error would be a second voice."""
-
-
 class Goal(NamedTuple):
-    """What is least: the norm with exponent q, or the time under a bound on |u|."""
+    """The quantity to minimise: the norm with exponent q, or the time under a bound on |u|."""
 
     q: float | None = None
     peak: float | None = None
 
     @property
     def least_time(self) -> bool:
-        """Whether the duration is sought."""
+        """Whether the duration is minimised."""
         return self.peak is not None
 
 
 class Ends(NamedTuple):
-    """Both states and, for a given duration, both times; of one problem or a stack."""
+    """Both states and, for a given duration, both times, of one problem or a stack."""
 
     x0: Any
     xf: Any
@@ -143,14 +142,14 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
 
     with console.solving(ARGUMENTS):
         if goal.least_time:
-            return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)
+            return ti.minimum_time(ends.x0, ends.xf, goal.peak, force)  # type: ignore[arg-type]
         maneuver = ti.Maneuver(ends.x0, ends.xf, ends.tf, ends.t0, force)
         if goal.q in SOLVERS:
             return getattr(ti, SOLVERS[goal.q])(maneuver)
-        return ti.minimum_norm(maneuver, goal.q)
+        return ti.minimum_norm(maneuver, goal.q)  # type: ignore[arg-type]
 
 
-@in_silence
+@without_warnings
 def _files(solution: Any, plot: File, record: File) -> None:
     if (plot or record) and not transcript.moves(solution):
         raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
@@ -164,18 +163,18 @@ def _files(solution: Any, plot: File, record: File) -> None:
         console.save_recording("--record", record, lambda path: record_solution(solution, path))
 
 
-@in_silence
+@without_warnings
 def _print(solution: Any, json: bool, samples: int) -> None:
-    told: dict[str, Any] = transcript.transcript(solution)
+    report: dict[str, Any] = transcript.transcript(solution)
     if samples:
-        told["samples"] = transcript.samples(solution, samples)
+        report["samples"] = transcript.samples(solution, samples)
     if json:
-        typer.echo(json_io.to_json(told))
+        typer.echo(json_io.to_json(report))
     else:
-        console.show(transcript.account(solution).title, told, transcript.conclusion(solution))
+        console.show(transcript.account(solution).title, report, transcript.conclusion(solution))
 
 
-@in_silence
+@without_warnings
 def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     from pontryagin.triple_integrator import batch
 
@@ -184,5 +183,5 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
     start, end = problems.stack(batch.START), problems.stack(batch.END)
     ends = Ends(start, end, problems.columns.get("t0", 0.0), problems.columns.get("tf"))
     solution = _solved(goal, ends, force)
-    console.emit("--out", out, batch.to_csv(problems, solution))
+    console.emit("--out", out, rows.to_csv(problems, batch.answers(solution)))
     console.require_proof(solution.certificate)

@@ -1,14 +1,15 @@
-"""A solution in words and numbers: what the command line prints as a table or as JSON."""
+"""A solution as headings, names and values, which the command line prints as a table or as JSON."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
 
 Report = dict[str, dict[str, Any]]
+"""Quantities by heading and name."""
 
 
 class Account(NamedTuple):
-    """What is told of a kind of solution: its solver, a title, and attributes in order."""
+    """How a kind of solution is reported: its solver, a title, and its attributes in order."""
 
     solver: str
     title: str
@@ -16,6 +17,7 @@ class Account(NamedTuple):
 
 
 SWITCHES = ("switch_times", "first_sign", "switch_condition")
+"""The attributes of a bang-bang solution."""
 
 ACCOUNTS = {
     "EnergySolution": Account(
@@ -39,12 +41,12 @@ ACCOUNTS = {
 
 
 def account(solution: Any) -> Account:
-    """What is told of a solution of this kind."""
+    """How a solution is reported, by its class."""
     return ACCOUNTS[type(solution).__name__]
 
 
 def moves(solution: Any) -> bool:
-    """Whether any time passes: a least time is 0 where the ends agree."""
+    """Whether the solution takes any time; a least time is 0 where the ends agree."""
     return account(solution).solver != "minimum_time" or bool(solution.duration > 0)
 
 
@@ -54,33 +56,33 @@ def transcript(solution: Any) -> Report:
     Parameters
     ----------
     solution : EnergySolution, PeakSolution, ImpulseSolution, NormSolution or TimeSolution
-        Of one problem, not of a stack.
+        The solution of one problem, not of a stack.
 
     Returns
     -------
     dict of dicts
-        ``problem`` (what was asked), ``solution`` (the attributes that `ACCOUNTS` lists), ``states`` (at the
-        start and at the end, propagated by the control) and ``certificate``.
+        ``problem`` (the arguments), ``solution`` (the attributes that `ACCOUNTS` lists), ``states`` (at the
+        start and at the end, propagated with the control) and ``certificate``.
 
     Examples
     --------
     >>> from pontryagin.triple_integrator import minimum_time
-    >>> told = transcript(minimum_time([0, 0, 0], [1, 0, 0], peak=32.0))
-    >>> told["solution"]["duration"].tolist(), told["states"]["end"].round(12).tolist()
+    >>> report = transcript(minimum_time([0, 0, 0], [1, 0, 0], peak=32.0))
+    >>> report["solution"]["duration"].tolist(), report["states"]["end"].round(12).tolist()
     (1.0, [1.0, 0.0, 0.0])
     """
     kind = account(solution)
     moving = moves(solution)
     return {
         "problem": {"solver": kind.solver, **_problem(solution, kind)},
-        "solution": {name: _told(solution, name, moving) for name in kind.quantities},
+        "solution": {name: _quantity(solution, name, moving) for name in kind.quantities},
         "states": _states(solution) if moving else {"start": solution.x0, "end": solution.xf},
         "certificate": certificate_of(solution),
     }
 
 
 def certificate_of(solution: Any) -> dict[str, Any]:
-    """The four numbers of a certificate by name."""
+    """The numbers of a solution's certificate by name."""
     names = ("primal_residual", "primal_value", "dual_value", "gap")
     return {name: getattr(solution.certificate, name) for name in names}
 
@@ -101,13 +103,10 @@ def conclusion(solution: Any) -> str:
 
 
 def samples(solution: Any, count: int) -> dict[str, Any]:
-    """Control, state and costate at evenly spaced times: ``t`` (k,), ``control`` (k,), the rest (k, 3)."""
+    """Control (k,), state and costate (k, 3) at evenly spaced times ``t`` (k,)."""
     m = solution.maneuver
     t = np.linspace(m.t0, m.tf, count)
-    return {name: t if name == "t" else getattr(solution, name)(t) for name in _SAMPLED}
-
-
-_SAMPLED = ("t", "control", "state", "costate")
+    return {"t": t} | {name: getattr(solution, name)(t) for name in ("control", "state", "costate")}
 
 
 def _problem(solution: Any, kind: Account) -> dict[str, Any]:
@@ -118,7 +117,7 @@ def _problem(solution: Any, kind: Account) -> dict[str, Any]:
     return {name: getattr(m, name) for name in names}
 
 
-def _told(solution: Any, name: str, moving: bool) -> Any:
+def _quantity(solution: Any, name: str, moving: bool) -> Any:
     return getattr(solution, name) if moving or name != "multipliers" else np.zeros(3)
 
 

@@ -30,8 +30,6 @@ TAIL = 1e-13
 """What the last coefficients may be, in shares of the variable."""
 LAST_TAIL, MOST_PANELS = 1e-9, 40
 """What they may be where the mesh is not refined any more."""
-RESIDUAL = 1e-7
-"""The largest residual of the maximum principle that is handed out."""
 LEAST_SHARE = 1e-3
 AT_ONCE = 64
 """Problems solved side by side; more take memory and no less time each."""
@@ -138,7 +136,7 @@ def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDAr
     """The extremals of paths on one mesh, certified."""
     n, mesh = problem.model.slow, path.mesh
     certificate = certify(problem, path, names, members)
-    if not certificate.holds(RESIDUAL):
+    if not certificate.holds():
         worst = int(np.argmax(np.nan_to_num(certificate.residual, nan=np.inf)))
         raise NotConverged(
             f"the averaged extremal does not satisfy the maximum principle{_which(problem, members[worst])}",

@@ -1,8 +1,8 @@
-"""The ledger of Pimkina & Chelnokov and of Sapunkov: every formula and decidable claim, in their order.
+"""The ledger of Pimkina & Chelnokov and of Sapunkov: formulas and decidable claims, in their order.
 
-One module per step of the texts. A module transcribes and judges; what is derived comes from
-`pontryagin.rendezvous.derivation`. `meetings` holds the meetings, true and false, that settle what is said
-in words, `spirals` the slow transfers that leave the problem of least energy without a solution.
+There is one module for each step of the texts. A module transcribes and judges; derived formulas come from
+`pontryagin.rendezvous.derivation`. `meetings` holds true and false meetings that decide claims in words,
+`spirals` the slow transfers that show that the problem of least energy in free time has no solution.
 """
 
 from itertools import chain

@@ -1,4 +1,4 @@
-"""Section 2, the conditions at the end: (15) to (17)."""
+"""Section 2, the conditions at the end: (15), (16), (17)."""
 
 import sympy as sp
 
@@ -8,6 +8,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -33,7 +34,15 @@ from pontryagin.rendezvous.derivation.model import (
     thrust,
     v1,
 )
-from pontryagin.rendezvous.derivation.principle import energy_weight, nu, rho, s1, time_weight
+from pontryagin.rendezvous.derivation.principle import (
+    energy_weight,
+    nu,
+    rho,
+    s1,
+    switching_length,
+    thrust_magnitude,
+    time_weight,
+)
 from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure, turn
 from pontryagin.rendezvous.derivation.reduction import anomaly_constant
 
@@ -54,13 +63,13 @@ tilde = conjugate(attitude)
     "products, but here, twice, a bar taken for a tilde cannot be excluded. At t_k, λ*(t_k) has to stand for "
     "λ(t_k), or it says nothing of the meeting.",
 )
-def equal_at_both_ends():
+def equal_at_both_ends() -> Misprint:
     key = r"\bar\nu^*"
     vector = pure(nu)
     printed = product(tilde, vector, tilde).expand()
 
     def consequence() -> Consequence:
-        # On the unit circle lambda turns about i3 by t, and nu = i3 is constant.
+        # On the unit circle lambda rotates about i3 by the angle t, and nu = i3 is constant.
         quarter = dict(zip(attitude, turn(model.EZ, sp.pi / 2), strict=True)) | {nu[0]: 0, nu[1]: 0, nu3: 1}
         start = dict(zip(attitude, (1, 0, 0, 0), strict=True)) | {nu[0]: 0, nu[1]: 0, nu3: 1}
         return Consequence(
@@ -69,7 +78,7 @@ def equal_at_both_ends():
             printed[0].subs(start),
         )
 
-    def derived():
+    def derived() -> Sides:
         # nu* = mu o lambda~, with mu = lambda o nu.
         lifted = dict(zip(principle.mu, reduction.lifted(), strict=True))
         return {key: reduction.invariant().subs(lifted)}
@@ -90,7 +99,7 @@ def equal_at_both_ends():
     verdict="holds",
     remark="It does not imply (6).",
 )
-def origin_of_15():
+def origin_of_15() -> Proof:
     def argument() -> Steps:
         for k, part in enumerate(reduction.invariant()):
             moves = reduction.along(part)
@@ -104,7 +113,7 @@ def origin_of_15():
 
 
 @claim("(16)", "transversality at the moving end", verdict="holds")
-def moving_end():
+def moving_end() -> Proof:
     key = "0"
     bracket = eccentricity * areal / parameter * s1 * sp.cos(anomaly) + nu3 / 2
     printed = anomaly_constant + parameter * eccentricity * rho * sp.sin(anomaly) + growth**2 * bracket
@@ -129,7 +138,7 @@ def moving_end():
 
 
 @claim("after (16): C_φ", "C_φ is a constant of integration", verdict="holds")
-def constant_of_integration():
+def constant_of_integration() -> Proof:
     def argument() -> Steps:
         found = reduction.anomaly_integral()
         yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
@@ -143,7 +152,7 @@ def constant_of_integration():
 
 
 @claim("(17)", "the integral H⁰, zero since t_k is free", verdict="holds")
-def hamiltonian():
+def hamiltonian() -> Proof:
     key = "H^0"
     printed = (
         -(time_weight + energy_weight * (p1**2 + p2**2 + p3**2))
@@ -180,7 +189,7 @@ def hamiltonian():
 
 
 def variation_at_a_free_time() -> Steps:
-    """Why H = 0 where t_k is free: what dJ has at the end, and under the integral."""
+    """Why H = 0 where t_k is free: the terms of dJ at t_k, and the integral."""
     gradient, moved = variation.gradient_by_thrust(), [variation.FAMILY[p].diff(variation.s) for p in thrust]
     rest = variation.rest_of_the_variation() + gradient.dot(moved)
     yield "dJ is (ψ, dx_k) − H dt_k and −∫(dH/dp, dp)dt", vanishes(rest)
@@ -205,8 +214,8 @@ def variation_at_a_free_time() -> Steps:
         "then dJ = −H dt_k, which a free t_k makes 0",
         vanishes(sp.simplify(variation.cost_slope() + terminal.hamiltonian_at_a_meeting())),
     )
-    in_thrust = {terminal.switching_length: 2 * energy_weight * terminal.thrust_magnitude}
-    rest = time_weight - energy_weight * terminal.thrust_magnitude**2
+    in_thrust = {switching_length: 2 * energy_weight * thrust_magnitude}
+    rest = time_weight - energy_weight * thrust_magnitude**2
     yield (
         "within the bound dJ*/dt_k is α1 − α2p²",
         vanishes(terminal.cost_slope("unsaturated").subs(in_thrust) - rest),

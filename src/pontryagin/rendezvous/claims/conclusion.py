@@ -1,4 +1,4 @@
-"""Section 2, the conclusion: what the reduced problem loses, the repair, and how simple it is."""
+"""The conclusion: the condition that the reduced problem loses, its repair, and the number of operations."""
 
 import sympy as sp
 
@@ -32,7 +32,7 @@ tilde = conjugate(attitude)
     "(17) to rounding; one that is 20° ahead even costs less than the true one. Repair: an eleventh "
     "equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
 )
-def reduced_problem():
+def reduced_problem() -> Refutation:
     def counterexample() -> Steps:
         yield from rank_of_15()
         for members in (meetings.COPLANAR, meetings.INCLINED):
@@ -49,7 +49,7 @@ def reduced_problem():
 
 
 def rank_of_15() -> Steps:
-    """(6) sees three turns, (15) two."""
+    """(6) determines all three small rotations, (15) only two."""
     yield "by small turns of λ, (6) has rank 3", repair.change_of_mismatch().rank() == 3
     seen = repair.change_of_invariant()
     yield "(15) has rank 2", seen.rank() == 2 and sp.expand(seen.det()) == 0
@@ -66,11 +66,11 @@ def rank_of_15() -> Steps:
 
 
 def repaired() -> Steps:
-    """chi, the eleventh variable, and what the conditions become."""
+    """The eleventh variable chi, and the rank of the repaired conditions."""
     charts: tuple[tuple[repair.Chart, str], ...] = ((1, "ν3 = −|ν|"), (-1, "ν3 = |ν|"))
     for chart, name in charts:
-        whole = repair.turning(chart)
-        yield f"λ = S∘(turn by χ)∘T~ solves (3), regular off {name}", vanishes(sp.Matrix(whole[:3]))
+        relative = repair.angular_velocity(chart)
+        yield f"λ = S∘(turn by χ)∘T~ solves (3), regular off {name}", vanishes(sp.Matrix(relative[:3]))
         expected = c / r**2 + chart * r * p3 / c * nu1 / (repair.length + chart * nu3)
         yield (
             f"with χ' = c/r² ± (r p3/c)ν1/(|ν| ± ν3), ± = {chart:+d}",
@@ -91,7 +91,7 @@ def repaired() -> Steps:
     verdict="holds",
     remark="With the eleventh equation too.",
 )
-def simpler():
+def simpler() -> Proof:
     def argument() -> Steps:
         for mode in ("unsaturated", "saturated"):
             systems = (forms.full(mode), forms.repaired(mode), forms.reduced(mode))
@@ -110,6 +110,6 @@ def simpler():
 
 
 def evaluated(form: forms.Form) -> list[sp.Expr]:
-    """What is evaluated when subexpressions that occur twice are evaluated once."""
+    """The expressions to evaluate when common subexpressions are evaluated once."""
     parts, rest = sp.cse(form.rates)
     return [part for _, part in parts] + list(rest)

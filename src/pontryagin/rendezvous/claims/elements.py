@@ -1,4 +1,4 @@
-"""Sapunkov's first page: what it announces, and (1)."""
+"""Sapunkov's first page: the claims of its abstract, and (1)."""
 
 import sympy as sp
 
@@ -7,6 +7,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -22,12 +23,12 @@ FREE = dict.fromkeys(force, 0)
 
 
 def driving(lifted: sp.Matrix) -> sp.Matrix:
-    """F1 as printed, of q."""
+    """F1 as printed, as a function of q."""
     return square * lifted + w.dot(lifted) * w
 
 
 def in_elements(expression: sp.Expr) -> sp.Expr:
-    """u and w written in A, B and phi."""
+    """An expression with u and w in terms of A, B and phi."""
     return expression.subs(sapunkov.oscillation(), simultaneous=True)
 
 
@@ -37,18 +38,18 @@ def in_elements(expression: sp.Expr) -> sp.Expr:
     verdict="not checked",
     remark="The text at hand ends after (1); it contains no results to compare the project's with.",
 )
-def results():
+def results() -> None:
     return None
 
 
 @claim(
     "abstract: target", "the target moves on an ellipse under attraction to a centre alone", verdict="holds"
 )
-def target():
+def target() -> Proof:
     def argument() -> Steps:
         still = [rates.subs(FREE) for rates in sapunkov.element_rates()]
         yield "for p = 0, A and B are constant", all(part.is_zero_matrix for part in still)
-        # An ellipse with the pericentre at phi = 0 along the first axis: A and B orthogonal, A the shorter.
+        # A and B are orthogonal, and A is the shorter: the pericentre is at phi = 0, on the first axis.
         half, share = sp.symbols("a e", positive=True)
         short, long = sp.sqrt(half * (1 - share)), sp.sqrt(half * (1 + share))
         at = dict(zip([*A, *B], [short, 0, 0, 0, 0, 0, 0, -long], strict=True))
@@ -76,7 +77,7 @@ def target():
     remark="(1) is in the quaternion ones, A and B. The vector ones are not on the page; the classical, R × "
     "V and Laplace's vector, are quadratic in A and B.",
 )
-def elements():
+def elements() -> Proof:
     def argument() -> Steps:
         still = [rates.subs(FREE) for rates in sapunkov.element_rates()]
         yield "A and B are elements: constant without thrust", all(part.is_zero_matrix for part in still)
@@ -107,7 +108,7 @@ def elements():
     remark="While the osculating orbit is an ellipse, Q > 0: no denominators, the centre of attraction "
     "included. On a parabola Q is infinite, on a hyperbola negative, and dt/dφ is not real.",
 )
-def regular():
+def regular() -> Conditional:
     def argument() -> Steps:
         rates = sapunkov.element_rates()
         yield (
@@ -143,7 +144,7 @@ def regular():
     "costates of `solve`; the three redundancies of the four numbers u must be taken out of the shooting "
     "first.",
 )
-def structure():
+def structure() -> None:
     return None
 
 
@@ -154,7 +155,7 @@ def structure():
     remark="The text at hand gives no formula for them. The project reads them as ∫(α1 + α2p²)dt and "
     "∫(α1 + α2|p|)dt, and solves both: `solve_in_elements`, `least_fuel`.",
 )
-def functionals():
+def functionals() -> None:
     return None
 
 
@@ -166,7 +167,7 @@ def functionals():
     "leaves undefined ε (unit of thrust in units of gravity), P(u), (·,·), u² = |u|², and the condition on "
     "the start, scal(ũ∘i1∘w) = 0.",
 )
-def both_craft():
+def both_craft() -> Proof:
     def argument() -> Steps:
         moved = sapunkov.place_rate() - square * velocity
         yield "R = ũ∘i1∘u and du/dτ = −i1∘u∘V/2 give dR/dτ = r V", vanishes(moved.applyfunc(sp.expand))
@@ -183,7 +184,7 @@ def both_craft():
 
 
 @claim("(1): dA/dφ, dB/dφ", "rates of the elements", verdict="holds")
-def element_rates():
+def element_rates() -> Equality:
     keys = (r"\frac{dA}{d\varphi}", r"\frac{dB}{d\varphi}")
     F1 = driving(sapunkov.lifted_force())
     printed = (-epsilon * Q * F1 * sin, epsilon * Q * F1 * cos)
@@ -201,7 +202,7 @@ def element_rates():
     verdict="holds",
     remark="In units with fM = 1, which “dimensionless” must mean.",
 )
-def time_rate():
+def time_rate() -> Equality:
     key = r"\frac{dt}{d\varphi}"
     return Equality(
         {key: square * sp.sqrt(2 * Q)},
@@ -211,8 +212,8 @@ def time_rate():
 
 
 @claim("(1): Q", "Q = A² + B²", verdict="holds", remark="It is −1/h: twice the semi-axis.")
-def size_of_the_orbit():
-    def derived():
+def size_of_the_orbit() -> Proof:
+    def derived() -> Sides:
         return {"Q": sp.simplify(in_elements(sapunkov.size_of_the_orbit()))}
 
     def argument() -> Steps:
@@ -231,7 +232,7 @@ def size_of_the_orbit():
     verdict="holds",
     remark="P(u) is not defined on the page. What (1) needs is P(u)p = −i1∘u∘p.",
 )
-def lifted_force():
+def lifted_force() -> Proof:
     def argument() -> Steps:
         unknown = sp.Matrix(4, 3, sp.symbols("P0:12"))
         acceleration = sapunkov.spinor_acceleration() - sapunkov.spinor_acceleration().subs(FREE)
@@ -252,10 +253,10 @@ def lifted_force():
 
 
 @claim("(1): F1", "what drives the elements", verdict="holds")
-def driving_force():
+def driving_force() -> Equality:
     key = "F_1"
 
-    def derived():
+    def derived() -> Sides:
         whole = (sapunkov.oscillation_rate() + u) / (epsilon * Q)
         return {key: whole.applyfunc(sp.expand)}
 
@@ -264,10 +265,10 @@ def driving_force():
 
 
 @claim("(1): u, w", "u = A cos φ + B sin φ, w = −A sin φ + B cos φ", verdict="holds")
-def oscillation():
+def oscillation() -> Proof:
     keys = ("u", "w")
 
-    def derived():
+    def derived() -> Sides:
         found = sapunkov.oscillation()
         return {key: sp.Matrix([found[x] for x in of]) for key, of in zip(keys, (u, w), strict=True)}
 

@@ -1,4 +1,4 @@
-"""Section 1, the functional: (7), what it stands for, and when it has a minimum."""
+"""Section 1, the functional (7): its meaning, and when it has a minimum."""
 
 import math
 
@@ -9,6 +9,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
+    Sides,
     Slip,
     Steps,
     vanishes,
@@ -36,10 +37,10 @@ def r_of_target() -> tuple[sp.Expr, sp.Expr]:
     remark="α1, α2 ≥ 0 admits α1 = α2 = 0 too: then every control costs 0, and nothing is left to be least. "
     "`Rendezvous` refuses it.",
 )
-def functional():
+def functional() -> Equality:
     key = r"\dot g"
 
-    def derived():
+    def derived() -> Sides:
         at_rest = principle.hamiltonian().subs(dict.fromkeys(principle.COSTATE, 0))
         length = {thrust[0]: p, thrust[1]: 0, thrust[2]: 0}
         return {key: sp.expand(-at_rest.subs(length))}
@@ -62,7 +63,7 @@ def functional():
     "infimum is 0, and only a coasting craft would attain it. The law at the end says it too: n(t_k) = 0, "
     "three conditions in place of one. Fix t_k instead.",
 )
-def least_energy_in_free_time():
+def least_energy_in_free_time() -> Conditional:
     s, T = spirals.share, spirals.duration
 
     def argument() -> Steps:
@@ -99,7 +100,7 @@ def least_energy_in_free_time():
 
 
 def ever_cheaper() -> Steps:
-    """Spirals that meet the target after 1, 10, 100 and 1000 laps more than it has run."""
+    """Spirals that meet the target after 1, 10, 100 and 1000 revolutions more than those of the target."""
     for lap in (1, 10, 100, 1000):
         whole, energy = spirals.duration_of(lap), spirals.energy_of(lap)
         caught = (spirals.sweep() - spirals.target_rate()) * whole
@@ -119,7 +120,7 @@ def ever_cheaper() -> Steps:
     "changes; it is no craft's energy in general. At constant exhaust speed the jet's energy is that of the "
     "mass burnt, and goes with ∫p dt; at constant power it is N t_k, and ∫p²dt stands for the mass.",
 )
-def energy_spent():
+def energy_spent() -> Conditional:
     def argument() -> Steps:
         speed = start_mass * p / flow_rate
         jet = flow_rate * speed**2 / 2
@@ -161,7 +162,7 @@ def energy_spent():
     verdict="misprint",
     remark="Printed: НКА, the uncontrolled craft, which burns nothing. Meant: УКА, the craft under control.",
 )
-def whose_mass():
+def whose_mass() -> Slip:
     mass = start_mass - flow_rate * t
 
     def argument() -> Steps:
@@ -196,7 +197,7 @@ def whose_mass():
     "different J. ∫p²dt stands for the loss at constant jet power (dm/dt = −m²p²/(2N)), or where the exhaust "
     "speed is constant too, and then p is not free.",
 )
-def loss_of_mass():
+def loss_of_mass() -> Conditional:
     mass = start_mass - flow_rate * t
 
     def spent_square(acceleration: sp.Expr) -> sp.Expr:
@@ -230,7 +231,7 @@ def loss_of_mass():
 
 
 @claim("section 1: least time", "with α1 = 1, α2 = 0 the functional is t_k", verdict="holds")
-def least_time():
+def least_time() -> Proof:
     def argument() -> Steps:
         running = principle.running_cost().subs({time_weight: 1, energy_weight: 0})
         yield "the integrand is 1", running == 1

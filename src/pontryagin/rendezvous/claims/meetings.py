@@ -1,9 +1,9 @@
-"""Meetings, true and false, of one problem: numbers whose certificate is computed anew.
+"""True and false meetings of one problem: costates whose residuals are computed when a claim is checked.
 
 The craft leaves the unit circle (fM = 1) for a target on an ellipse with p* = 3/2 and e* = 1/10, in the same
-plane or in one inclined to it by 20 degrees. Each meeting is six costates and a duration. It is flown by the
-14 equations that keep the attitude; then every condition of the paper is evaluated, and the place of the
-craft is compared with that of the target.
+plane or in one inclined to it by 20 degrees. Each meeting is given by six costates and a duration. The 14
+equations with the attitude are integrated; then every condition of the paper is evaluated, and the place of
+the craft is compared with that of the target.
 """
 
 import functools
@@ -22,16 +22,16 @@ from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure
 
 GRAVITY, PARAMETER, ECCENTRICITY, ANOMALY = 1.0, 1.5, 0.1, 0.6
 TIME_WEIGHT, ENERGY_WEIGHT, PEAK = 0.0036, 1.0, 0.25
-LEFT = [1.0, 0.0, 1.0]
-"""r, v1, c at the start."""
+START = [1.0, 0.0, 1.0]
+"""r, v1, c at t0."""
 
 ROUNDING = 1e-11
-"""What the residuals of a meeting may leave, for quantities of the size 1."""
+"""Largest residual of a meeting that counts as rounding, for quantities of the order 1."""
 
 
 @dataclass(frozen=True)
 class Meeting:
-    """rho, s1, e, nu1, nu2, nu3 at the start, the duration, and the inclination of the target's orbit."""
+    """rho, s1, e, nu1, nu2, nu3 at t0, the duration, and the inclination of the target's orbit in degrees."""
 
     name: str
     costates: tuple[float, float, float, float, float, float]
@@ -85,7 +85,10 @@ COPLANAR = (
         19.4582843581068,
     ),
 )
-"""All meet (5), (15), (16) and (17); the first alone meets the target. Ahead: the craft of the target."""
+"""Solutions of (5), (15), (16) and (17), of which only the first meets the target.
+
+The others are named by the angle by which the craft is ahead of the target or behind it.
+"""
 
 INCLINED = (
     Meeting(
@@ -132,19 +135,20 @@ NODE = sp.Rational(3, 10)
 
 
 @functools.cache
-def _follow() -> Callable[..., Array]:
+def _integrator() -> Callable[..., Array]:
+    """The flow of the 14 equations."""
     form = forms.with_attitude("unsaturated")
     return flow(form.states, form.rates, form.parameters)
 
 
-def flown(meeting: Meeting, times: Array) -> Array:
+def trajectory(meeting: Meeting, times: Array) -> Array:
     """r, v1, c, phi*, rho, s1, e, nu, lambda at the times, (k, 14)."""
-    start = [*LEFT, ANOMALY, *meeting.costates, 1.0, 0.0, 0.0, 0.0]
-    return _follow()(start, times, [GRAVITY, PARAMETER, ECCENTRICITY, np.sqrt(PARAMETER), ENERGY_WEIGHT])
+    start = [*START, ANOMALY, *meeting.costates, 1.0, 0.0, 0.0, 0.0]
+    return _integrator()(start, times, [GRAVITY, PARAMETER, ECCENTRICITY, np.sqrt(PARAMETER), ENERGY_WEIGHT])
 
 
 def values() -> dict[sp.Symbol, sp.Expr]:
-    """The problem's numbers."""
+    """The problem's parameters as exact numbers."""
     parameter = sp.Rational(3, 2)
     return {
         model.gravity: sp.Integer(1),
@@ -165,18 +169,18 @@ def target_attitude(inclination: int) -> sp.Matrix:
 
 @functools.cache
 def evaluation(inclination: int) -> Callable[..., dict[str, Array]]:
-    """The paper's conditions at the end, and the places, as a function of a flown row and of C_phi."""
-    there = target_attitude(inclination)
+    """The paper's conditions at the end and the separation, as a function of the 14 variables and C_phi."""
+    goal = target_attitude(inclination)
     place, velocity = model.cartesian()
-    at_target = {**transversality.end_values(), **dict(zip(model.attitude, there, strict=True))}
+    at_target = {**transversality.end_values(), **dict(zip(model.attitude, goal, strict=True))}
     outputs = {
         "ends": model.boundary(),
-        "invariant": vect(product(there, pure(principle.nu), conjugate(there))),
+        "invariant": vect(product(goal, pure(principle.nu), conjugate(goal))),
         "transversality": transversality.condition(),
         "energy": reduction.hamiltonian().subs(forms.thrust("unsaturated")),
         "law": terminal.residual("unsaturated"),
-        "mismatch": vect(product(conjugate(model.attitude), there)),
-        "apart": place - place.subs(at_target),
+        "mismatch": vect(product(conjugate(model.attitude), goal)),
+        "separation": place - place.subs(at_target),
         "drift": velocity - velocity.subs(at_target),
         "switching": principle.size(principle.switching()),
     }
@@ -193,7 +197,7 @@ def evaluation(inclination: int) -> Callable[..., dict[str, Array]]:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a meeting comes to: what the conditions leave, and where the craft is."""
+    """Residuals of the conditions of a meeting, the separation from the target, cost and largest thrust."""
 
     printed_conditions: float
     mismatch: float
@@ -211,9 +215,9 @@ class Outcome:
 
 @functools.cache
 def outcome(meeting: Meeting) -> Outcome:
-    """Fly a meeting and evaluate everything; C_phi is what (16) asks for, and (17) judges it at both ends."""
+    """Integrate a meeting and evaluate its residuals, with C_phi by (16) and with (17) at both ends."""
     times = np.linspace(0.0, meeting.duration, 2001)
-    path, conditions = flown(meeting, times), evaluation(meeting.inclination)
+    path, conditions = trajectory(meeting, times), evaluation(meeting.inclination)
     constant = -float(conditions(path[-1], 0.0)["transversality"][0])
     start, end = conditions(path[0], constant), conditions(path[-1], constant)
     thrust = conditions(path.T, constant)["switching"] / (2 * ENERGY_WEIGHT)
@@ -221,7 +225,7 @@ def outcome(meeting: Meeting) -> Outcome:
     return Outcome(
         printed_conditions=float(np.abs(np.concatenate([*left, start["energy"], end["energy"]])).max()),
         mismatch=float(np.linalg.norm(end["mismatch"])),
-        distance=float(np.linalg.norm(end["apart"])),
+        distance=float(np.linalg.norm(end["separation"])),
         drift=float(np.linalg.norm(end["drift"])),
         cost=float(np.trapezoid(TIME_WEIGHT + ENERGY_WEIGHT * thrust**2, times)),
         peak=float(thrust.max()),
@@ -229,37 +233,37 @@ def outcome(meeting: Meeting) -> Outcome:
     )
 
 
-def left_in_16(meeting: Meeting, constant: float) -> float:
-    """What (16) leaves with a given C_phi."""
-    end = flown(meeting, np.array([0.0, meeting.duration]))[-1]
+def residual_of_16(meeting: Meeting, constant: float) -> float:
+    """The residual of (16) with a given C_phi."""
+    end = trajectory(meeting, np.array([0.0, meeting.duration]))[-1]
     return float(evaluation(meeting.inclination)(end, constant)["transversality"][0])
 
 
 def singular_values(meeting: Meeting, repaired: bool) -> Array:
-    """Of the conditions' Jacobian at a meeting, by central differences.
+    """Singular values of the conditions' Jacobian at a meeting, by central differences.
 
-    As printed: (5), (15), (16), (17) by six costates, t_k and C_phi, 8 x 8. Repaired: (5), (6) and the law
-    at the end by six costates and t_k, 7 x 7.
+    The printed conditions are (5), (15), (16), (17), with the unknowns six costates, t_k and C_phi: 8 x 8.
+    The repaired ones are (5), (6) and the law at the end, with the unknowns six costates and t_k: 7 x 7.
     """
     conditions = evaluation(meeting.inclination)
 
     def residual(unknowns: Array) -> Array:
         costates, duration, constant = unknowns[:6], unknowns[6], unknowns[7] if not repaired else 0.0
         moved = Meeting(meeting.name, tuple(costates), duration, meeting.inclination)
-        end = conditions(flown(moved, np.array([0.0, duration]))[-1], constant)
+        end = conditions(trajectory(moved, np.array([0.0, duration]))[-1], constant)
         if repaired:
             return np.concatenate([end["ends"], end["mismatch"], end["law"]])
-        turned = end["invariant"] - costates[3:]
-        return np.concatenate([end["ends"], turned, end["transversality"], end["energy"]])
+        invariant = end["invariant"] - costates[3:]
+        return np.concatenate([end["ends"], invariant, end["transversality"], end["energy"]])
 
     centre = np.array([*meeting.costates, meeting.duration, outcome(meeting).anomaly_constant])
     steps = 1e-5 * np.eye(7 if repaired else 8, 8)
     columns = [(residual(centre + step) - residual(centre - step)) / 2e-5 for step in steps]
-    return np.linalg.svd(np.column_stack(columns), compute_uv=False)
+    return np.asarray(np.linalg.svd(np.column_stack(columns), compute_uv=False))
 
 
 def false_meetings(members: tuple[Meeting, ...]) -> Steps:
-    """Members after the first: nothing left of what is printed but rounding, and another place."""
+    """The members after the first satisfy the printed conditions to rounding and miss the target."""
     for member in members[1:]:
         found = outcome(member)
         yield (
@@ -273,7 +277,7 @@ def false_meetings(members: tuple[Meeting, ...]) -> Steps:
 
 
 def true_meeting(members: tuple[Meeting, ...]) -> Steps:
-    """The first member: the same conditions, and (6)."""
+    """The first member satisfies the printed conditions and (6)."""
     found = outcome(members[0])
     yield (
         f"{members[0].name}: (5), (15), (16) and (17) leave {found.printed_conditions:.1e}",

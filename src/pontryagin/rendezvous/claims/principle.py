@@ -1,4 +1,4 @@
-"""Section 2 up to the 16 equations: costates and the optimal thrust, (8) to (10)."""
+"""Section 2 up to the 16 equations: costates and the optimal thrust, (8), (9), (10)."""
 
 import sympy as sp
 
@@ -6,6 +6,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Equality,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -44,7 +45,7 @@ PRIMER = dict(zip(canonical.PSI, (sp.Rational(k, 6) for k in (2, -1, 3, 2, 3, 6)
 
 
 @claim("section 2: costates", "μ, ρ, s1, e, Φ*, ψ0 belong to λ, r, v1, c, φ*, g", verdict="holds")
-def costates():
+def costates() -> Proof:
     def argument() -> Steps:
         left = canonical.hamiltonian_gap(PLACE) - principle.anomaly_costate * model.anomaly_rate()
         yield (
@@ -68,10 +69,10 @@ def costates():
 
 
 @claim("(8)", "the thrust lies along n", verdict="holds", remark="Where n ≠ 0.")
-def direction():
+def direction() -> Proof:
     key = r"\bar p_\eta^0"
 
-    def derived():
+    def derived() -> Sides:
         n = principle.switching()
         found = sp.solve([*(n - 2 * multiplier * thrust)], list(thrust), dict=True)[0]
         stationary = thrust.subs(found)
@@ -98,10 +99,10 @@ def direction():
     verdict="holds",
     remark="The scan prints ν like v; that ν1 is meant, the line after (10) says.",
 )
-def switching_vector():
+def switching_vector() -> Equality:
     keys = (r"\bar n_\eta", r"|\bar n|")
 
-    def derived():
+    def derived() -> Sides:
         return dict(zip(keys, (principle.switching(), principle.size(principle.switching())), strict=True))
 
     printed = (
@@ -112,10 +113,10 @@ def switching_vector():
 
 
 @claim("(10)", "the size of the thrust for α2 > 0: |n|/(2α2), at most p_max", verdict="holds")
-def thrust_size():
+def thrust_size() -> Proof:
     keys = (r"p^0", r"p^0_{\max}")
 
-    def derived():
+    def derived() -> Sides:
         return dict(zip(keys, principle.best_magnitudes()[:2], strict=True))
 
     def argument() -> Steps:
@@ -150,7 +151,7 @@ def thrust_size():
     verdict="holds",
     remark="But for instants with n = 0. That n cannot stay 0 is not shown there; for α1 > 0 it cannot.",
 )
-def no_singular_arcs():
+def no_singular_arcs() -> Proof:
     def argument() -> Steps:
         gain = principle.along_switching().subs(energy_weight, 0)
         yield "H rises with p at the rate |n|", vanishes(gain.diff(p) - length)
@@ -180,10 +181,10 @@ def no_singular_arcs():
 
 
 @claim("after (10): ν", "ν1 is a component of ν = λ~∘μ", verdict="holds")
-def variable_nu():
+def variable_nu() -> Equality:
     key = r"\nu_1"
 
-    def derived():
+    def derived() -> Sides:
         gradient = (principle.hamiltonian() + principle.running_cost()).diff(thrust[2])
         return {key: sp.expand(2 * c / r * gradient)}
 
@@ -196,7 +197,7 @@ def variable_nu():
 
 
 @claim("section 2: 16", "the problem comes to 16 differential equations", verdict="holds")
-def sixteen():
+def sixteen() -> Proof:
     def argument() -> Steps:
         form = forms.full("unsaturated")
         yield "eight for r, v1, c, φ*, λ and eight for their costates", len(form.rates) == 16

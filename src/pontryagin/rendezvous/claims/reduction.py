@@ -1,4 +1,4 @@
-"""Section 2, the reduction: integrals, (11) to (14), and the order of the system."""
+"""Section 2, the reduction: integrals, (11), (12), (13), (14), and the order of the system."""
 
 import sympy as sp
 
@@ -26,7 +26,7 @@ p1, p2, p3 = thrust
 
 
 def rates(*variables: sp.Symbol) -> list[sp.Expr]:
-    """Derived rates of some of the ten variables."""
+    """The derived rates of given ones of the ten variables."""
     known = dict(zip(reduction.REDUCED, reduction.rates(), strict=True))
     return [known[x] for x in variables]
 
@@ -37,7 +37,7 @@ def constant(expression: sp.Expr) -> bool:
 
 
 @claim("section 2: ν*", "ν* = μ∘λ~ is a first integral", verdict="holds", remark="At any thrust.")
-def invariant():
+def invariant() -> Proof:
     def argument() -> Steps:
         for k, part in enumerate(reduction.invariant()):
             yield f"component {k} of μ∘λ~ is constant along the 16 equations", constant(part)
@@ -46,7 +46,7 @@ def invariant():
 
 
 @claim("section 2: ν = λ~∘ν*∘λ", "the new variable from the integral", verdict="holds")
-def nu_from_the_invariant():
+def nu_from_the_invariant() -> Proof:
     def argument() -> Steps:
         seen = product(conjugate(attitude), reduction.invariant(), attitude)
         for k, (a, b) in enumerate(zip(seen, reduction.nu_of(), strict=True)):
@@ -62,7 +62,7 @@ def nu_from_the_invariant():
     remark="ν* (four), |λ|, C_φ and H. ν0 is one of the four in disguise, and a pure gauge: no thrust "
     "contains it. |ν| stays constant in (14) and is not used: the ten equations are one more than needed.",
 )
-def integrals():
+def integrals() -> Proof:
     def argument() -> Steps:
         norm, gauge, square = reduction.norms()
         yield "|λ|² is constant", constant(norm)
@@ -80,7 +80,7 @@ def integrals():
 
 
 @claim("section 2: six", "the order falls by six for any control p", verdict="holds")
-def six():
+def six() -> Proof:
     def argument() -> Steps:
         whole = [*principle.STATE, *principle.COSTATE]
         yield "16 − 4 (λ) − 4 (μ) − 1 (Φ*) + 3 (ν) = 10", len(whole) - 6 == len(reduction.REDUCED)
@@ -93,7 +93,7 @@ def six():
 
 
 @claim("(11)", "rates of v1, r, c", verdict="holds")
-def translation():
+def translation() -> Equality:
     keys = (r"\dot v_1", r"\dot r", r"\dot c")
     printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
     return Equality(
@@ -102,7 +102,7 @@ def translation():
 
 
 @claim("(12)", "rates of s1 and ρ", verdict="holds")
-def radial_costates():
+def radial_costates() -> Equality:
     keys = (r"\dot s_1", r"\dot\rho")
     printed = (
         -rho,
@@ -114,21 +114,21 @@ def radial_costates():
 
 
 @claim("(13)", "rate of e", verdict="holds")
-def areal_costate():
+def areal_costate() -> Equality:
     key = r"\dot e"
     printed = -(2 * c * s1 / r + nu3 / 2) / r**2 + r * nu1 * p3 / (2 * c**2)
     return Equality({key: printed}, lambda: {key: rates(e)[0]})
 
 
 @claim("(14)", "rates of ν1, ν2, ν3", verdict="holds")
-def nu_rates():
+def nu_rates() -> Equality:
     keys = (r"\dot\nu_1", r"\dot\nu_2", r"\dot\nu_3")
     printed = (c * nu2 / r**2, -c * nu1 / r**2 + r * nu3 * p3 / c, -r * nu2 * p3 / c)
     return Equality(dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(*nu), strict=True)))
 
 
 @claim("after (14): order", "(11) to (14) and φ*' form a system of order ten", verdict="holds")
-def order_ten():
+def order_ten() -> Proof:
     def argument() -> Steps:
         yield "ten variables", len(reduction.REDUCED) == len(reduction.rates()) == 10
         n = dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True))
@@ -153,7 +153,7 @@ def order_ten():
     remark="Of (11) to (14) and φ*'. A twelfth, C_φ, comes with (16); what follows does not count it. The "
     "law (n, p) = α1 + α2p² at t_k takes the place of (16) and (17) and does without.",
 )
-def eleven_unknowns():
+def eleven_unknowns() -> Proof:
     def argument() -> Steps:
         closed = reduction.rates().subs(dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True)))
         changing = {*principle.STATE, *principle.COSTATE, *nu, anomaly_constant}
@@ -178,12 +178,12 @@ def eleven_unknowns():
     remark="With C_φ eight unknowns; (5), (16) and (17) are five conditions, and (15) counts for two, since "
     "|ν| is constant: seven in all. One-parameter families satisfy everything, see the conclusion.",
 )
-def six_unknowns():
+def six_unknowns() -> Refutation:
     def counterexample() -> Steps:
         yield "C_φ is in (16), with the factor 1", transversality.condition().diff(anomaly_constant) == 1
         yield "and none of the ten variables", anomaly_constant not in reduction.REDUCED
         member = meetings.INCLINED[0]
-        other = meetings.left_in_16(member, meetings.outcome(member).anomaly_constant + 1)
+        other = meetings.residual_of_16(member, meetings.outcome(member).anomaly_constant + 1)
         yield (
             f"a meeting, the same ten constants and t_k, C_φ + 1: (16) leaves {other:.9f}",
             abs(other - 1) < 1e-9,

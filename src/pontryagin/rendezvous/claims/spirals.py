@@ -1,8 +1,8 @@
-"""Slow spirals from circle to circle: meetings of ever smaller energy, in closed form.
+"""Slow spirals from circle to circle in closed form: meetings with arbitrarily small energy.
 
-The areal constant rises as c = 1 + (c* - 1)(3s^2 - 2s^3), s = t/T, and r = c^2/fM, so that gravity and
-rotation balance; the thrust that is left to supply, r'' along the radius and c'/r across, is of order 1/T.
-The durations at which the target is there form a sequence without end.
+The areal constant is c = 1 + (c* - 1)(3s^2 - 2s^3) with s = t/T, and r = c^2/fM, so that gravity and rotation
+balance. The required thrust, r'' along the radius and c'/r across it, is of order 1/T. The durations at which
+the target is at the end of the spiral form an unbounded sequence.
 """
 
 import math
@@ -17,9 +17,9 @@ from pontryagin.rendezvous.derivation.model import c, gravity, r, thrust
 
 share, duration = sp.symbols("s T", positive=True)
 OUTER = sp.Rational(3, 2)
-"""Radius of the target's circle; the craft's is 1, fM = 1."""
+"""Radius of the target's orbit; that of the craft is 1, and fM = 1."""
 LEAD = math.pi / 3
-"""How far the target is ahead at the start."""
+"""Angle by which the target is ahead at t0, in radians."""
 
 
 def areal() -> sp.Expr:
@@ -33,13 +33,13 @@ def radius() -> sp.Expr:
 
 
 def by_time(expression: sp.Expr) -> sp.Expr:
-    """d/dt."""
+    """d/dt of a function of s = t/T."""
     return expression.diff(share) / duration
 
 
 @cache
 def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
-    """p1 and p2 that (2) asks for along the spiral, where r = c^2."""
+    """p1 and p2 by (2) along the spiral, where r = c^2."""
     _, speed_rate, areal_rate = model.motion()[0].subs({r: c**2, gravity: 1})
     change = sp.Symbol("change", real=True)
     radial = sp.solve(speed_rate - change, thrust[0])[0].subs(change, by_time(by_time(radius())))
@@ -48,14 +48,14 @@ def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
 
 
 def mean(expression: sp.Expr) -> float:
-    """Integral over 0 <= s <= 1."""
+    """The integral over 0 <= s <= 1."""
     value = compiler.function("value", [share], {"value": expression})
     return float(quad(lambda at: float(value(at)[0]), 0, 1, epsabs=0, epsrel=1e-13)[0])
 
 
 @cache
 def sweep() -> float:
-    """Angle swept by the craft, over T: the mean of c/r^2."""
+    """Angle swept by the craft divided by T, the mean of c/r^2."""
     return mean(areal() / radius() ** 2)
 
 
@@ -65,19 +65,19 @@ def target_rate() -> float:
 
 
 def duration_of(lap: int) -> float:
-    """T at which the craft has made up for the lead and so many laps."""
+    """T at which the craft has made up for the lead and a number of revolutions."""
     return (LEAD + 2 * math.pi * lap) / (sweep() - target_rate())
 
 
 @cache
 def energies() -> tuple[float, float]:
-    """a and b of the integral of p^2 dt = a/T^3 + b/T: of the radial thrust and of the transverse one."""
+    """a and b of the energy a/T^3 + b/T, the integral of p^2 dt: the radial and the transverse part."""
     radial, across = (mean(part.subs(duration, 1) ** 2) for part in needed_thrust())
     return radial, across
 
 
 def energy_of(lap: int) -> float:
-    """The integral of p^2 dt of the meeting after so many laps."""
+    """The integral of p^2 dt of the meeting after a number of revolutions."""
     radial, across = energies()
-    whole = duration_of(lap)
-    return radial / whole**3 + across / whole
+    time = duration_of(lap)
+    return radial / time**3 + across / time

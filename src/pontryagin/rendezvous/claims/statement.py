@@ -1,4 +1,4 @@
-"""Section 1 up to the functional: the problem, (1) to (6)."""
+"""Section 1 up to the functional: the statement of the problem, (1), (2), (3), (4), (5), (6)."""
 
 import sympy as sp
 
@@ -7,6 +7,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -40,7 +41,7 @@ lam = attitude
 
 
 def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Expr:
-    """A polynomial in a quaternion, at the norm 1."""
+    """A polynomial in a quaternion, reduced with norm 1."""
     first, *others = quaternion
     remainder = sp.rem(sp.expand(expression), quaternion.dot(quaternion) - 1, first)
     return sp.simplify(remainder.subs(first**2, 1 - sum(part**2 for part in others)))
@@ -52,7 +53,7 @@ def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Ex
     verdict="holds",
     remark="To ten equations and one quadrature more than the paper has: see the conclusion.",
 )
-def lower_dimension():
+def lower_dimension() -> Proof:
     def argument() -> Steps:
         counts = [len(form("unsaturated").states) for form in (forms.full, forms.repaired)]
         yield "16 equations become 11 with the angle χ about ν*", counts == [16, 11]
@@ -68,7 +69,7 @@ def lower_dimension():
 
 
 @claim("(1)", "the thrust is bounded: 0 ≤ p ≤ p_max", verdict="holds")
-def bound():
+def bound() -> Proof:
     def argument() -> Steps:
         excess = sp.Symbol("k", positive=True)
         reached = {principle.switching_length: 2 * principle.energy_weight * principle.peak + excess}
@@ -90,10 +91,10 @@ def bound():
 
 
 @claim("(2)", "v1' = c²/r³ − fM/r² + p1, r' = v1, c' = r p2", verdict="holds")
-def translation():
+def translation() -> Equality:
     keys = (r"\dot v_1", r"\dot r", r"\dot c")
 
-    def derived():
+    def derived() -> Sides:
         rates = model.motion()[0]
         return dict(zip(keys, (rates[1], rates[0], rates[2]), strict=True))
 
@@ -102,11 +103,11 @@ def translation():
 
 
 @claim("(3)", "2λ' = λ∘ω, ω = (r p3/c) i1 + (c/r²) i3, φ*' = c*(1 + e* cos φ*)²/p*²", verdict="holds")
-def attitude_and_anomaly():
+def attitude_and_anomaly() -> Equality:
     keys = (r"2\dot{\bar\lambda}", r"\bar\omega_\eta", r"\dot\varphi^*")
     printed = (product(lam, sp.Matrix([0, *omega])), omega, areal * growth**2 / parameter**2)
 
-    def derived():
+    def derived() -> Sides:
         found = (2 * model.attitude_rate(), model.motion()[1], model.anomaly_rate())
         return dict(zip(keys, found, strict=True))
 
@@ -119,7 +120,7 @@ def attitude_and_anomaly():
 
 
 @claim("(4)", "the initial state is given by r, v1, c, λ and φ*", verdict="holds")
-def initial_state():
+def initial_state() -> Proof:
     def argument() -> Steps:
         place, velocity = model.cartesian()
         yield "|R| = r", vanishes(at_unit_norm(place.dot(place)) - r**2)
@@ -138,18 +139,18 @@ def initial_state():
 
 
 @claim("(5)", "r, v1 and c of the target at its true anomaly", verdict="holds")
-def ends():
+def ends() -> Equality:
     keys = ("r^*", "v_1^*", "c^*")
     printed = (parameter / growth, eccentricity * areal * sp.sin(anomaly) / parameter, areal)
 
-    def derived():
+    def derived() -> Sides:
         return dict(zip(keys, transversality.meeting()[:3], strict=True))
 
     return Equality(dict(zip(keys, printed, strict=True)), derived)
 
 
 @claim("(6)", "the attitude of the target, and vect(λ~∘λ*) = 0 for the same attitude", verdict="holds")
-def attitude_at_the_end():
+def attitude_at_the_end() -> Proof:
     turned = sp.Matrix([sp.cos(anomaly / 2), 0, 0, sp.sin(anomaly / 2)])
 
     def argument() -> Steps:
@@ -176,7 +177,7 @@ def attitude_at_the_end():
 
 
 @claim("section 1: c*", "R* × V* is constant", verdict="holds")
-def constant_area():
+def constant_area() -> Proof:
     def argument() -> Steps:
         free = dict.fromkeys(thrust, 0)
         yield "without thrust c' = 0", vanishes(model.motion()[0][2].subs(free))
@@ -188,7 +189,7 @@ def constant_area():
 
 
 @claim("section 1: η*", "η1* along R*, η3* along c*: v1* is the projection of V* on η1*", verdict="holds")
-def axes_of_the_target():
+def axes_of_the_target() -> Proof:
     def argument() -> Steps:
         place, velocity = model.cartesian()
         yield "R lies along η1", vanishes((place - r * rotated(EX, lam)).applyfunc(sp.expand))
@@ -205,11 +206,11 @@ def axes_of_the_target():
     "Λ* follows from the node, the inclination and the pericentre's argument",
     verdict="holds",
 )
-def orientation_by_angles():
+def orientation_by_angles() -> Proof:
     node, tilt, pericentre = angles = sp.symbols("Omega I omega", real=True)
 
     def rational(vector: sp.Matrix) -> sp.Matrix:
-        """The same in the tangents of the half-angles."""
+        """A vector of trigonometric functions as rational functions of the tangents of half-angles."""
         halves = {angle: 2 * sp.atan(sp.Symbol(f"x_{angle}", real=True)) for angle in angles}
         return vector.subs(halves).applyfunc(lambda part: sp.cancel(sp.expand_trig(part)))
 
@@ -233,7 +234,7 @@ def orientation_by_angles():
     remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) is no motion of a coasting "
     "craft.",
 )
-def given_quantities():
+def given_quantities() -> Conditional:
     def left_over() -> sp.Expr:
         radius, speed = model.target_radius(), model.target_radial_velocity()
         fall = areal**2 / radius**3 - gravity / radius**2
@@ -264,7 +265,7 @@ def given_quantities():
     verdict="holds",
     remark="Two curves, in fact: λ = λ* and λ = −λ*, the same attitudes.",
 )
-def moving_end():
+def moving_end() -> Proof:
     def argument() -> Steps:
         curve = transversality.meeting()
         tangent = curve.diff(anomaly)

@@ -1,13 +1,13 @@
-"""The maximum principle in Cartesian coordinates, in inertial axes: a second way to every trajectory.
+"""The maximum principle in Cartesian coordinates and inertial axes, independent of the rotating axes.
 
-H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3). Nothing here knows of eta, of lambda or of
-a chart, and nothing is singular but the centre of attraction.
+H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3). Neither eta nor lambda nor a chart is used,
+and only the centre of attraction is singular.
 
-paper   here                here too
+paper   here                meaning
 ------  ------------------  --------------------------------------------------
 R, V    position, velocity  three components each, in inertial axes
 -       position_costate    psi_R
-n       velocity_costate    psi_V, Lawden's primer vector: what the thrust lies along
+n       velocity_costate    psi_V, Lawden's primer vector; the thrust lies along it
 """
 
 from functools import cache
@@ -26,14 +26,14 @@ force = sp.Matrix(sp.symbols("f_x f_y f_z", real=True))
 
 
 def hamiltonian() -> sp.Expr:
-    """H without the part of phi*, for any thrust."""
+    """H without the term of phi*, at any thrust."""
     fall = force - gravity * position / principle.size(position) ** 3
     cost = principle.time_weight + principle.energy_weight * force.dot(force)
     return -cost + position_costate.dot(velocity) + velocity_costate.dot(fall)
 
 
 def thrust(mode: Mode) -> sp.Matrix:
-    """What maximises H: psi_V/(2 alpha2), or p_max psi_V/|psi_V|."""
+    """The thrust that maximises H: psi_V/(2 alpha2), or p_max psi_V/|psi_V|."""
     if mode == "unsaturated":
         return velocity_costate / (2 * principle.energy_weight)
     return principle.peak * velocity_costate / principle.size(velocity_costate)
@@ -41,9 +41,9 @@ def thrust(mode: Mode) -> sp.Matrix:
 
 @cache
 def cartesian(mode: Mode) -> Form:
-    """The canonical equations of the 12 variables, with the optimal thrust put in."""
+    """The canonical equations of the 12 variables, with the optimal thrust."""
     states, costates = [*position, *velocity], [*position_costate, *velocity_costate]
     rates = [*(hamiltonian().diff(x) for x in costates), *(-hamiltonian().diff(x) for x in states)]
-    put_in = dict(zip(force, thrust(mode), strict=True))
+    optimal = dict(zip(force, thrust(mode), strict=True))
     scale = principle.energy_weight if mode == "unsaturated" else principle.peak
-    return Form((*states, *costates), tuple(rate.subs(put_in) for rate in rates), (gravity, scale))
+    return Form((*states, *costates), tuple(rate.subs(optimal) for rate in rates), (gravity, scale))

@@ -1,4 +1,4 @@
-"""Newton's law in the axes eta that turn with the craft, (2) and (3); the target's motion, (5) and (6).
+"""Newton's law in the rotating axes eta of the craft, (2) and (3); the target's motion, (5) and (6).
 
 paper          here            meaning
 -------------  --------------  ----------------------------------------------------------------
@@ -31,11 +31,11 @@ orientation = sp.Matrix(sp.symbols("Lambda0:4", real=True))
 
 EX, EY, EZ = (sp.Matrix([int(k == j) for k in range(3)]) for j in range(3))
 GAUSS = areal**2 / parameter
-"""fM in terms of the target's orbit, where p* and c* stand for it."""
+"""fM = c*^2/p*, by the parameter and the areal constant of the target's orbit."""
 
 
-def derivative_in_turning_axes(vector: sp.Matrix, rates: sp.Matrix, omega: sp.Matrix) -> sp.Matrix:
-    """dx/dt in turning axes: that of the components, and omega x x."""
+def derivative_in_rotating_axes(vector: sp.Matrix, rates: sp.Matrix, omega: sp.Matrix) -> sp.Matrix:
+    """dx/dt in rotating axes: the derivative of the components plus omega x x."""
     return vector.jacobian([r, v1, c]) * rates + omega.cross(vector)
 
 
@@ -49,18 +49,18 @@ def motion() -> tuple[sp.Matrix, sp.Matrix]:
     rates, omega = sp.Matrix(sp.symbols("r_dot v_dot c_dot")), sp.Matrix(sp.symbols("omega1:4"))
     position, velocity = r * EX, v1 * EX + c / r * EY
     newton = [
-        *(derivative_in_turning_axes(position, rates, omega) - velocity),
-        *(derivative_in_turning_axes(velocity, rates, omega) + gravity * position / r**3 - thrust),
+        *(derivative_in_rotating_axes(position, rates, omega) - velocity),
+        *(derivative_in_rotating_axes(velocity, rates, omega) + gravity * position / r**3 - thrust),
     ]
     unknowns = [*rates, *omega]
-    (found,) = sp.linsolve(newton, unknowns)
-    values = [sp.expand(value) for value in found]
+    (solution,) = sp.linsolve(newton, unknowns)
+    values = [sp.expand(value) for value in solution]
     return sp.Matrix(values[:3]), sp.Matrix(values[3:])
 
 
 @cache
 def attitude_rate() -> sp.Matrix:
-    """lambda' = lambda o omega_eta / 2, (3): the rate at which lambda is followed by the turn omega h."""
+    """lambda' = lambda o omega_eta / 2, (3): the derivative of lambda followed by the rotation omega h."""
     h = sp.Symbol("h", positive=True)
     speed = sp.Symbol("w", positive=True)
     omega = motion()[1]
@@ -72,7 +72,7 @@ def attitude_rate() -> sp.Matrix:
 def conic() -> tuple[sp.Expr, sp.Expr]:
     """1/r* as a function of the anomaly, and fM/c*^2, from Binet's equation u'' + u = fM/c*^2.
 
-    The pericentre is at the anomaly 0, the eccentricity the relative swing of u about its mean.
+    The pericentre is at the anomaly 0; the eccentricity is the relative amplitude of u about its mean.
     """
     inverse = sp.Function("u")
     mean = gravity / areal**2
@@ -98,17 +98,17 @@ def target_radial_velocity() -> sp.Expr:
 
 
 def target_attitude() -> sp.Matrix:
-    """lambda* = Lambda* o [cos(phi*/2) + i3 sin(phi*/2)], (6): the orbit's axes turned by the anomaly."""
+    """lambda* = Lambda* o [cos(phi*/2) + i3 sin(phi*/2)], (6): the orbit's axes rotated by the anomaly."""
     return product(orientation, turn(EZ, anomaly))
 
 
 def orientation_from_angles(node: sp.Expr, inclination: sp.Expr, pericentre: sp.Expr) -> sp.Matrix:
-    """Lambda* of the node, the inclination and the pericentre's argument: turns about axes 3, 1, 3."""
+    """Lambda* of the node, the inclination and the pericentre's argument: rotations about axes 3, 1, 3."""
     return product(turn(EZ, node), turn(EX, inclination), turn(EZ, pericentre))
 
 
 def cartesian() -> tuple[sp.Matrix, sp.Matrix]:
-    """Position and velocity in inertial axes, of r, v1, c and lambda."""
+    """Position and velocity in inertial axes, as functions of r, v1, c and lambda."""
     return rotated(r * EX, attitude), rotated(v1 * EX + c / r * EY, attitude)
 
 

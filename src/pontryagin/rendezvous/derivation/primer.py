@@ -1,18 +1,18 @@
-"""The same problem in Cartesian coordinates, where n is Lawden's primer vector.
+"""The problem in Cartesian coordinates, where n is Lawden's primer vector.
 
-H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*' has psi_R = -psi_V' and
-psi_V'' = G psi_V, G the gradient of gravity. The thrust lies along psi_V: psi_V is n, seen in inertial
-axes. `carried` is d/dt of n in those axes along the reduced equations; with the thrust along n nothing of
-it depends on the thrust, and twice over it gives G n.
+H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*' has psi_R = -psi_V' and psi_V'' =
+G psi_V, where G is the gradient of gravity. The thrust lies along psi_V, so psi_V is n in inertial axes.
+`carried` is the derivative of n in inertial axes along the reduced equations; with the thrust along n it does
+not depend on the thrust, and the second derivative is G n.
 
-The turning axes eta depend on the state, so a thrust that is given in eta is another function of the state
-than one given in inertial axes: for thrusts across n the two sets of costates differ.
+The rotating axes eta depend on the state, so a thrust given by its components in eta is another function of
+the state than one given in inertial axes: for thrusts not along n the two sets of costates differ.
 
 paper   here            meaning
 ------  --------------  --------------------------------------------------------------
 n_eta   switching       psi_V, in eta
--       carried         psi_V', in eta: -psi_R
-nu*     -               2 (R x psi_R + V x psi_V), what turning the axes leaves constant
+-       carried         psi_V' = -psi_R, in eta
+nu*     -               2 (R x psi_R + V x psi_V), the integral due to the symmetry under rotations
 """
 
 from functools import cache
@@ -26,18 +26,18 @@ size = sp.Symbol("k", nonnegative=True)
 
 
 def thrust_along_primer() -> dict[sp.Symbol, sp.Expr]:
-    """p_eta = k n_eta, k any function of time."""
+    """p_eta = k n_eta with any function k of time."""
     return dict(zip(model.thrust, size * principle.switching(), strict=True))
 
 
 def rate_at_any_thrust(vector: sp.Matrix) -> sp.Matrix:
-    """d/dt of a vector given in eta, seen in inertial axes."""
+    """d/dt in inertial axes of a vector given by its components in eta, at any thrust."""
     change = vector.jacobian(list(reduction.REDUCED)) * reduction.rates()
     return change + model.motion()[1].cross(vector)
 
 
 def inertial_rate(vector: sp.Matrix) -> sp.Matrix:
-    """The same with the thrust along n."""
+    """`rate_at_any_thrust` with the thrust along n."""
     return rate_at_any_thrust(vector).subs(thrust_along_primer()).applyfunc(sp.expand)
 
 
@@ -61,7 +61,7 @@ def gravity_gradient() -> sp.Matrix:
 
 
 def hamiltonian() -> sp.Expr:
-    """H of the Cartesian problem, its vectors in eta, in C_phi."""
+    """H of the Cartesian problem, with vectors by their components in eta, in terms of C_phi."""
     velocity = v1 * EX + c / r * EY
     fall = model.thrust - gravity / r**2 * EX
     anomaly = reduction.anomaly_costate_of() * model.anomaly_rate()
@@ -71,23 +71,23 @@ def hamiltonian() -> sp.Expr:
 def turning_invariant(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> sp.Matrix:
     """2 (R x psi_R + V x psi_V) in eta."""
     velocity = v1 * EX + c / r * EY
-    whole = 2 * ((r * EX).cross(position_costate) + velocity.cross(velocity_costate))
-    return whole.applyfunc(sp.expand)
+    moment = (r * EX).cross(position_costate) + velocity.cross(velocity_costate)
+    return (2 * moment).applyfunc(sp.expand)
 
 
 def transversality_condition() -> sp.Expr:
-    """(psi_R, R*') + (psi_V, V*') + Phi*, primes by phi* along the target's orbit, at a meeting, in C_phi.
+    """(psi_R, dR*/dphi*) + (psi_V, dV*/dphi*) + Phi* at a meeting, in terms of C_phi; 0 by (16).
 
-    Along the orbit d/dphi* is d/dt over phi*', with R*' = V* and V*' = -fM R*/r^3.
+    Along the orbit d/dphi* is d/dt divided by phi*', with R*' = V* and V*' = -fM R*/r^3.
     """
     velocity, fall = v1 * EX + c / r * EY, -gravity / r**2 * EX
     along = -carried().dot(velocity) + principle.switching().dot(fall)
-    whole = along / model.anomaly_rate() + reduction.anomaly_costate_of()
-    return whole.subs(transversality.end_values()).subs(gravity, model.GAUSS)
+    condition = along / model.anomaly_rate() + reduction.anomaly_costate_of()
+    return condition.subs(transversality.end_values()).subs(gravity, model.GAUSS)
 
 
 def costates(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
-    """rho, s1, e, nu of psi_R and psi_V given in eta: from n, from psi_V' and from the invariant."""
+    """rho, s1, e, nu of psi_R and psi_V in eta: from (9), from psi_V' and from the integral nu*."""
     along_radius = sp.Dummy("psi_R1")
     rho = sp.solve(carried()[0] + along_radius, principle.rho)[0]
     s1, e = velocity_costate[0], velocity_costate[1] / r

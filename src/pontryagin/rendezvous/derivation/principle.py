@@ -55,13 +55,13 @@ def running_cost() -> sp.Expr:
 
 @cache
 def hamiltonian() -> sp.Expr:
-    """H of the 16-dimensional problem, for any thrust."""
+    """H of the 16-dimensional problem, at any thrust."""
     return -running_cost() + sp.Matrix(COSTATE).dot(state_rates())
 
 
 @cache
 def costate_rates() -> sp.Matrix:
-    """-dH/dx for rho, s1, e, Phi* and mu, at a thrust that is given in eta."""
+    """Rates of rho, s1, e, Phi* and mu: -dH/dx at a thrust whose components in eta are given."""
     return sp.Matrix([-hamiltonian().diff(x) for x in STATE])
 
 
@@ -69,13 +69,13 @@ def in_nu(expression: sp.Expr) -> sp.Expr:
     """An expression in lambda and mu in terms of nu = lambda~ o mu: mu = lambda o nu, and |lambda| = 1."""
     values = product(attitude, sp.Matrix([nu0, *nu]))
     first, *others = attitude
-    written = sp.expand(expression.subs(dict(zip(mu, values, strict=True))))
-    return sp.expand(written.subs(first**2, 1 - sum(q**2 for q in others)))
+    substituted = sp.expand(expression.subs(dict(zip(mu, values, strict=True))))
+    return sp.expand(substituted.subs(first**2, 1 - sum(q**2 for q in others)))
 
 
 @cache
 def switching() -> sp.Matrix:
-    """n_eta of (9): the gradient of H + alpha1 + alpha2 p^2 by p_eta."""
+    """n_eta of (9): the gradient of H + alpha1 + alpha2 p^2 with respect to p_eta."""
     return sp.Matrix([in_nu((hamiltonian() + running_cost()).diff(p)) for p in thrust])
 
 
@@ -85,32 +85,33 @@ def size(vector: sp.Matrix) -> sp.Expr:
 
 
 def by_powers_of_thrust(expression: sp.Expr) -> sp.Expr:
-    """A polynomial in p1, p2, p3, each coefficient simplified."""
+    """A polynomial in p1, p2, p3 with simplified coefficients."""
     terms = sp.Poly(expression, *thrust).as_dict()
     powers = {key: sp.prod(p**k for p, k in zip(thrust, key, strict=True)) for key in terms}
     return sp.Add(*(sp.simplify(value) * powers[key] for key, value in terms.items()))
 
 
 def in_switching_length(expression: sp.Expr, n: sp.Matrix) -> sp.Expr:
-    """An expression in |n| alone: s1 gives way to it, so that any other trace of n would stay in sight."""
+    """An expression with s1 eliminated in favour of |n|; any other dependence on n remains visible."""
     rest = n.dot(n) - s1**2
     return sp.expand(sp.simplify(expression.subs(s1, sp.sqrt(switching_length**2 - rest))))
 
 
 @cache
 def along_switching() -> sp.Expr:
-    """What H gains by the thrust p n/|n| over none, in the lengths p and |n|."""
-    n, whole = switching(), in_nu(hamiltonian())
-    pushed = whole.subs(dict(zip(thrust, thrust_magnitude / size(n) * n, strict=True)))
-    return in_switching_length(sp.expand(pushed - whole.subs(dict.fromkeys(thrust, 0))), n)
+    """H at the thrust p n/|n| less H without thrust, in terms of p and |n|."""
+    n, energy = switching(), in_nu(hamiltonian())
+    with_thrust = energy.subs(dict(zip(thrust, thrust_magnitude / size(n) * n, strict=True)))
+    return in_switching_length(sp.expand(with_thrust - energy.subs(dict.fromkeys(thrust, 0))), n)
 
 
 @cache
 def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """The p in 0 <= p <= p_max at which `along_switching` is largest.
 
-    For alpha2 > 0 where |n| <= 2 alpha2 p_max and where |n| > 2 alpha2 p_max, both cases of (10); for
-    alpha2 = 0. The candidates are the ends, and the place where the slope vanishes if it lies between them.
+    Three values: for alpha2 > 0 where |n| <= 2 alpha2 p_max and where |n| > 2 alpha2 p_max, the cases of
+    (10), and for alpha2 = 0. The candidates are both ends, and the point between them where the slope
+    vanishes.
     """
     gain, excess, weight = along_switching(), sp.Symbol("k", positive=True), sp.Symbol("w", positive=True)
     (top,) = sp.solve(gain.diff(thrust_magnitude), thrust_magnitude)
@@ -122,8 +123,10 @@ def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     )
 
 
-def _largest(gain: sp.Expr, candidates: tuple, case: dict[sp.Symbol, sp.Expr], weight: sp.Symbol) -> sp.Expr:
-    """The candidate that is as good as any other in the case, alpha2 > 0 being the weight."""
+def _largest(
+    gain: sp.Expr, candidates: tuple[sp.Expr, ...], case: dict[sp.Symbol, sp.Expr], weight: sp.Symbol
+) -> sp.Expr:
+    """The candidate at which the gain is largest in a case, with `weight` > 0 for alpha2."""
 
     def lead(one: sp.Expr, other: sp.Expr) -> sp.Expr:
         difference = gain.subs(thrust_magnitude, one) - gain.subs(thrust_magnitude, other)
@@ -136,15 +139,15 @@ def _largest(gain: sp.Expr, candidates: tuple, case: dict[sp.Symbol, sp.Expr], w
 
 
 def stationary_magnitude() -> sp.Expr:
-    """First case of (10), |n| written out."""
+    """The first case of (10), with |n| written out."""
     return best_magnitudes()[0].subs(switching_length, size(switching()))
 
 
 def optimal_thrust(mode: Mode) -> sp.Matrix:
-    """p_eta that maximises H, (8) and (10), in the mode that holds.
+    """p_eta that maximises H, (8) and (10), in a given mode.
 
-    Unsaturated, n/(2 alpha2); saturated, p_max n/|n|. With alpha2 = 0, "time-optimal", it is always the
-    latter.
+    It is n/(2 alpha2) in the mode "unsaturated", and p_max n/|n| in the modes "saturated" and "time-optimal"
+    (alpha2 = 0).
     """
     n = switching()
     if mode == "unsaturated":

@@ -1,4 +1,4 @@
-"""Hamilton's quaternions as columns (scalar first): what the papers' formulas need of them, and no more.
+"""Hamilton's quaternions as columns, scalar part first.
 
 paper     here            meaning
 --------  --------------  ----------------------------------------------------------------
@@ -16,7 +16,7 @@ I1, I2, I3 = (sp.Matrix([int(k == j) for k in range(4)]) for j in (1, 2, 3))
 
 
 def pure(vector: sp.Matrix) -> sp.Matrix:
-    """The quaternion without scalar part that stands for a vector."""
+    """The quaternion with scalar part 0 and a given vector part."""
     return sp.Matrix([0, *vector])
 
 
@@ -36,23 +36,23 @@ def conjugate(a: sp.Matrix) -> sp.Matrix:
 
 
 def product(*factors: sp.Matrix) -> sp.Matrix:
-    """Hamilton's product of two quaternions or more, from the left."""
-    first, *rest = factors
-    for b in rest:
-        first = sp.Matrix(
+    """Hamilton's product of two or more quaternions, in their order."""
+    a, *others = factors
+    for b in others:
+        a = sp.Matrix(
             [
-                scal(first) * scal(b) - vect(first).dot(vect(b)),
-                *(scal(first) * vect(b) + scal(b) * vect(first) + vect(first).cross(vect(b))),
+                scal(a) * scal(b) - vect(a).dot(vect(b)),
+                *(scal(a) * vect(b) + scal(b) * vect(a) + vect(a).cross(vect(b))),
             ]
         )
-    return first
+    return a
 
 
 def turn(axis: sp.Matrix, angle: sp.Expr) -> sp.Matrix:
-    """The quaternion of the turn by an angle about a unit axis."""
+    """The quaternion of the rotation by an angle about a unit axis."""
     return sp.Matrix([sp.cos(angle / 2), *(sp.sin(angle / 2) * axis)])
 
 
 def rotated(vector: sp.Matrix, attitude: sp.Matrix) -> sp.Matrix:
-    """a o x o a~: a vector given in the axes of an attitude, in inertial axes."""
+    """a o x o a~, a vector given in the axes of an attitude, in inertial axes."""
     return vect(product(attitude, pure(vector), conjugate(attitude)))

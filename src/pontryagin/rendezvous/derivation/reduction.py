@@ -1,4 +1,4 @@
-"""From 16 equations to ten: the integrals, the variable nu, and (11) to (14) for any thrust.
+"""From 16 equations to ten: the integrals, the variable nu, and (11), (12), (13), (14) at any thrust.
 
 paper     here              meaning
 --------  ----------------  ---------------------------------------------------------------
@@ -20,7 +20,7 @@ from pontryagin.rendezvous.derivation.symbols import Symbol
 anomaly_constant = Symbol("C_phi", real=True)
 
 REDUCED = (r, v1, c, anomaly, rho, s1, e, *nu)
-"""The ten variables of (11) to (14) and phi*."""
+"""The ten variables of (11), (12), (13), (14) and of phi*'."""
 
 
 def along(expression: sp.Expr) -> sp.Expr:
@@ -36,25 +36,25 @@ def invariant() -> sp.Matrix:
 
 
 def nu_of() -> sp.Matrix:
-    """nu = lambda~ o mu, four components in lambda and mu."""
+    """nu = lambda~ o mu, four components, in terms of lambda and mu."""
     return product(conjugate(attitude), mu)
 
 
 def anomaly_integral() -> sp.Expr:
-    """Phi* (1 + e* cos phi*)^2: C_phi. Phi*' = -Phi* d(phi*')/d phi*, so Phi* phi*' is constant."""
+    """C_phi = Phi* (1 + e* cos phi*)^2. Since Phi*' = -Phi* d(phi*')/d phi*, Phi* phi*' is constant."""
     growth = 1 + eccentricity * sp.cos(anomaly)
     return anomaly_costate * growth**2
 
 
 def norms() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Further integrals: |lambda|^2, the gauge nu0 = (lambda, mu), and the square of the length of nu."""
-    whole = nu_of()
-    return attitude.dot(attitude), whole[0], sum(part**2 for part in whole[1:])
+    scalar, *vector = nu_of()
+    return attitude.dot(attitude), scalar, sum(part**2 for part in vector)
 
 
 @cache
 def rates() -> sp.Matrix:
-    """Rates of `REDUCED` at any thrust: (11) to (14), and phi*' of (3)."""
+    """Rates of `REDUCED` at any thrust: (11), (12), (13), (14), and phi*' of (3)."""
     state = dict(zip(principle.STATE, principle.state_rates(), strict=True))
     costate = dict(zip(principle.COSTATE, principle.costate_rates(), strict=True))
     values = [
@@ -66,22 +66,22 @@ def rates() -> sp.Matrix:
 
 
 def gauge_rate() -> sp.Expr:
-    """d nu0/dt: zero, and nu0 enters nothing."""
+    """d nu0/dt, which is 0; no rate and no condition contains nu0."""
     return principle.in_nu(along(nu_of()[0]))
 
 
 @cache
 def hamiltonian() -> sp.Expr:
-    """H in the reduced variables and C_phi, at any thrust: (17)."""
+    """H of (17) in the reduced variables and C_phi, at any thrust."""
     in_nu = principle.in_nu(principle.hamiltonian())
     return sp.expand(sp.simplify(in_nu.subs(anomaly_costate, anomaly_costate_of())))
 
 
 def lifted() -> sp.Matrix:
-    """mu of given lambda and nu: mu = lambda o nu, in the gauge nu0 = 0."""
+    """mu = lambda o nu as a function of lambda and nu, in the gauge nu0 = 0."""
     return product(attitude, sp.Matrix([0, *nu]))
 
 
 def anomaly_costate_of() -> sp.Expr:
-    """Phi* of C_phi."""
+    """Phi* as a function of C_phi and phi*."""
     return sp.solve(anomaly_integral() - anomaly_constant, anomaly_costate)[0]

@@ -1,9 +1,9 @@
 """Sapunkov's (1) from Newton's law, by the Kustaanheimo-Stiefel regularisation.
 
-A quaternion u stands for the place, R = u~ o i1 o u, so that r = |u|^2; the fictitious time tau has
-dt = r d tau. While the energy h is negative, the half-angle phi with d phi/d tau = sqrt(-h/2) makes u a
-harmonic oscillation of the frequency 1, and its amplitudes A and B the slow elements. Lengths and times are
-such that fM = 1; epsilon is the thrust's unit in those of gravity.
+A quaternion u represents the place, R = u~ o i1 o u, so that r = |u|^2; the fictitious time tau is defined by
+dt = r d tau. While the energy h is negative, u is a harmonic oscillation of frequency 1 in the half-angle phi
+with d phi/d tau = sqrt(-h/2); its amplitudes A and B are the elements. Lengths and times are such that fM =
+1; epsilon is the unit of the thrust in units of gravity.
 
 paper       here            meaning
 ----------  --------------  --------------------------------------------------------------
@@ -31,7 +31,7 @@ epsilon, Q = sp.symbols("epsilon Q", positive=True)
 
 
 def place(spinor: sp.Matrix = u) -> sp.Matrix:
-    """R = u~ o i1 o u; its length is |u|^2, exactly."""
+    """R = u~ o i1 o u, whose length is |u|^2."""
     return vect(product(conjugate(spinor), I1, spinor))
 
 
@@ -41,27 +41,27 @@ def radius(spinor: sp.Matrix = u) -> sp.Expr:
 
 
 def spinor_rate() -> sp.Matrix:
-    """du/d tau of a velocity V: -i1 o u o V/2, the solution with scal(u~ o i1 o u') = 0."""
+    """du/d tau = -i1 o u o V/2 of a velocity V, the solution with scal(u~ o i1 o u') = 0."""
     return product(-I1, u, pure(velocity)) / 2
 
 
 def place_rate() -> sp.Matrix:
-    """dR/d tau of `spinor_rate`, that must be r V."""
+    """dR/d tau by `spinor_rate`, which must be r V."""
     return (place().jacobian(u) * spinor_rate()).applyfunc(sp.expand)
 
 
 def bilinear(first: sp.Matrix = u, second: sp.Matrix = w) -> sp.Expr:
-    """scal(u~ o i1 o w), zero for all time if at first: no thrust changes it."""
+    """scal(u~ o i1 o w), which stays 0 at any thrust if it is 0 at the start."""
     return scal(product(conjugate(first), I1, second))
 
 
 def lifted_force() -> sp.Matrix:
-    """q = P(u) p, what the page leaves undefined: -i1 o u o p."""
+    """q = P(u) p = -i1 o u o p; the page does not define P(u)."""
     return product(-I1, u, pure(force))
 
 
 def lifting() -> sp.Matrix:
-    """P(u), 4 x 3."""
+    """The matrix P(u), 4 x 3."""
     return lifted_force().jacobian(force)
 
 
@@ -79,16 +79,16 @@ def spinor_acceleration() -> sp.Matrix:
 
 
 def oscillator() -> sp.Matrix:
-    """The same as an oscillation under a force: (h/2) u + (r/2) epsilon q."""
+    """d^2u/d tau^2 as a forced oscillation: (h/2) u + (r/2) epsilon q."""
     return energy() / 2 * u + radius() / 2 * epsilon * lifted_force()
 
 
 def size_of_the_orbit() -> sp.Expr:
-    """Q = -1/h in u and w, from h = V^2/2 - 1/r with r V^2 = 4 |u'|^2 and |u'|^2 = (-h/2) |w|^2."""
+    """Q = -1/h in terms of u and w, from h = V^2/2 - 1/r, r V^2 = 4 |u'|^2 and |u'|^2 = (-h/2) |w|^2."""
     h = sp.Symbol("h", real=True)
     kinetic = 2 * (-h / 2) * w.dot(w) / radius()
-    (found,) = sp.solve(kinetic - 1 / radius() - h, h)
-    return sp.simplify(-1 / found)
+    (solution,) = sp.solve(kinetic - 1 / radius() - h, h)
+    return sp.simplify(-1 / solution)
 
 
 def slowness() -> sp.Expr:
@@ -103,8 +103,8 @@ def time_rate() -> sp.Expr:
 
 def energy_rate() -> sp.Expr:
     """dh/d phi = epsilon (V, p) dt/d phi, with r V = dR/d tau and du/d tau = w d phi/d tau."""
-    moved = place().jacobian(u) * w
-    return sp.expand(epsilon * moved.dot(force))
+    displacement = place().jacobian(u) * w
+    return sp.expand(epsilon * displacement.dot(force))
 
 
 def size_rate() -> sp.Expr:
@@ -113,7 +113,7 @@ def size_rate() -> sp.Expr:
 
 
 def oscillation_rate() -> sp.Matrix:
-    """dw/d phi with w = (d tau/d phi) du/d tau: the acceleration, and the change of the clock."""
+    """dw/d phi with w = (d tau/d phi) du/d tau: by the acceleration and the change of d tau/d phi."""
     acceleration = -1 / Q / 2 * u + radius() / 2 * epsilon * lifted_force()
     return slowness() ** 2 * acceleration + slowness().diff(Q) * size_rate() / slowness() * w
 
@@ -123,13 +123,13 @@ def element_rates() -> tuple[sp.Matrix, sp.Matrix]:
     """dA/d phi and dB/d phi, with A = u cos phi - w sin phi and B = u sin phi + w cos phi."""
     cos, sin = sp.cos(half_anomaly), sp.sin(half_anomaly)
     pair = sp.Matrix([u * cos - w * sin, u * sin + w * cos])
-    moving = pair.jacobian([*u, *w]) * sp.Matrix([*w, *oscillation_rate()]) + pair.diff(half_anomaly)
-    whole = moving.applyfunc(lambda part: sp.factor(sp.expand(part)))
-    return whole[:4, :], whole[4:, :]
+    rates = pair.jacobian([*u, *w]) * sp.Matrix([*w, *oscillation_rate()]) + pair.diff(half_anomaly)
+    factored = rates.applyfunc(lambda part: sp.factor(sp.expand(part)))
+    return factored[:4, :], factored[4:, :]
 
 
 def oscillation() -> dict[sp.Symbol, sp.Expr]:
-    """u and w in A, B and phi: the inverse of A = u cos phi - w sin phi, B = u sin phi + w cos phi."""
+    """u and w in terms of A, B, phi: the inverse of A = u cos phi - w sin phi, B = u sin phi + w cos phi."""
     cos, sin = sp.cos(half_anomaly), sp.sin(half_anomaly)
     ahead = sp.Matrix([[cos, -sin], [sin, cos]])
     back = sp.simplify(ahead.inv())
@@ -141,12 +141,12 @@ def oscillation() -> dict[sp.Symbol, sp.Expr]:
 
 
 def bilinear_rate() -> sp.Expr:
-    """d/d phi of scal(u~ o i1 o w), for any thrust."""
+    """d/d phi of scal(u~ o i1 o w), at any thrust."""
     rates = sp.Matrix([*w, *oscillation_rate()])
     return sp.expand((sp.Matrix([bilinear()]).jacobian([*u, *w]) * rates)[0])
 
 
 def spinor_of(direction: sp.Matrix) -> sp.Matrix:
-    """A unit u with u~ o i1 o u a given unit vector other than -i1; turns about i1 before it do nothing."""
+    """A unit u with u~ o i1 o u equal to a given unit vector other than -i1; exp(i1 s) o u is another."""
     first, second, third = direction
     return sp.Matrix([1 + first, 0, third, -second]) / sp.sqrt(2 * (1 + first))

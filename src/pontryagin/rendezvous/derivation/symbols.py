@@ -1,6 +1,6 @@
-"""Symbols with plain names in programs and the paper's in print: with a star, or Greek.
+"""Symbols that have a plain name in generated source and the paper's name in print.
 
-The name is what generated source and functions call the argument; a formula shows `TEX`.
+The name is that of the argument in generated source and functions; a formula shows `TEX`.
 """
 
 import sympy as sp
@@ -16,10 +16,11 @@ TEX = {
 }
 
 
-class Symbol(sp.Symbol):
-    """A symbol that prints as `TEX` has it.
+class Symbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types.
+    """A symbol that prints as given in `TEX`.
 
-    SymPy sorts by the name of the class: by this one it sorts as among plain symbols.
+    SymPy orders expressions by the name of the class; with this name these symbols are ordered among plain
+    ones.
 
     Examples
     --------

@@ -1,11 +1,11 @@
-"""What (16) and (17) say together at a meeting: a law for the thrust there, without C_phi.
+"""(16) and (17) at a meeting combined to a law for the thrust at t_k, without C_phi.
 
-With (5), C_phi of (16) cancels every term of (17) but those of the thrust and the cost:
+With (5), C_phi of (16) cancels all terms of (17) except those of the thrust and the cost:
 
     (n, p) = alpha1 + alpha2 p^2    at t_k.
 
-It fixes the scale of the costates. In place of (16), (17) and the unknown C_phi it leaves seven equations
-for seven unknowns: rho, s1, e, nu1, nu2, nu3 at the start, and t_k.
+It determines the scale of the costates. It replaces (16), (17) and the unknown C_phi, which leaves seven
+equations for seven unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k.
 """
 
 from functools import cache
@@ -29,8 +29,8 @@ def hamiltonian_at_a_meeting() -> sp.Expr:
     """H of (17) with (5) and with C_phi of (16), at any thrust; fM = c*^2/p*."""
     constant = {reduction.anomaly_constant: transversality.anomaly_constant_at_the_end()}
     ends = transversality.end_values()
-    whole = reduction.hamiltonian().subs(constant).subs(ends).subs(model.gravity, model.GAUSS)
-    return principle.by_powers_of_thrust(whole)
+    energy = reduction.hamiltonian().subs(constant).subs(ends).subs(model.gravity, model.GAUSS)
+    return principle.by_powers_of_thrust(energy)
 
 
 def switching_at_a_meeting() -> sp.Matrix:
@@ -39,29 +39,29 @@ def switching_at_a_meeting() -> sp.Matrix:
 
 
 def law() -> sp.Expr:
-    """(n, p) - alpha1 - alpha2 p^2 at any thrust: zero at a meeting at a free time."""
+    """(n, p) - alpha1 - alpha2 p^2 at any thrust, which is 0 at t_k if t_k is free."""
     return principle.switching().dot(thrust) - principle.running_cost()
 
 
 @cache
 def law_in_lengths(mode: Mode) -> sp.Expr:
-    """The same in |n|, at the optimal thrust of the mode."""
+    """`law` at the optimal thrust of a mode, as a function of |n|."""
     size = {
         "unsaturated": switching_length / (2 * energy_weight),
         "saturated": peak,
         "time-optimal": peak,
     }[mode]
-    whole = switching_length * size - time_weight - energy_weight * size**2
-    return sp.expand(whole.subs(energy_weight, 0) if mode == "time-optimal" else whole)
+    value = switching_length * size - time_weight - energy_weight * size**2
+    return sp.expand(value.subs(energy_weight, 0) if mode == "time-optimal" else value)
 
 
 def residual(mode: Mode) -> sp.Expr:
-    """The same in the reduced variables: the seventh equation of the shooting."""
+    """`law_in_lengths` in the reduced variables, the seventh equation of the shooting method."""
     return law_in_lengths(mode).subs(switching_length, principle.size(principle.switching()))
 
 
 def end_thrust() -> sp.Expr:
-    """p(t_k) of an unsaturated end: sqrt(alpha1/alpha2)."""
+    """p(t_k) = sqrt(alpha1/alpha2), if the last arc is unsaturated."""
     in_thrust = law_in_lengths("unsaturated").subs(switching_length, 2 * energy_weight * thrust_magnitude)
     positive = sp.Dummy(positive=True)
     weight = sp.Dummy(positive=True)
@@ -71,23 +71,24 @@ def end_thrust() -> sp.Expr:
 
 @cache
 def cost_slope(mode: Mode) -> sp.Expr:
-    """dJ*/dt_k of the extremals of fixed duration, with a free anomaly at the end, in |n| at the end.
+    """dJ*/dt_k along the extremals of prescribed duration and free phi*_k, as a function of |n(t_k)|.
 
-    By the first variation; unsaturated it is alpha1 - alpha2 p(t_k)^2, zero exactly where the law holds.
+    By the first variation. With an unsaturated end it is alpha1 - alpha2 p(t_k)^2, and vanishes where `law`
+    does.
     """
     ends = transversality.end_values()
-    put_in = dict(zip(thrust, principle.optimal_thrust(mode).subs(ends), strict=True))
-    whole = variation.cost_slope().subs(put_in)
+    optimal = dict(zip(thrust, principle.optimal_thrust(mode).subs(ends), strict=True))
+    slope = variation.cost_slope().subs(optimal)
     if mode == "time-optimal":
-        whole = whole.subs(energy_weight, 0)
-    return principle.in_switching_length(whole, switching_at_a_meeting())
+        slope = slope.subs(energy_weight, 0)
+    return principle.in_switching_length(slope, switching_at_a_meeting())
 
 
 def scale_of_saturated() -> sp.Expr:
     """Factor from the costates of the time-optimal problem with alpha1 = 1 to those of the mixed one.
 
-    All rates of the state are of degree 0 in the costates, all rates of the costates of degree 1, where the
-    thrust is p_max n/|n|. So a scale is all that the law at the end can tell apart.
+    With the thrust p_max n/|n| the rates of the state are homogeneous of degree 0 in the costates, and those
+    of the costates of degree 1. So the solutions of both problems differ only by a scale, which `law` fixes.
     """
     time_optimal = sp.solve(law_in_lengths("time-optimal").subs(time_weight, 1), switching_length)[0]
     mixed = sp.solve(law_in_lengths("saturated"), switching_length)[0]

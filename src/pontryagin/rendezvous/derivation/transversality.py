@@ -1,4 +1,4 @@
-"""The moving end: the meeting may happen at any anomaly, which costs one condition on the costates, (16)."""
+"""The moving end: the anomaly at the meeting is free, which gives one condition on the costates, (16)."""
 
 from functools import cache
 
@@ -10,16 +10,16 @@ from pontryagin.rendezvous.derivation.quaternion import product, turn
 
 
 def meeting() -> sp.Matrix:
-    """The state at a meeting at the anomaly phi*, a curve: r*, v1*, c*, phi* and lambda*."""
+    """The curve of meetings, with phi* as its parameter: r*, v1*, c*, phi* and lambda* of (5) and (6)."""
     ordered = model.target_radius(), model.target_radial_velocity(), model.areal, anomaly
     return sp.Matrix([*ordered, *model.target_attitude()])
 
 
 def tangent() -> sp.Matrix:
-    """Direction of that curve, with lambda in place of lambda*.
+    """Tangent of that curve, with lambda in place of lambda*.
 
-    lambda* at a nearby anomaly is lambda* followed by a turn about i3; so is -lambda*, which is the same
-    attitude: written in lambda, the tangents at lambda = lambda* and at lambda = -lambda* are one formula.
+    lambda* at a nearby anomaly is lambda* followed by a rotation about i3. The same holds for -lambda*, which
+    is the same attitude, so in terms of lambda one formula gives the tangents at lambda* and at -lambda*.
     """
     step = sp.Symbol("step", real=True)
     nearby = product(attitude, turn(model.EZ, step)).diff(step).subs(step, 0)
@@ -41,5 +41,5 @@ def end_values() -> dict[sp.Symbol, sp.Expr]:
 
 
 def anomaly_constant_at_the_end() -> sp.Expr:
-    """C_phi that (16) asks for."""
+    """C_phi as (16) determines it at t_k."""
     return sp.solve(condition(), reduction.anomaly_constant)[0]

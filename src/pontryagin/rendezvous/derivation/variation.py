@@ -1,18 +1,18 @@
-"""The first variation of J with the end and its time free: where (16), (17) and dJ*/dt_k come from.
+"""The first variation of J with the end and its time free, which gives (16), (17) and dJ*/dt_k.
 
 Let motions, costates, thrusts and the time of the meeting depend on a number s besides t. Where the motions
-obey x' = f, J is the integral of (psi, x') - H from 0 to t_k. Its change with s is a total derivative by t,
-which leaves the end, and a rest under the integral; the start is fixed. With dx_k the displacement of the end
-itself, not that at a fixed time,
+obey x' = f, J is the integral of (psi, x') - H from 0 to t_k. Its derivative by s is the integral of a total
+derivative by t, which leaves a term at t_k since the start is fixed, and of a remainder. With dx_k the
+displacement of the end itself, not that at a fixed time,
 
     dJ/ds = (psi, dx_k) - H dt_k - integral of (dH/dp, dp) dt,
 
-and under the optimal thrust the integral has nothing to first order (within the bound dH/dp = 0; on it
-dH/dp lies along p, and dp across).
+and under the optimal thrust the integral vanishes to first order: within the bound dH/dp = 0; on the bound
+dH/dp lies along p, and dp is orthogonal to it.
 
-At a meeting dx_k runs along the curve of meetings. phi* is a state that no thrust changes: it arrives with
-t_k, dphi*_k = phi*' dt_k, and Phi* drops out of dJ. So its constant C_phi may be chosen such that the factor
-of dphi*_k is 0, which is (16); then that of dt_k is 0 as well, which is (17).
+At a meeting dx_k is tangent to the curve of meetings. No thrust changes phi*, so that dphi*_k = phi*' dt_k
+and Phi* drops out of dJ. Its constant C_phi may therefore be chosen such that the factor of dphi*_k is 0,
+which is (16). Then the factor of dt_k is 0 as well, which is (17).
 """
 
 from functools import cache
@@ -31,15 +31,15 @@ FAMILY = {x: sp.Function(f"{x}_")(t, s) for x in (*STATE, *COSTATE, *thrust)}
 
 @cache
 def rest_of_the_variation() -> sp.Expr:
-    """d/ds of (psi, x') - H, less d/dt of (psi, dx/ds), along the 16 equations: under the integral."""
+    """d/ds of (psi, x') - H less d/dt of (psi, dx/ds), along the 16 equations: the remainder."""
     states, costates = ([FAMILY[x] for x in names] for names in (STATE, COSTATE))
     lagrangian = sum(m * x.diff(t) for m, x in zip(costates, states, strict=True))
     lagrangian -= principle.hamiltonian().subs(FAMILY)
     product = sum(m * x.diff(s) for m, x in zip(costates, states, strict=True))
     rates = (*principle.state_rates(), *principle.costate_rates())
-    moving = zip((*states, *costates), rates, strict=True)
-    whole = sp.expand(lagrangian.diff(s) - product.diff(t))
-    return sp.expand(whole.subs({x.diff(t): rate.subs(FAMILY) for x, rate in moving}))
+    equations = zip((*states, *costates), rates, strict=True)
+    remainder = sp.expand(lagrangian.diff(s) - product.diff(t))
+    return sp.expand(remainder.subs({x.diff(t): rate.subs(FAMILY) for x, rate in equations}))
 
 
 def gradient_by_thrust() -> sp.Matrix:
@@ -48,9 +48,9 @@ def gradient_by_thrust() -> sp.Matrix:
 
 
 def boundary_term(displacement: sp.Matrix, later: sp.Expr) -> sp.Expr:
-    """What the end adds to dJ/ds: (psi, dx/ds) at a fixed time, and the integrand where the end is moved.
+    """The term of dJ/ds at t_k: (psi, dx/ds) at a fixed time, plus the integrand times the delay.
 
-    The end's own displacement is that at a fixed time, and what the motion adds as the end comes later.
+    The displacement of the end is that at a fixed time plus the motion during the delay `later`.
     """
     rates, costate = principle.state_rates(), sp.Matrix(COSTATE)
     at_fixed_time = displacement - rates * later
@@ -60,26 +60,26 @@ def boundary_term(displacement: sp.Matrix, later: sp.Expr) -> sp.Expr:
 
 @cache
 def of_a_meeting() -> sp.Expr:
-    """dJ/ds of a meeting that moves by dphi*_k along the curve of meetings and by dt_k in time."""
+    """dJ/ds if the meeting moves by dphi*_k along the curve of meetings and by dt_k in time."""
     return principle.in_nu(boundary_term(transversality.tangent() * anomaly_shift, delay))
 
 
 @cache
 def cost_slope() -> sp.Expr:
-    """dJ*/dt_k of the meetings of fixed duration, dphi*_k = phi*' dt_k, at any thrust."""
-    moving = {anomaly_shift: model.anomaly_rate() * delay}
-    whole = sp.expand(of_a_meeting().subs(moving) / delay)
-    at_the_end = whole.subs(transversality.end_values()).subs(model.gravity, model.GAUSS)
+    """dJ*/dt_k of the meetings of prescribed duration, with dphi*_k = phi*' dt_k, at any thrust."""
+    arrival = {anomaly_shift: model.anomaly_rate() * delay}
+    slope = sp.expand(of_a_meeting().subs(arrival) / delay)
+    at_the_end = slope.subs(transversality.end_values()).subs(model.gravity, model.GAUSS)
     return principle.by_powers_of_thrust(at_the_end)
 
 
 def energy_rate(mode: principle.Mode) -> sp.Expr:
-    """d/dt of H along the ten equations, with the optimal thrust put in before H is differentiated."""
-    put_in, n = forms.thrust(mode), principle.switching()
-    energy = reduction.hamiltonian().subs(put_in)
-    rates = zip(reduction.REDUCED, reduction.rates().subs(put_in), strict=True)
-    whole = sp.Add(*(energy.diff(x) * rate for x, rate in rates)).subs(
+    """dH/dt along the ten equations; the optimal thrust is substituted before H is differentiated."""
+    optimal, n = forms.thrust(mode), principle.switching()
+    energy = reduction.hamiltonian().subs(optimal)
+    rates = zip(reduction.REDUCED, reduction.rates().subs(optimal), strict=True)
+    rate = sp.Add(*(energy.diff(x) * change for x, change in rates)).subs(
         principle.size(n), principle.switching_length
     )
-    numerator, denominator = sp.fraction(sp.together(whole))
+    numerator, denominator = sp.fraction(sp.together(rate))
     return sp.rem(sp.expand(numerator), n.dot(n) - principle.switching_length**2, principle.s1) / denominator

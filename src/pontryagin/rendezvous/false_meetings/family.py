@@ -1,14 +1,10 @@
-"""The family of false meetings: what conditions (5), (15), (16) and (17) accept without (6).
+"""The curve of false meetings: what conditions (5), (15), (16) and (17) accept without (6).
 
-nu* is an integral, and (15) asks that lambda*(t_k) carry nu(t_k) into it. Where lambda(t_k) does so, every
-lambda(t_k) turned about nu* does so too: the angle of that turn is free, and the conditions as printed have
-a curve of solutions. It passes through the true ones, at whole turns, and between them the craft meets
-nobody. In the plane the turn is one of the target's orbit in itself; angles are then about its normal, along
-which nu* is with either sign, and a positive one puts the craft ahead of the target.
+Where lambda(t_k) satisfies (15), every lambda(t_k) rotated about nu* does so too: the angle of that rotation
+is free, and the conditions as printed have a curve of solutions. It passes through true meetings at whole
+turns; in between, craft and target do not meet. In the plane the rotation moves the target's orbit in itself.
 """
 
-import itertools
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -16,136 +12,47 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
-from pontryagin.numerics.rotation import conjugate, product
-from pontryagin.rendezvous.false_meetings.printed_conditions import (
-    hamiltonian,
-    printed_conditions,
-    printed_jacobian,
-    reduced,
-)
-from pontryagin.rendezvous.false_meetings.rotated_target import (
-    refined,
-    towards_turned,
-)
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
+from pontryagin.numerics.continuation import Point, between, follow
+from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
+from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jacobian
+from pontryagin.rendezvous.false_meetings.rotated_target import newton_at_angle, rotated_target_family
+from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.reduced.certificate import fly_full
+from pontryagin.rendezvous.reduced.conditions import Equations
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.homotopy import (
-    Family,
-    Point,
-    between,
-    follow,
-)
-from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.solution import Extremal
-from pontryagin.rendezvous.witness.cartesian import (
-    fly_cartesian,
-    target_by_kepler,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal, require_extremal
+from pontryagin.rendezvous.reduced.solve import solve
+from pontryagin.rendezvous.root import Root, scales
 from pontryagin.validation import finite
+from pontryagin.value import value_class
 
 LARGEST = 0.6
-"""Longest step along the curve."""
+"""Longest step along the curve, unknowns relative to their scales and the angle in radians."""
 
 
-@dataclass(frozen=True, eq=False)
-class Meeting:
-    """A solution of the printed conditions.
-
-    Attributes
-    ----------
-    problem : Rendezvous
-        What is asked for.
-    angle : float
-        By how much lambda(t_k) is turned from lambda*, in radians, whole turns counted: about nu*, in the
-        plane about the normal of the target's orbit.
-    flight : Flight
-        The extremal in the solver's units.
-    """
-
-    problem: Rendezvous
-    angle: float
-    flight: Flight = field(repr=False)
-
-    @property
-    def duration(self) -> float:
-        """t_k, in the user's unit of time."""
-        return self.flight.duration * self.problem.scaled.time
-
-    @cached_property
-    def cost(self) -> float:
-        """J, the integral of alpha1 + alpha2 p^2."""
-        scaled = self.problem.scaled
-        alpha1, alpha2 = scaled.weights
-        spent = alpha2 * energy(self.flight) if alpha2 else 0.0
-        return (alpha1 * self.flight.duration + spent) * scaled.value
-
-    @cached_property
-    def _whole(self) -> Array:
-        """The 16 variables at t0 and t_k, by the integrator that the solver does not use."""
-        return fly_full(self.flight, np.array([0.0, self.flight.duration]))
-
-    @cached_property
-    def printed(self) -> float:
-        """Largest residual of (5), (15), (16) and (17) at t0 and t_k, with p* = c* = fM = 1."""
-        first, last = (reduced(row, self.flight.scaled.eccentricity) for row in self._whole)
-        at_start = hamiltonian(self.flight, first, self.flight.pieces[0].mode)
-        rest = printed_conditions(self.flight, last[:-1], self.flight.costates[3:], last[-1])
-        return float(np.abs([*rest, at_start]).max())
-
-    @cached_property
-    def turn(self) -> Array:
-        """What turns the target at t_k into the craft, lambda(t_k) o lambda*~ in inertial axes, (4,)."""
-        last = self._whole[-1]
-        goal, _ = self.flight.scaled.target(float(last[3]))
-        whole = product(last[4:8], conjugate(goal[3:]))
-        axes = self.problem.chaser.attitude
-        return product(product(axes, whole if whole[0] >= 0 else -whole), conjugate(axes))
-
-    @property
-    def mismatch(self) -> float:
-        """Angle between lambda(t_k) and lambda*, of (6), in radians; lambda and -lambda are one attitude."""
-        return float(2 * math.atan2(np.linalg.norm(self.turn[1:]), self.turn[0]))
-
-    @cached_property
-    def _apart(self) -> Array:
-        last = fly_cartesian(self.flight, np.array([self.flight.duration]))[0, :6]
-        return last - target_by_kepler(self.flight.scaled, self.flight.duration)
-
-    @property
-    def distance(self) -> float:
-        """How far the craft is from the target at t_k, by Newton's law and Kepler's equation."""
-        return float(np.linalg.norm(self._apart[:3])) * self.problem.scaled.length
-
-    @property
-    def drift(self) -> float:
-        """How fast the craft moves against the target at t_k."""
-        scaled = self.problem.scaled
-        return float(np.linalg.norm(self._apart[3:])) * scaled.length / scaled.time
-
-
+@value_class
 @dataclass(frozen=True, eq=False)
 class FalseFamily:
-    """Solutions of the printed conditions along the curve through a true one.
+    """Solutions of the printed conditions on the curve through a true meeting.
 
     Attributes
     ----------
     solution : Extremal
         The true meeting that the curve starts from.
-    members : tuple of Meeting
-        One for each angle asked for.
+    members : tuple of RotatedMeeting
+        The solutions, in the order of the angles that were given.
     """
 
     solution: Extremal
-    members: tuple[Meeting, ...] = field(repr=False)
+    members: tuple[RotatedMeeting, ...] = field(repr=False)
 
     def _each(self, name: str) -> Array:
         return np.array([getattr(member, name) for member in self.members])
 
     @property
     def angles(self) -> Array:
-        """Turns about nu*, in the plane about its normal, (k,), in radians."""
+        """Angles about nu*, in the plane about its normal, (k,), in radians."""
         return self._each("angle")
 
     @property
@@ -160,27 +67,27 @@ class FalseFamily:
 
     @property
     def printed(self) -> Array:
-        """What the printed conditions leave, (k,); see `Meeting.printed`."""
+        """Largest residuals of the printed conditions, (k,); see `RotatedMeeting.printed`."""
         return self._each("printed")
 
     @property
     def mismatches(self) -> Array:
-        """What (6) leaves, (k,), in radians; see `Meeting.mismatch`."""
+        """Angles between lambda(t_k) and lambda* of (6), (k,), in radians; see `RotatedMeeting.mismatch`."""
         return self._each("mismatch")
 
     @property
     def distances(self) -> Array:
-        """How far from the target each ends, (k,)."""
+        """Distances from the target at t_k, (k,)."""
         return self._each("distance")
 
     @cached_property
     def printed_singular_values(self) -> Array:
-        """Of the printed conditions' Jacobian at the true meeting, (8,), falling; the last is 0."""
+        """Those of the printed conditions' Jacobian at the true meeting, (8,), falling; the last is 0."""
         return _singular_values(printed_jacobian(self.solution.flight))
 
     @cached_property
     def repaired_singular_values(self) -> Array:
-        """Of the repaired conditions' Jacobian at the true meeting, (7,), falling."""
+        """Those of the repaired conditions' Jacobian at the true meeting, (7,), falling."""
         return _singular_values(self.solution.root.equations.jacobian)
 
 
@@ -188,26 +95,68 @@ def _singular_values(matrix: Array) -> Array:
     return np.asarray(np.linalg.svd(matrix, compute_uv=False), dtype=float)
 
 
+def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = None) -> Extremal:
+    """The extremal that ends with the attitude lambda* rotated about nu* by an angle.
+
+    `boundary`, `transversality`, `hamiltonian` and `maximality` of its certificate are as small as those of a
+    true meeting; `attitude` and `cartesian` are not.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        The problem whose printed conditions (5), (15), (16) and (17) are to hold.
+    angle : float
+        In radians, about nu*, in the plane about the normal of the target's orbit; 0 gives the true meeting.
+    true : Extremal, optional
+        A true meeting of the problem, from which the curve is followed; `solve` by default.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is not as above; the message names it.
+    NotConverged
+        If the curve ends before it reaches the angle.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+    >>> problem = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6),
+    ...                      time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
+    >>> certificate = false_meeting(problem, math.pi / 6).certificate
+    >>> bool(certificate.boundary < 1e-11), bool(certificate.cartesian > 0.4)
+    (True, True)
+    """
+    target = number("angle", angle)
+    if true is not None:
+        require_extremal("true", true)
+    start = solve(problem) if true is None else true
+    _, roots = _curve(start, [target])
+    return Extremal(problem, roots[target])
+
+
 def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
-    """Follow the solutions of the printed conditions from a true meeting to turns about nu*.
+    """Follow the solutions of the printed conditions from a true meeting to given angles about nu*.
 
     Each member satisfies the ten reduced equations and conditions (5), (15), (16), (17) of Pimkina &
-    Chelnokov; (6) holds at whole turns alone, where the craft makes as many revolutions more or fewer.
+    Chelnokov. (6) holds at whole turns alone, where the craft makes as many revolutions more or fewer.
 
     Parameters
     ----------
     solution : Extremal
-        Of a problem with a free duration.
+        Solution of a problem with a free duration.
     angles : (k,) array_like
-        The turns wanted, in radians, of either sign; 2 pi is a whole one. They are about nu*, and where craft
-        and target move in one plane about the normal of the target's orbit: positive is ahead of it.
+        Angles in radians, of either sign; 2 pi is a whole turn. They are about nu*, and where craft and
+        target move in one plane about the normal of the target's orbit: positive is ahead of it.
 
     Raises
     ------
+    TypeError
+        If `solution` is no Extremal.
     ValueError
-        If the duration is fixed: (17) then says nothing.
+        If the duration is prescribed, since (17) then says nothing, or if `angles` are not as above.
     NotConverged
-        Where the curve ends before an angle is reached.
+        If the curve ends before an angle is reached.
 
     Examples
     --------
@@ -218,68 +167,85 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
     (True, array([0.   , 0.759]))
     """
     if not isinstance(solution, Extremal):
-        raise TypeError(f"solution must be of type Extremal, got {solution!r}")
+        raise ArgumentTypeError(f"solution must be of type Extremal, got {solution!r}", "solution")
     if not solution.problem.free:
-        raise ValueError(
-            f"solution must have a free duration, as (17) asks, got a fixed one of {solution.duration:g}"
+        raise ArgumentValueError(
+            f"solution must have a free duration, as (17) asks, got a fixed one of {solution.duration:g}",
+            "solution",
         )
-    wanted = np.atleast_1d(finite("angles", angles, "numbers"))
-    if wanted.ndim > 1:
-        raise ValueError(f"angles must be of shape (k,), got {wanted.shape}")
-    family = towards_turned(solution)
-    flights: dict[float, Flight] = {0.0: solution.flight}
+    targets = np.atleast_1d(finite("angles", angles, "numbers"))
+    if targets.ndim > 1:
+        raise ArgumentValueError(f"angles must be of shape (k,), got {targets.shape}", "angles")
+    roots = {0.0: solution.root}
     for sign in (1.0, -1.0):
-        ahead = sorted({float(angle) for angle in wanted if sign * angle > 0}, key=abs)
-        flights |= _walked(family, solution.root.unknowns, ahead, sign)
-    return FalseFamily(solution, tuple(Meeting(solution.problem, a, flights[a]) for a in wanted.tolist()))
+        nearest_first = sorted({float(angle) for angle in targets if sign * angle > 0}, key=abs)
+        roots |= _curve(solution, nearest_first)[1]
+    return FalseFamily(solution, tuple(_member(solution, a, roots[a]) for a in targets.tolist()))
 
 
 def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
-    """Members all along the curve of false meetings through a true one, where it turns back as well.
+    """Members all along the curve of false meetings through a true one, also where it turns back.
 
     Parameters
     ----------
     solution : Extremal
-        Of a problem with a free duration.
+        Solution of a problem with a free duration.
     first, last : float
-        Turns as in `false_family`, at which the curve is left: ``first < 0 < last``.
+        Angles as in `false_family` at which the curve ends: ``first < 0 < last``.
 
     Raises
     ------
-    ValueError
+    TypeError, ValueError
         As `false_family`, or if the angles are not of those signs.
     NotConverged
-        Where the curve ends before.
+        If the curve ends before it reaches an angle.
     """
     if not first < 0 < last:
-        raise ValueError(f"first and last must be below and above 0, got {first} and {last}")
-    ends = false_family(solution, [first, last])
-    family, members = towards_turned(solution), [Meeting(solution.problem, 0.0, solution.flight)]
-    for sign, end in ((-1.0, ends.members[0]), (1.0, ends.members[1])):
-        there = [end]
-        for point in itertools.islice(
-            follow(family, solution.root.unknowns, 0.0, sign, largest=LARGEST), 1, None
-        ):
-            if sign * point.parameter >= sign * end.angle:
-                break
-            flight = refined(family, point.unknowns, point.parameter).flight
-            there.insert(-1, Meeting(solution.problem, point.parameter, flight))
-        members = [*reversed(there), *members] if sign < 0 else [*members, *there]
+        raise ArgumentValueError(
+            f"first and last must be below and above 0, got {first} and {last}",
+            "last" if first < 0 else "first",
+        )
+    ends = false_family(solution, [first, last]).members
+    family, members = rotated_target_family(solution), [_member(solution, 0.0, solution.root)]
+    for sign, end in zip((-1, 1), ends, strict=True):
+        points, _ = _curve(solution, [end.angle])
+        angles = [point.parameter for point in points[1:-1]]
+        roots = [newton_at_angle(family, point.unknowns, point.parameter) for point in points[1:-1]]
+        branch = [*(_member(solution, *pair) for pair in zip(angles, roots, strict=True)), end]
+        members = [*members, *branch] if sign > 0 else [*reversed(branch), *members]
     return FalseFamily(solution, tuple(members))
 
 
-def _walked(family: Family, unknowns: Array, ahead: list[float], sign: float) -> dict[float, Flight]:
-    """The flights at angles of one sign, nearest first, along the curve."""
-    found: dict[float, Flight] = {}
-    last: Point | None = None
-    left = list(ahead)
-    for point in follow(family, unknowns, 0.0, sign, largest=LARGEST) if left else ():
-        while left and last is not None and abs(point.parameter) >= abs(left[0]):
+def _member(solution: Extremal, angle: float, root: Root[Flight]) -> RotatedMeeting:
+    return RotatedMeeting(Extremal(solution.problem, root), angle)
+
+
+def _curve(
+    solution: Extremal, angles: list[float]
+) -> tuple[list[Point[Equations]], dict[float, Root[Flight]]]:
+    """The curve from a true meeting until it passes the last of some angles of one sign, nearest first.
+
+    Returns its points, of which the last is the first beyond, and the solutions at the angles.
+    """
+    family, points, roots = (
+        rotated_target_family(solution),
+        list[Point[Equations]](),
+        dict[float, Root[Flight]](),
+    )
+    left = list(angles)
+    if left[:1] == [0.0]:
+        return points, {0.0: newton_at_angle(family, solution.root.unknowns, 0.0)}
+    start = solution.root.unknowns
+    for point in follow(family, start, 0.0, left[-1], scales=scales, largest=LARGEST) if left else ():
+        while left and points and abs(point.parameter) >= abs(left[0]) and point.parameter * left[0] > 0:
             angle = left.pop(0)
-            found[angle] = refined(family, between(last, point, angle), angle).flight
+            roots[angle] = newton_at_angle(family, between(points[-1], point, angle), angle)
+        points.append(point)
         if not left:
-            break
-        last = point
+            return points, roots
     if left:
-        raise NotConverged(f"the curve of meetings ends before the angle {left[0]:.6g}", abs(left[0]))
-    return found
+        raise NotConverged(
+            f"the curve of false meetings ends at {points[-1].parameter:.3g} rad, before {left[0]:.6g} rad",
+            abs(left[0] - points[-1].parameter),
+        )
+    return points, roots

@@ -1,108 +1,95 @@
-"""False meetings: extremals that satisfy all that the paper asks of the ten equations, in another place.
-
-(15) compares lambda o nu o lambda~ with lambda* o nu o lambda*~. Turning lambda about nu* changes neither, so
-that a craft whose attitude at the end is lambda* turned about nu* by any angle passes (15), and with (5),
-(16) and (17) everything the ten equations are asked. Here that angle is prescribed, and from the true meeting
-the family is followed to it.
-"""
+"""One solution of the conditions as printed: what they leave, what (6) leaves, and the distance missed."""
 
 import math
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from pontryagin.errors import NotConverged
-from pontryagin.numerics.rotation import about_third, product, rotated
-from pontryagin.rendezvous.false_meetings.rotated_target import (
-    refined,
-    towards_turned,
-)
-from pontryagin.rendezvous.problem.checks import number
+from pontryagin.arrays import Array
+from pontryagin.numerics.rotation import conjugate, product
+from pontryagin.rendezvous.false_meetings.printed_conditions import printed_residual
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.certificate import fly_full
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.homotopy import (
-    Point,
-    between,
-    follow,
-)
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    require_extremal,
-    solve,
-)
-
-STEPS = 200
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.witness.cartesian import separation
+from pontryagin.value import value_class
 
 
-def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = None) -> Extremal:
-    """The extremal that ends with the attitude lambda* turned about nu* by an angle.
+@value_class
+@dataclass(frozen=True, eq=False)
+class RotatedMeeting:
+    """A meeting with the target rotated about nu*: a solution of the printed conditions.
 
-    Its certificate says what it is: ``boundary``, ``transversality``, ``hamiltonian`` and ``maximality`` are
-    as small as those of a meeting, ``attitude`` and ``cartesian`` are not.
-
-    Parameters
+    Attributes
     ----------
-    problem : Rendezvous
-        What is to be met.
+    extremal : Extremal
+        The solution. `boundary`, `transversality`, `hamiltonian` and `maximality` of its certificate are as
+        small as those of a true meeting; `attitude` and `cartesian` are not.
     angle : float
-        In radians, about nu*, in the plane about the normal of the target's orbit; 0 gives the true meeting.
-    true : Extremal, optional
-        A true meeting of the problem, from which the family is followed; `solve` by default.
-
-    Raises
-    ------
-    ValueError, TypeError
-        Naming the argument that is not as above.
-    NotConverged
-        Where the family turns back before it reaches the angle.
-
-    Examples
-    --------
-    >>> import math
-    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
-    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6),
-    ...                   time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
-    >>> misled = false_meeting(leap, math.pi / 6)
-    >>> paper_residual(misled) < 1e-11, distance(misled) > 0.5
-    (True, True)
+        The angle in radians by which lambda(t_k) is rotated from lambda*, whole turns counted: about nu*, in
+        the plane about the normal of the target's orbit.
     """
-    wanted = number("angle", angle)
-    if true is not None:
-        require_extremal("true", true)
-    meeting = solve(problem) if true is None else true
-    family = towards_turned(meeting)
-    last: Point | None = None
-    for point in follow(family, meeting.root.unknowns, 0.0, wanted, steps=STEPS):
-        if last is not None and (point.parameter - wanted) * (last.parameter - wanted) <= 0:
-            return Extremal(problem, refined(family, between(last, point, wanted), wanted))
-        if wanted == 0:
-            return Extremal(problem, refined(family, point.unknowns, wanted))
-        if point.parameter * wanted < 0:
-            break
-        last = point
-    reached = 0.0 if last is None else last.parameter
-    raise NotConverged(f"the family of false meetings went to {reached:.3g} rad only", abs(wanted - reached))
 
+    extremal: Extremal = field(repr=False)
+    angle: float
 
-def paper_residual(extremal: Extremal) -> float:
-    """The largest of what (5), (15), (16) and (17) leave, in the units of the certificate."""
-    flight, proof = extremal.flight, extremal.certificate
-    parts = (proof.boundary, proof.transversality, proof.hamiltonian)
-    return max(invariant_residual(flight), *(float(part) for part in parts))
+    @property
+    def problem(self) -> Rendezvous:
+        """The problem whose printed conditions are satisfied."""
+        return self.extremal.problem
 
+    @property
+    def flight(self) -> Flight:
+        """The extremal in the solver's units."""
+        return self.extremal.flight
 
-def invariant_residual(flight: Flight) -> float:
-    """What (15) leaves: lambda* o nu o lambda*~ at the end less nu*, relative to |nu*|."""
-    there = flight.scaled.target(float(flight.end[3]))[0][3:]
-    constant = flight.costates[3:]
-    return float(np.abs(rotated(flight.end[7:10], there) - constant).max() / np.linalg.norm(constant))
+    @property
+    def duration(self) -> float:
+        """t_k, in the user's unit of time."""
+        return self.extremal.duration
 
+    @property
+    def cost(self) -> float:
+        """J, the integral of alpha1 + alpha2 p^2."""
+        return self.extremal.cost
 
-def distance(extremal: Extremal) -> float:
-    """How far craft and target are from each other at the end, in the user's unit of length."""
-    problem = extremal.problem
-    end = extremal.state([extremal.duration])[0]
-    craft = rotated(np.array([end[0], 0.0, 0.0]), end[4:])
-    orbit = problem.target
-    attitude = product(orbit.attitude, about_third(end[3]))
-    radius = orbit.parameter / (1 + orbit.eccentricity * math.cos(end[3]))
-    return float(np.linalg.norm(craft - rotated(np.array([radius, 0.0, 0.0]), attitude)))
+    @cached_property
+    def _ends(self) -> Array:
+        """The 16 variables at t0 and t_k, (2, 16), by the integrator that the solver does not use."""
+        return fly_full(self.flight, np.array([0.0, self.flight.duration]))
+
+    @cached_property
+    def printed(self) -> float:
+        """Largest residual of (5), (15), (16) and (17) at t0 and t_k, with p* = c* = fM = 1."""
+        return printed_residual(self.flight, self._ends, self.problem.free)
+
+    @cached_property
+    def turn(self) -> Array:
+        """The quaternion lambda(t_k) o lambda*~ in inertial axes, (4,): 1 at a true meeting."""
+        end = self._ends[-1]
+        goal, _ = self.flight.scaled.target(float(end[3]))
+        relative = product(end[4:8], conjugate(goal[3:]))
+        axes = self.problem.chaser.attitude
+        return product(product(axes, relative if relative[0] >= 0 else -relative), conjugate(axes))
+
+    @property
+    def mismatch(self) -> float:
+        """Angle between lambda(t_k) and lambda* of (6), in radians; lambda and -lambda are one attitude."""
+        return float(2 * math.atan2(np.linalg.norm(self.turn[1:]), self.turn[0]))
+
+    @cached_property
+    def _separation(self) -> Array:
+        return separation(self.flight)
+
+    @property
+    def distance(self) -> float:
+        """Distance between craft and target at t_k, by Newton's law and Kepler's equation."""
+        return float(np.linalg.norm(self._separation[:3])) * self.problem.scaled.length
+
+    @property
+    def drift(self) -> float:
+        """Speed of the craft relative to the target at t_k."""
+        scaled = self.problem.scaled
+        return float(np.linalg.norm(self._separation[3:])) * scaled.length / scaled.time

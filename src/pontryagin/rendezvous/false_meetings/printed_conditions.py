@@ -1,9 +1,10 @@
-"""The end conditions as printed, in numbers: (5), (15), (16) and (17), and their exact derivatives.
+"""The end conditions as printed, (5), (15), (16) and (17), in numbers, with their exact derivatives.
 
-Eight equations for six costates, t_k and C_phi; everything in units with p* = c* = fM = 1.
+Eight equations for six costates, t_k and C_phi, in units with p* = c* = fM = 1.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,19 +14,22 @@ from pontryagin.numerics.complex_step import derivative
 from pontryagin.numerics.rotation import conjugate, product, rotated
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.reduced.certificate import anomaly_constant
+from pontryagin.rendezvous.reduced.conditions import end_rates
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.shooting import end_rates
+
+Numbers = NDArray[Any]
+"""Real numbers, or complex ones where derivatives are taken by a complex step."""
 
 
-def reduced(row: Array, eccentricity: float) -> Array:
-    """r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3 and C_phi (11,) of the 16 variables."""
+def reduced_variables(row: Array, eccentricity: float) -> Array:
+    """r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3 and C_phi, (11,), of the 16 variables."""
     nu = product(conjugate(row[4:8]), row[12:])[1:]
     constant = row[11] * (1 + eccentricity * math.cos(row[3])) ** 2
     return np.concatenate([row[:4], row[8:11], nu, [constant]])
 
 
-def hamiltonian(flight: Flight, variables: NDArray, mode: str) -> complex:
-    """H of (17)."""
+def hamiltonian(flight: Flight, variables: Numbers, mode: str) -> Any:
+    """H of (17) at the optimal thrust of a mode."""
     r, v1, c, _, rho, s1, e, nu1, nu2, nu3, constant = variables
     alpha1, alpha2 = flight.scaled.weights
     n = kernels.switching(r, c, s1, e, nu1)
@@ -36,13 +40,13 @@ def hamiltonian(flight: Flight, variables: NDArray, mode: str) -> complex:
     return kernels.hamiltonian(*inputs)
 
 
-def printed_conditions(flight: Flight, end: NDArray, nu_start: NDArray, constant: complex) -> NDArray:
-    """(5), (15), (16) and (17), (8,): what they leave at the end, with p* = c* = fM = 1.
+def printed_conditions(flight: Flight, end: Numbers, nu_start: Numbers, constant: complex) -> Numbers:
+    """Residuals of (5), (15), (16) and (17), (8,), with p* = c* = fM = 1.
 
     Parameters
     ----------
     flight : Flight
-        Whose problem it is, and in which mode it ends.
+        The extremal: it gives the problem and the mode of the last arc.
     end : (10,) array
         r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3 at t_k; real or complex.
     nu_start : (3,) array
@@ -53,14 +57,35 @@ def printed_conditions(flight: Flight, end: NDArray, nu_start: NDArray, constant
     r, v1, c, phi, rho, s1, _, *nu = end
     scaled = flight.scaled
     goal = np.delete(np.array(kernels.target(phi, 1.0, scaled.eccentricity, 1.0, *scaled.orientation)), 3)
-    turned = rotated(np.array(nu), goal[3:])
-    wanted = kernels.anomaly_constant(rho, s1, nu[2], phi, 1.0, scaled.eccentricity, 1.0)
-    left = hamiltonian(flight, np.append(end, constant), flight.mode)
-    return np.array([*(np.array([r, v1, c]) - goal[:3]), *(turned - nu_start), constant - wanted, left])
+    invariant = rotated(np.array(nu), goal[3:])
+    transversal = kernels.anomaly_constant(rho, s1, nu[2], phi, 1.0, scaled.eccentricity, 1.0)
+    energy = hamiltonian(flight, np.append(end, constant), flight.mode)
+    return np.array(
+        [*(np.array([r, v1, c]) - goal[:3]), *(invariant - nu_start), constant - transversal, energy]
+    )
+
+
+def printed_residual(flight: Flight, ends: Array, free: bool) -> float:
+    """Largest residual of (5), (15), (16) and (17) at t0 and t_k, with p* = c* = fM = 1.
+
+    Parameters
+    ----------
+    flight : Flight
+        The extremal.
+    ends : (2, 16) array
+        The 16 variables at t0 and t_k.
+    free : bool
+        Whether t_k is free. Where it is prescribed, (17) asks only that H is constant.
+    """
+    first, last = (reduced_variables(row, flight.scaled.eccentricity) for row in ends)
+    at_start = hamiltonian(flight, first, flight.pieces[0].mode)
+    *conditions, at_end = printed_conditions(flight, last[:-1], flight.costates[3:], last[-1])
+    energies = [at_start, at_end] if free else [at_start - at_end]
+    return float(np.abs([*conditions, *energies]).max())
 
 
 def printed_jacobian(flight: Flight) -> Array:
-    """Derivatives of the printed conditions in the six costates, t_k and C_phi at a meeting, (8, 8)."""
+    """Derivatives of the printed conditions by the six costates, t_k and C_phi at a meeting, (8, 8)."""
     constant = anomaly_constant(flight)
     inputs = np.concatenate([flight.end[:10], flight.costates[3:], [constant]])
 

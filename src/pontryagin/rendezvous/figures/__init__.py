@@ -1,12 +1,12 @@
-"""Figures and tables of Pimkina & Chelnokov: from a rendezvous to a picture."""
+"""Figures and tables of the rendezvous."""
 
 from pontryagin.rendezvous.figures import tables
-from pontryagin.rendezvous.figures.crowd import trajectories
-from pontryagin.rendezvous.figures.false import false_meetings, missed, singular_values
+from pontryagin.rendezvous.figures.false_meetings import false_meetings, missed, singular_values
 from pontryagin.rendezvous.figures.orbit import orbit
 from pontryagin.rendezvous.figures.revolutions import revolutions
 from pontryagin.rendezvous.figures.series import series
 from pontryagin.rendezvous.figures.solved import solved
+from pontryagin.rendezvous.figures.trajectories import trajectories
 
 __all__ = [
     "false_meetings",

@@ -13,6 +13,7 @@ from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
+    GREY,
     INK,
     ORANGE,
     PALETTE,
@@ -24,14 +25,12 @@ from pontryagin.display.plotting import (
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.least_fuel import least_fuel
-from pontryagin.rendezvous.elements.solution import (
-    ElementsExtremal,
-    solve_in_elements,
-)
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
+from pontryagin.rendezvous.elements.solve import solve_in_elements
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.judge.table import (
     MESHES,
-    verdicts,
+    direct_results,
 )
 from pontryagin.rendezvous.problem.cases import (
     cases,
@@ -40,12 +39,15 @@ from pontryagin.rendezvous.problem.cases import (
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 TIME = r"time $t$"
+SHADE = 0.28
+"""Opacity of the shade behind arcs with thrust."""
 SAMPLES = 601
+"""Number of times at which a series is drawn."""
 
 
 @styled
 def elements_along(solution: ElementsExtremal) -> Figure:
-    """A, B and the spinor u against time; shaded where the engine burns.
+    """A, B and the spinor u against time; arcs with thrust are shaded.
 
     Examples
     --------
@@ -58,7 +60,7 @@ def elements_along(solution: ElementsExtremal) -> Figure:
     panels = ((elements.u, "u"), (np.asarray(elements.A), "A"), (np.asarray(elements.B), "B"))
     figure, axes = subplots(3, sharex=True, height=5.6)
     for ax, (values, name) in zip(axes, panels, strict=True):
-        _burns(ax, solution)
+        _shade_burns(ax, solution)
         for k in range(4):
             ax.plot(t, values[:, k], color=PALETTE[k], label=rf"component {k}")
         ax.set_ylabel(f"${name}$")
@@ -70,21 +72,24 @@ def elements_along(solution: ElementsExtremal) -> Figure:
     return figure
 
 
-def _burns(ax: Axes, solution: ElementsExtremal) -> None:
-    """Shade the arcs with thrust, if there are others."""
+def _shade_burns(ax: Axes, solution: ElementsExtremal) -> None:
+    """Shade the arcs with thrust if there are coasting arcs too."""
     if "coast" not in solution.modes:
         return
     edges = [0.0, *solution.switch_times, solution.duration]
-    first = True
-    for mode, begin, end in zip(solution.modes, edges[:-1], edges[1:], strict=True):
-        if mode == "saturated":
-            ax.axvspan(begin, end, color="#dddddd", zorder=0, linewidth=0, label="thrust" if first else None)
-            first = False
+    burns = [
+        pair
+        for mode, pair in zip(solution.modes, itertools.pairwise(edges), strict=True)
+        if mode == "saturated"
+    ]
+    for place, (begin, end) in enumerate(burns):
+        label = None if place else "thrust"
+        ax.axvspan(begin, end, color=GREY, alpha=SHADE, zorder=0, linewidth=0, label=label)
 
 
 @styled
 def sharpening(solution: ElementsExtremal) -> Figure:
-    """|n|/alpha2 and the thrust over its peak, along the smoothed extremals and the sharp one."""
+    """|n|/alpha2 and the thrust over its peak, of the smoothed extremals and of the one that switches."""
     scaled = solution.problem.scaled
     figure, (above, below) = subplots(2, sharex=True, height=4.6)
     colours = _colours(len(solution.smoothed))
@@ -118,7 +123,7 @@ def _colours(count: int) -> list[Any]:
 
 
 def _series(solution: ElementsExtremal) -> tuple[Array, Array, Array]:
-    """Times with both sides of each switch, |n| and |p| there."""
+    """Times that include both sides of each switch, and |n| and |p| at them."""
     edges = [0.0, *solution.switch_times, solution.duration]
     nudge = 1e-9 * solution.duration
     parts = [np.linspace(a + nudge, b - nudge, 201) for a, b in itertools.pairwise(edges)]
@@ -127,21 +132,21 @@ def _series(solution: ElementsExtremal) -> tuple[Array, Array, Array]:
 
 
 @styled
-def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure:
-    """The same meeting by the least integral of p^2 and of |p|: paths in the plane, and thrust."""
+def two_functionals(energy: ElementsExtremal, fuel: ElementsExtremal) -> Figure:
+    """One meeting with the least integral of p^2 and of |p|: paths in the plane, and the thrust."""
     figure, (left, right) = subplots(1, 2, height=3.3, width_ratios=(1, 1.15))
-    for solution, colour, name in ((first, BLUE, r"$\int p^2 dt$"), (second, RED, r"$\int |p|\, dt$")):
+    for solution, colour, name in ((energy, BLUE, r"$\int p^2 dt$"), (fuel, RED, r"$\int |p|\, dt$")):
         t = np.linspace(0.0, solution.duration, SAMPLES)
         place = solution.elements(t).position
         left.plot(*place.T[:2], color=colour, linewidth=1.3)
-        some = np.linspace(0.0, solution.duration, 31)
-        at, thrust = solution.elements(some).position, solution.control(some)
+        times = np.linspace(0.0, solution.duration, 31)
+        at, thrust = solution.elements(times).position, solution.control(times)
         left.quiver(
             *at.T[:2], *thrust.T[:2], color=colour, angles="xy", scale_units="xy", scale=0.35, width=0.005
         )
         t, _, size = _series(solution)
         right.plot(t, size, color=colour, label=name)
-    ends = second.elements([0.0, second.duration]).position
+    ends = fuel.elements([0.0, fuel.duration]).position
     left.plot(*ends[0, :2], "o", color=GREEN, zorder=5)
     left.plot(*ends[1, :2], "s", color=ORANGE, zorder=5)
     left.plot(0, 0, "+", color=INK)
@@ -159,15 +164,16 @@ def two_functionals(first: ElementsExtremal, second: ElementsExtremal) -> Figure
 
 def in_elements(name: str) -> ElementsExtremal:
     """A case of the report in the elements: the extremal that `solve` found."""
-    return _started(name)[0]
+    return _with_start(name)[0]
 
 
 @functools.cache
-def _started(name: str) -> tuple[ElementsExtremal, str]:
-    """That extremal, and what it was started from.
+def _with_start(name: str) -> tuple[ElementsExtremal, str]:
+    """That extremal, and a description of the start from which it was found.
 
-    "cold" where the elements come to it by themselves. Otherwise its costates are carried over, and what a
-    cold start comes to is told: the cost of another extremal, or none.
+    The start is "cold" if `solve_in_elements` finds the extremal by itself. Otherwise the costates of `solve`
+    are carried over, and the description says what a cold start leads to: the cost of another extremal, or
+    none.
     """
     other = solved(name)
     try:
@@ -181,14 +187,14 @@ def _started(name: str) -> tuple[ElementsExtremal, str]:
 
 @functools.cache
 def fuel_solved(name: str) -> ElementsExtremal:
-    """A case of least fuel; kept for the next figure."""
+    """A case of least fuel, solved once."""
     one = fuel_cases()[name]
     return least_fuel(one.problem, one.more)
 
 
 def agreement() -> dict[str, list[Any]]:
-    """All cases of the report in the axes eta and in the elements: costs, durations, controls, residuals."""
-    pairs = [(name, solved(name), *_started(name)) for name in cases()]
+    """The cases of the report in the axes eta and in the elements: costs, durations, thrusts, residuals."""
+    pairs = [(name, solved(name), *_with_start(name)) for name in cases()]
     return {
         "case": [name for name, *_ in pairs],
         "start": [start for *_, start in pairs],
@@ -209,7 +215,7 @@ def _initial(mine: ElementsExtremal, other: Extremal) -> float:
 
 
 def fuel() -> dict[str, list[Any]]:
-    """The cases of least fuel: cost, burns, and what their certificates leave."""
+    """The cases of least fuel: costs, durations, burns, switches and residuals."""
     known = fuel_cases()
     found = [fuel_solved(name) for name in known]
     return {
@@ -224,10 +230,10 @@ def fuel() -> dict[str, list[Any]]:
 
 
 def fuel_judge() -> dict[str, list[Any]]:
-    """The cases of least fuel beside their direct costs at two meshes, as `tables.judge` has the others."""
+    """The cases of least fuel and their direct costs at two meshes, as `tables.judge` for the others."""
     known = fuel_cases()
     found = {name: fuel_solved(name).cost for name in known}
-    kept = {name: one for name, one in verdicts().items() if name in found}
+    kept = {name: one for name, one in direct_results().items() if name in found}
     columns: dict[str, list[Any]] = {
         "case": [one.title for one in known.values()],
         "$J_2$": [f"{cost:.9g}" for cost in found.values()],

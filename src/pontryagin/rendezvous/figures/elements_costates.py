@@ -1,4 +1,4 @@
-"""The costates of Sapunkov's elements along a rendezvous, and how well H is kept there."""
+"""The costates of Sapunkov's elements along a rendezvous, and the drift of H there."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -17,16 +17,17 @@ from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 
 SAMPLES = 601
+"""Number of times at which a series is drawn."""
 
 
 @styled
 def costates_along(solution: ElementsExtremal) -> Figure:
-    """a and b against time, and the drift of H, by `drift`; p* = c* = fM = alpha2 = 1.
+    """The costates a and b and the `drift` of H against time, in units with p* = c* = fM = alpha2 = 1.
 
     Examples
     --------
     >>> from pontryagin.rendezvous.problem.cases import case
-    >>> from pontryagin.rendezvous.elements.solution import solve_in_elements
+    >>> from pontryagin.rendezvous.elements.solve import solve_in_elements
     >>> costates_along(solve_in_elements(case("circle-energy").problem)).get_label()
     'costates-along'
     """
@@ -52,4 +53,4 @@ def drift(solution: ElementsExtremal, states: Array, phi: Array) -> Array:
     spent = running_cost(solution.flight, thrust)
     phase = np.asarray(kernels.element_phase(*[*states[:, :16].T, phi]))
     energy = np.sum(switching(states, phi) * thrust, axis=1) - spent + phase
-    return (energy - energy[-1]) / spent.max()
+    return np.asarray((energy - energy[-1]) / spent.max())

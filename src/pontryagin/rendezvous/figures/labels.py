@@ -1,10 +1,11 @@
-"""Units, words and colours that the figures of this paper share."""
+"""Units and colours that the figures of this paper share."""
 
 from dataclasses import dataclass
 
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
+    GREY,
     INK,
     ORANGE,
     PURPLE,
@@ -18,14 +19,14 @@ from pontryagin.rendezvous.problem.cases import (
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 COMPONENTS = (BLUE, GREEN, ORANGE)
-CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, "#888888", RED, INK, PURPLE
-PHANTOM = ORANGE
-"""Where the target would be if a false meeting were true."""
+CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, GREY, RED, INK, PURPLE
+ROTATED = ORANGE
+"""Colour of the target rotated about nu*, which a false meeting reaches."""
 
 
 @dataclass(frozen=True)
 class Units:
-    """What the numbers of a problem are divided by for a picture, and what is then written at an axis."""
+    """The units in which a figure shows a problem's numbers, and their names for the axes; "" for none."""
 
     length: float
     time: float
@@ -35,13 +36,13 @@ class Units:
     acceleration_name: str
 
     def axis(self, symbol: str, quantity: str) -> str:
-        """A symbol with its unit, where it has one."""
+        """A symbol for an axis, with its unit if it has one."""
         name = getattr(self, f"{quantity}_name")
         return f"{symbol} [{name}]" if name else symbol
 
 
 def units(problem: Rendezvous) -> Units:
-    """Of a problem in km and s that of its trade, of any other none."""
+    """Astronomical units and days, or megametres and hours, for a problem in km and s; none for others."""
     if problem.gravity == 1:
         return Units(1.0, 1.0, 1.0, "", "", "")
     if problem.gravity == SUN:
@@ -50,7 +51,7 @@ def units(problem: Rendezvous) -> Units:
 
 
 def power(value: float) -> str:
-    r"""A small number for a picture, to one digit.
+    r"""A small number with one digit, as a power of ten in TeX.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A rendezvous in space: both orbits, the way flown, the thrust as arrows."""
+"""A rendezvous in space: both orbits, the path of the craft, the thrust as arrows."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,7 +11,7 @@ from pontryagin.display.plotting import (
     styled,
 )
 from pontryagin.rendezvous.figures.labels import CRAFT, START, TARGET, THRUST, units
-from pontryagin.rendezvous.figures.paths import first_orbit, flown, target_orbit
+from pontryagin.rendezvous.figures.paths import flight_path, initial_orbit, target_orbit
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 VIEW = {"elev": 28, "azim": -60}
@@ -19,7 +19,7 @@ VIEW = {"elev": 28, "azim": -60}
 
 @styled
 def orbit(extremal: Extremal) -> Figure:
-    """The way of the craft in inertial axes with its thrust, and the orbits that it leaves and reaches."""
+    """The path of the craft in inertial axes with its thrust, and the orbits that it leaves and reaches."""
     figure = Figure(figsize=(WIDTH, 5.0), layout="constrained")
     ax = figure.add_subplot(projection="3d")
     draw(ax, extremal, arrows=28)
@@ -34,12 +34,12 @@ def orbit(extremal: Extremal) -> Figure:
 
 
 def draw(ax: Axes3D, extremal: Extremal, arrows: int, width: float = 1.6) -> None:
-    """The picture, lengths in the units of `labels.units`."""
+    """Draw the orbits, the path and some thrust arrows, lengths in the units of `labels.units`."""
     problem, length = extremal.problem, units(extremal.problem).length
-    _, places, thrust = flown(problem, extremal.flight)
+    _, places, thrust = flight_path(problem, extremal.flight)
     places = places / length
     ax.plot(
-        *(first_orbit(problem) / length).T,
+        *(initial_orbit(problem) / length).T,
         "--",
         color=START,
         linewidth=0.9,
@@ -47,11 +47,11 @@ def draw(ax: Axes3D, extremal: Extremal, arrows: int, width: float = 1.6) -> Non
     )
     ax.plot(*(target_orbit(problem) / length).T, color=TARGET, linewidth=1.1, label="orbit of the target")
     ax.plot(*places.T, color=CRAFT, linewidth=width, label="the way of the craft")
-    some = np.linspace(0, len(places) - 1, arrows).astype(int)
+    samples = np.linspace(0, len(places) - 1, arrows).astype(int)
     size = 0.45 * np.abs(places).max() / np.linalg.norm(thrust, axis=1).max()
     ax.quiver(
-        *places[some].T,
-        *(size * thrust[some]).T,
+        *places[samples].T,
+        *(size * thrust[samples]).T,
         color=THRUST,
         linewidth=0.8,
         arrow_length_ratio=0.25,
@@ -60,11 +60,11 @@ def draw(ax: Axes3D, extremal: Extremal, arrows: int, width: float = 1.6) -> Non
     ax.plot(*places[:1].T, "o", color=INK, markersize=4, label="start")
     ax.plot(*places[-1:].T, "*", color=INK, markersize=9, label="meeting")
     ax.plot([0], [0], [0], "+", color=INK, markersize=6)
-    equal(ax, np.vstack([places, target_orbit(problem) / length, first_orbit(problem) / length]))
+    equal(ax, np.vstack([places, target_orbit(problem) / length, initial_orbit(problem) / length]))
 
 
 def equal(ax: Axes3D, points: Array) -> None:
-    """The same scale along all axes; what lies in a plane gets a little room out of it."""
+    """Set the same scale along all axes, with some room normal to points in a plane."""
     low, high = points.min(axis=0), points.max(axis=0)
     reach = np.maximum(high - low, 0.25 * (high - low).max())
     middle = (low + high) / 2

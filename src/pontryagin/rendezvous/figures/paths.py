@@ -1,4 +1,4 @@
-"""Where the craft and the target are, in inertial axes and the user's units."""
+"""Paths and orbits of craft and target, in inertial axes and the user's units."""
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 EX = np.array([1.0, 0.0, 0.0])
 
 
-def flown(problem: Rendezvous, flight: Flight, count: int = 400) -> tuple[Array, Array, Array]:
-    """Times (k,), positions (k, 3) and thrust (k, 3)."""
+def flight_path(problem: Rendezvous, flight: Flight, count: int = 400) -> tuple[Array, Array, Array]:
+    """Times (k,), positions (k, 3) and thrust (k, 3) of the craft."""
     scaled = problem.scaled
     times = np.linspace(0.0, flight.duration, count)
     states = flight.sample(times)
@@ -23,7 +23,7 @@ def flown(problem: Rendezvous, flight: Flight, count: int = 400) -> tuple[Array,
 
 
 def target_at(problem: Rendezvous, time: float) -> Array:
-    """The target's position (3,) at a time, by Kepler's equation."""
+    """The target's position at a time, (3,), by Kepler's equation."""
     scaled = problem.scaled
     place = target_by_kepler(scaled, time / scaled.time)[:3] * scaled.length
     return rotated(place, np.asarray(problem.chaser.attitude))
@@ -38,13 +38,13 @@ def target_orbit(problem: Rendezvous) -> Array:
     return r[:, None] * rotated(np.broadcast_to(EX, (len(angles), 3)), attitude)
 
 
-def turned_orbit(problem: Rendezvous, turn: Array) -> Array:
-    """The target's ellipse turned by a quaternion of inertial axes, (k, 3)."""
+def rotated_orbit(problem: Rendezvous, turn: Array) -> Array:
+    """The target's ellipse rotated by a quaternion in inertial axes, (k, 3)."""
     return rotated(target_orbit(problem), turn)
 
 
-def first_orbit(problem: Rendezvous) -> Array:
-    """The ellipse that the craft leaves, (k, 3)."""
+def initial_orbit(problem: Rendezvous) -> Array:
+    """The ellipse on which the craft starts, (k, 3)."""
     craft = problem.chaser
     parameter = craft.c**2 / problem.gravity
     along, across = parameter / craft.r - 1, craft.v1 * craft.c / problem.gravity

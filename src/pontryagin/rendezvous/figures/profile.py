@@ -1,4 +1,4 @@
-"""One extremal at a glance: its way from above and from the side, thrust, |n| and H against time."""
+"""One extremal on a page: its path from above and from the side, thrust, |n| and H against time."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
+    GREY,
     INK,
     ORANGE,
     PURPLE,
@@ -14,26 +15,25 @@ from pontryagin.display.plotting import (
     styled,
     subplots,
 )
-from pontryagin.rendezvous.playback.motion import (
-    Passage,
-    passage,
-)
+from pontryagin.rendezvous.playback.motion import RendezvousMotion, motion_of
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 POINTS = 241
+"""Number of points by which an orbit is drawn."""
 ARROWS = 24
-"""Thrust arrows along the way."""
+"""Number of thrust arrows along the path."""
 FLOOR = 1e-17
-GREY = "#999999"
+"""Value at which a smaller |H| is drawn."""
 
 
 @styled
 def profile(extremal: Extremal) -> Figure:
-    """The way in the target's axes, and thrust, |n| and H against time.
+    """The path in the target's axes, and thrust, |n| and H against time.
 
     Parameters
     ----------
     extremal : Extremal
+        The solution to draw.
 
     Examples
     --------
@@ -44,48 +44,48 @@ def profile(extremal: Extremal) -> Figure:
     >>> profile(solve(problem)).get_label()
     'profile'
     """
-    flown = passage(extremal)
+    motion = motion_of(extremal)
     figure, axes = subplots(3, 2, height=7.2, height_ratios=[1.7, 1, 1])
-    _way(axes[0, 0], flown, (0, 1))
-    _way(axes[0, 1], flown, (0, 2))
+    _path(axes[0, 0], motion, (0, 1))
+    _path(axes[0, 1], motion, (0, 2))
     axes[0, 0].legend(loc="upper left", bbox_to_anchor=(0.0, 1.2), ncols=3, columnspacing=1.0)
-    _thrust(axes[1, 0], axes[1, 1], flown)
-    _switching(axes[2, 0], flown)
-    _hamiltonian(axes[2, 1], flown)
+    _thrust(axes[1, 0], axes[1, 1], motion)
+    _switching(axes[2, 0], motion)
+    _hamiltonian(axes[2, 1], motion)
     for ax in axes[2]:
         ax.set_xlabel("time $t$")
     return figure
 
 
-def _way(ax: Axes, flown: Passage, shown: tuple[int, int]) -> None:
-    """The way and both orbits on two of the target's axes, in units of p*."""
+def _path(ax: Axes, motion: RendezvousMotion, shown: tuple[int, int]) -> None:
+    """The path and both orbits on two of the target's axes, in units of p*."""
     where = list(shown)
-    target = flown.on_orbit(np.linspace(0.0, 2 * np.pi, POINTS))
-    start = flown.osculating(POINTS, slice(1))[0]
-    place = flown.place[: flown.meeting]
+    target = motion.on_orbit(np.linspace(0.0, 2 * np.pi, POINTS))
+    start = motion.osculating(POINTS, slice(1))[0]
+    place = motion.place[: motion.meeting]
     ax.plot(*start[:, where].T, color=GREY, linewidth=1.0, label="orbit at $t_0$")
     ax.plot(*target[:, where].T, color=GREEN, linewidth=1.0, label="target's orbit")
     ax.plot(*place[:, where].T, color=BLUE, label="craft")
-    some = np.unique(np.searchsorted(flown.t, np.linspace(0, flown.t[-1], ARROWS)))
-    arrows = flown.thrust[some] / np.linalg.norm(flown.thrust, axis=1).max()
-    ax.quiver(*place[some][:, where].T, *arrows[:, where].T, color=RED, width=0.006, scale=9, zorder=3)
+    samples = np.unique(np.searchsorted(motion.t, np.linspace(0, motion.t[-1], ARROWS)))
+    arrows = motion.thrust[samples] / np.linalg.norm(motion.thrust, axis=1).max()
+    ax.quiver(*place[samples][:, where].T, *arrows[:, where].T, color=RED, width=0.006, scale=9, zorder=3)
     ax.plot(*place[0, where], "o", color=GREY)
-    ax.plot(*flown.target[0, where], "o", color=GREEN, fillstyle="none")
-    ax.plot(*flown.target[flown.meeting - 1, where], "o", color=GREEN)
+    ax.plot(*motion.target[0, where], "o", color=GREEN, fillstyle="none")
+    ax.plot(*motion.target[motion.meeting - 1, where], "o", color=GREEN)
     ax.plot(0, 0, "o", color=INK, markersize=3.5)
     names = ("x", "y", "z")
     ax.set(xlabel=f"${names[shown[0]]}/p^*$", ylabel=f"${names[shown[1]]}/p^*$")
     ax.set_aspect("equal", adjustable="datalim")
 
 
-def _thrust(components: Axes, magnitude: Axes, flown: Passage) -> None:
-    for i, (values, colour) in enumerate(zip(flown.control.T, (BLUE, ORANGE, PURPLE), strict=True), start=1):
-        components.plot(flown.t, values, color=colour, label=f"$p_{i}$")
+def _thrust(components: Axes, magnitude: Axes, motion: RendezvousMotion) -> None:
+    for i, (values, colour) in enumerate(zip(motion.control.T, (BLUE, ORANGE, PURPLE), strict=True), start=1):
+        components.plot(motion.t, values, color=colour, label=f"$p_{i}$")
     components.set_ylabel(r"thrust in $\eta$")
     components.margins(y=0.28)
     components.legend(ncols=3, loc="upper center", columnspacing=1.0, handlelength=1.2)
-    magnitude.plot(flown.t, np.linalg.norm(flown.control, axis=1), color=RED, label="$|p|$")
-    peak = flown.extremal.problem.peak
+    magnitude.plot(motion.t, np.linalg.norm(motion.control, axis=1), color=RED, label="$|p|$")
+    peak = motion.extremal.problem.peak
     if np.isfinite(peak):
         magnitude.axhline(peak, color=INK, linewidth=0.9, linestyle="--", label=r"$p_{\max}$")
         magnitude.legend(loc="best")
@@ -93,18 +93,18 @@ def _thrust(components: Axes, magnitude: Axes, flown: Passage) -> None:
     magnitude.set_ylim(bottom=0.0)
 
 
-def _switching(ax: Axes, flown: Passage) -> None:
-    ax.plot(flown.t, flown.primer, color=BLUE, label="$|n|$")
-    if flown.saturation is not None:
+def _switching(ax: Axes, motion: RendezvousMotion) -> None:
+    ax.plot(motion.t, motion.primer, color=BLUE, label="$|n|$")
+    if motion.saturation is not None:
         label = r"$2\alpha_2 p_{\max}$"
-        ax.axhline(flown.saturation, color=INK, linewidth=0.9, linestyle="--", label=label)
+        ax.axhline(motion.saturation, color=INK, linewidth=0.9, linestyle="--", label=label)
         ax.legend(loc="best")
     ax.set_ylabel("switching function $|n|$")
     ax.set_ylim(bottom=0.0)
 
 
-def _hamiltonian(ax: Axes, flown: Passage) -> None:
-    ax.semilogy(flown.t, np.maximum(np.abs(flown.hamiltonian), FLOOR), color=BLUE, linewidth=0.9)
-    told = "|H|" if flown.extremal.problem.free else "|H-H(t_k)|"
-    ax.set_ylabel(f"${told}$ over cost rate")
+def _hamiltonian(ax: Axes, motion: RendezvousMotion) -> None:
+    ax.semilogy(motion.t, np.maximum(np.abs(motion.hamiltonian), FLOOR), color=BLUE, linewidth=0.9)
+    energy = "|H|" if motion.extremal.problem.free else "|H-H(t_k)|"
+    ax.set_ylabel(f"${energy}$ over cost rate")
     ax.set_ylim(FLOOR, 1.0)

@@ -1,4 +1,4 @@
-"""All extremals found of a problem without bound: where the cost over the duration is stationary."""
+"""The extremals of a problem without a bound, where the cost as a function of the duration is stationary."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -9,42 +9,44 @@ from matplotlib.figure import Figure
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
+    INK,
     styled,
     subplots,
 )
-from pontryagin.rendezvous.figures.labels import CRAFT, INK, OTHER
-from pontryagin.rendezvous.reduced.homotopy import follow
+from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.continuation import follow
+from pontryagin.rendezvous.figures.labels import CRAFT, OTHER
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.shooting import (
-    Equations,
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.reduced.shooting import family
 from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.root import scales
 
-MARGIN, DEAR = 1.25, 1.6
-"""Curves go so far beyond the shortest and the longest extremal, and to this many best costs."""
+MARGIN = 1.25
+"""Factor by which curves are continued beyond the shortest and the longest duration of an extremal."""
+DEAREST = 1.6
+"""Cost up to which curves are drawn, in units of the best cost."""
 
 
 @styled
 def revolutions(found: Mapping[str, Extremal]) -> Figure:
-    """Cost of the fixed-time extremals over t_k on every branch; the extremals of free time as dots."""
+    """Cost over t_k of the fixed-time extremals on every branch, and the free-time extremals as dots."""
     figure, axes = subplots(1, len(found), height=3.6, squeeze=False)
     for ax, (name, best) in zip(axes[0], found.items(), strict=True):
-        _one(ax, best)
+        _draw_branches(ax, best)
         ax.set_title(name, loc="left")
         ax.set_xlabel("duration $t_k$")
     axes[0, 0].set_ylabel("cost $J$")
     return figure
 
 
-def _one(ax: Axes, best: Extremal) -> None:
+def _draw_branches(ax: Axes, best: Extremal) -> None:
     several = [best, *best.others]
     shortest, longest = (pick(one.duration for one in several) for pick in (min, max))
     limits = shortest / MARGIN, longest * MARGIN
     for extremal in several:
         for sign in (1, -1):
-            ax.plot(*branch(extremal, sign, limits, DEAR * best.cost).T, color=CRAFT, linewidth=1.1)
+            ax.plot(*branch(extremal, sign, limits, DEAREST * best.cost).T, color=CRAFT, linewidth=1.1)
     for extremal in several:
         ax.plot(extremal.duration, extremal.cost, "o", color=INK if extremal is best else OTHER, zorder=4)
         ax.annotate(
@@ -55,24 +57,26 @@ def _one(ax: Axes, best: Extremal) -> None:
             ha="center",
             fontsize=9.5,
         )
-    ax.set_ylim(0.93 * best.cost, DEAR * best.cost)
+    ax.set_ylim(0.93 * best.cost, DEAREST * best.cost)
 
 
 def branch(extremal: Extremal, sign: int, limits: tuple[float, float], dearest: float) -> Array:
-    """t_k and J (k, 2) of the fixed-time extremals on the branch through one, towards longer or shorter.
+    """t_k and J, (k, 2), of the fixed-time extremals on the branch through one, in one direction of t_k.
 
     Raises
     ------
     ValueError
-        If the thrust is bounded: the branch would have to cross switches.
+        If the thrust is bounded, since the branch might cross switches.
     """
     problem = extremal.problem
     scaled = problem.scaled
     if problem.peak < math.inf:
-        raise ValueError(f"extremal must be of a problem without a bound, got a peak of {problem.peak:g}")
+        raise ArgumentValueError(
+            f"extremal must be of a problem without a bound, got a peak of {problem.peak:g}", "extremal"
+        )
     points = []
-    for duration, unknowns_cost in _points(extremal, sign):
-        time, cost = duration * scaled.time, unknowns_cost * scaled.value
+    for duration, scaled_cost in _points(extremal, sign):
+        time, cost = duration * scaled.time, scaled_cost * scaled.value
         points.append((time, cost))
         if not limits[0] <= time <= limits[1] or cost > dearest:
             break
@@ -80,15 +84,22 @@ def branch(extremal: Extremal, sign: int, limits: tuple[float, float], dearest: 
 
 
 def _points(extremal: Extremal, sign: int) -> Iterator[tuple[float, float]]:
+    """Duration and cost along the branch, in the solver's units."""
     scaled = extremal.problem.scaled
     setting = Setting(scaled, scaled.ratio, math.inf)
-
-    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        duration = math.exp(parameter)
-        whole = equations(setting, np.append(unknowns, duration))
-        return whole, whole.jacobian[:6, 6] * duration
-
     start = math.log(extremal.flight.duration)
-    for point in follow(family, extremal.root.unknowns[:6], start, start + sign, 0.03, 120, 0.05, rows=6):
+    unknowns = extremal.root.unknowns[:6]
+    points = follow(
+        family(setting, "duration"),
+        unknowns,
+        start,
+        sign,
+        scales=scales,
+        step=0.03,
+        largest=0.05,
+        steps=120,
+        rows=6,
+    )
+    for point in points:
         flight = point.equations.flight
         yield flight.duration, scaled.ratio * flight.duration + energy(flight)

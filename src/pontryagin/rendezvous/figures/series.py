@@ -1,4 +1,4 @@
-"""The standard plots of a rendezvous over time: thrust, switching function, H, costates."""
+"""The time series of a rendezvous: thrust, switching function, H, costates."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,14 +21,15 @@ from pontryagin.rendezvous.reduced.flight import switching
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 COUNT = 601
+"""Number of times at which a series is drawn."""
 
 
 @styled
 def series(extremal: Extremal) -> Figure:
-    """Thrust by components and by size, |n|, the drift of H, and the costates of a rendezvous.
+    """Components and magnitude of the thrust, |n|, the drift of H, and the costates of a rendezvous.
 
-    |n| and the costates are in the solver's units, p* = c* = fM = 1 and alpha2 = 1, or alpha1 = 1 where the
-    time is least; H is over the largest running cost. The time on the bound is shaded.
+    |n| and the costates are in the solver's units, p* = c* = fM = 1 and alpha2 = 1, or alpha1 = 1 for
+    the least time; H is over the largest running cost. Arcs on the bound are shaded.
     """
     figure, axes = subplots(3, 2, height=6.3, sharex=True)
     own = units(extremal.problem)
@@ -52,12 +53,12 @@ def series(extremal: Extremal) -> Figure:
 
 
 def drift(extremal: Extremal, times: Array, states: Array) -> Array:
-    """H less its value at t_k, 0 at a free time, over the largest running cost."""
+    """H over the largest running cost; at a prescribed time less its value at t_k."""
     flight, weights = extremal.flight, extremal.problem.scaled.weights
     thrust = flown_thrust(flight, times, states)
     largest = np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1))
     energy = hamiltonian(states, thrust, anomaly_constant(flight), weights)
-    return (energy - (0.0 if extremal.problem.free else energy[-1])) / largest
+    return np.asarray((energy - (0.0 if extremal.problem.free else energy[-1])) / largest)
 
 
 def _thrust(extremal: Extremal, states: Array, times: Array) -> Array:
@@ -115,7 +116,7 @@ def _costates(ax: Axes, times: Array, values: Array, names: tuple[str, str, str]
 
 
 def _shade(ax: Axes, extremal: Extremal, unit: float) -> None:
-    """Arcs on the bound, where there are others too."""
+    """Shade the arcs on the bound if there are others too."""
     edges = np.concatenate([[0.0], extremal.switch_times, [extremal.duration]]) / unit
     if len(set(extremal.modes)) > 1:
         for mode, begin, end in zip(extremal.modes, edges[:-1], edges[1:], strict=True):

@@ -1,4 +1,4 @@
-"""The cases of the report, each solved once."""
+"""The solutions of the cases of the report, each computed once."""
 
 import functools
 
@@ -6,15 +6,13 @@ from pontryagin.rendezvous.problem.cases import (
     case,
     cases,
 )
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    solve,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.solve import solve
 
 
 @functools.cache
 def solved(name: str) -> Extremal:
-    """The best extremal of a case, with the others found; kept for the next figure.
+    """The best extremal of a case, with the others found.
 
     Raises
     ------
@@ -25,5 +23,5 @@ def solved(name: str) -> Extremal:
 
 
 def all_solved() -> dict[str, Extremal]:
-    """All cases, by name."""
+    """The best extremals of all cases, by name."""
     return {name: solved(name) for name in cases()}

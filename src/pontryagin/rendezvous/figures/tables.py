@@ -10,7 +10,7 @@ from pontryagin.rendezvous.false_meetings.family import FalseFamily
 from pontryagin.rendezvous.figures.labels import Units, units
 from pontryagin.rendezvous.judge.table import (
     MESHES,
-    verdicts,
+    direct_results,
 )
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.solution import Extremal
@@ -19,14 +19,14 @@ Columns = dict[str, list[Any]]
 
 
 def titles() -> Columns:
-    """What each case is."""
+    """Names and titles of the cases."""
     known = cases()
     return {"case": list(known), "": [one.title for one in known.values()]}
 
 
 def solutions(found: Mapping[str, Extremal]) -> Columns:
-    """Duration, cost, direct cost on the finer mesh, meeting and arcs of every case."""
-    several, kept = list(found.values()), verdicts()
+    """Duration, cost, direct cost on the finer mesh, arrival anomaly and arcs of every case."""
+    several, kept = list(found.values()), direct_results()
     return {
         "case": list(found),
         "$t_k$": [_time(one.duration, units(one.problem)) for one in several],
@@ -64,13 +64,13 @@ def _time(duration: float, own: Units) -> str:
 
 
 def _arcs(extremal: Extremal) -> str:
-    """S for an arc on the bound, U for one within it."""
+    """One letter for each arc: S on the bound, U within it."""
     return "".join(mode[0].upper() for mode in extremal.modes)
 
 
 def judge(found: Mapping[str, Extremal]) -> Columns:
-    """Direct costs at two meshes, and how far they are from the nearest of our extremals."""
-    kept = verdicts()
+    """Direct costs at two meshes, and their relative differences from the nearest of our extremals."""
+    kept = direct_results()
     rows = [(name, one, kept[name]) for name, one in found.items()]
     columns: Columns = {
         "case": [name for name, _, _ in rows],
@@ -88,17 +88,17 @@ def judge(found: Mapping[str, Extremal]) -> Columns:
 
 
 def nearest(extremal: Extremal, cost: float) -> Extremal:
-    """The one of the extremals found whose cost is nearest to a direct one."""
+    """The extremal found whose cost is nearest to that of the direct method."""
     return min([extremal, *extremal.others], key=lambda one: abs(one.cost - cost))
 
 
 def excess(extremal: Extremal, cost: float) -> float:
-    """A direct cost over that of the extremal it belongs to, less 1."""
+    """A direct cost over that of the nearest extremal, less 1."""
     return cost / nearest(extremal, cost).cost - 1
 
 
 def others(found: Mapping[str, Extremal]) -> Columns:
-    """All extremals found of every case that has several, best first."""
+    """All extremals of every case for which several were found, best first."""
     rows = [
         (name, one, own)
         for name, best in found.items()
@@ -116,7 +116,7 @@ def others(found: Mapping[str, Extremal]) -> Columns:
 
 
 def small_weights() -> Columns:
-    """The case `mixed` at falling weights of time."""
+    """The case `mixed` at decreasing weights of time."""
     kept = small_weight.rows()
     return {
         "$\\alpha_1$": [f"$10^{{{np.log10(one.time_weight):.0f}}}$" for one in kept],
@@ -129,7 +129,7 @@ def small_weights() -> Columns:
 
 
 def family(*families: FalseFamily) -> Columns:
-    """Members of families of false meetings: what is left of each condition, and the place missed."""
+    """Members of families of false meetings: residuals of the conditions, and the distance missed."""
     members = [member for one in families for member in one.members]
     return {
         "turned by [°]": [f"{np.degrees(member.angle):.0f}" for member in members],

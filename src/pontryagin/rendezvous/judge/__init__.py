@@ -1,1 +1,1 @@
-"""The rendezvous solved by a direct method, as an independent check."""
+"""The cases of the report solved by a direct method, as an independent check."""

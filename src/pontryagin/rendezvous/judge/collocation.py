@@ -1,13 +1,14 @@
-"""The judge: the same rendezvous as a nonlinear programme, by collocation with CasADi and Ipopt.
+"""A rendezvous as a nonlinear programme, by collocation with CasADi and Ipopt.
 
-It knows nothing of costates or of the axes eta: Newton's law in inertial axes, Radau collocation of the
-third degree on equal intervals, thrust free at every collocation point, and the target by Kepler's equation.
-It starts cold, from a path that turns evenly and no thrust. Its cost comes near the true one from either
-side as the mesh is refined; two meshes tell how near. CasADi is an extra: ``pip install casadi``.
+Neither costates nor the axes eta are used: Newton's law in inertial axes, Radau collocation of the third
+degree on equal intervals, the thrust free at every collocation point, and the target by Kepler's equation.
+The start is cold: a path of evenly changing angle, and no thrust. As the mesh is refined, the cost approaches
+the true one from either side; two meshes show how closely. CasADi is an extra: ``pip install casadi``.
 """
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -23,22 +24,23 @@ from pontryagin.rendezvous.witness.cartesian import (
 )
 
 DEGREE = 3
+"""Degree of the collocation polynomials."""
 
 
 @dataclass(frozen=True)
 class Direct:
-    """What the nonlinear programme found.
+    """A solution of the nonlinear programme.
 
     Attributes
     ----------
     duration, cost : float
-        In the user's units.
+        t_k and J in the user's units.
     intervals : int
-        Of the mesh.
+        Number of intervals of the mesh.
     iterations : int
-        Of Ipopt.
+        Number of Ipopt's iterations.
     violation : float
-        Largest violation of its constraints.
+        Largest violation of the constraints, in the solver's units.
     """
 
     duration: float
@@ -56,22 +58,23 @@ def direct(
     Parameters
     ----------
     problem : Rendezvous
-        What is to be solved.
+        The problem.
     guess : float
-        A duration to start from, in the user's unit of time; taken as it is where the duration is fixed.
+        A duration to start from, in the user's unit of time; not used where the duration is prescribed.
     revolutions : float
-        About how many revolutions the craft is to make; the nearest number that ends at the target is taken.
+        Approximate number of revolutions of the initial path; the nearest one that ends at the target is
+        used.
     intervals : int
-        Size of the mesh.
+        Number of intervals of the mesh.
     fuel : bool
         Whether alpha2 is the weight of |p| in place of p^2.
 
     Raises
     ------
     ModuleNotFoundError
-        Without CasADi.
+        If CasADi is not installed.
     NotConverged
-        If Ipopt does not.
+        If Ipopt does not converge.
     """
     import casadi as ca
 
@@ -121,10 +124,10 @@ def direct(
     opti.set_initial(thrust, controls.T)
     opti.set_initial(eccentric, _mean(scaled) + _motion(scaled) * start)
     opti.minimize(cost)
-    quiet: dict = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 2000}
-    if fuel:  # by default bounds are loosened by 1e-8: thrust of 1e-4 for nothing, wherever the craft coasts
-        quiet["bound_relax_factor"] = 0.0
-    opti.solver("ipopt", {"print_time": False, "detect_simple_bounds": True}, quiet)
+    options: dict[str, Any] = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 2000}
+    if fuel:  # Ipopt relaxes bounds by 1e-8, which allows a thrust of 1e-4 at no cost on coasting arcs.
+        options["bound_relax_factor"] = 0.0
+    opti.solver("ipopt", {"print_time": False, "detect_simple_bounds": True}, options)
     try:
         answer = opti.solve()
     except RuntimeError:
@@ -141,24 +144,25 @@ def direct(
     )
 
 
-def _rates(ca):
-    """R' = V, V' = -R/r^3 + p."""
+def _rates(ca: Any) -> Any:
+    """R' = V, V' = -R/r^3 + p, as a CasADi function."""
     x, p = ca.SX.sym("x", 6), ca.SX.sym("p", 3)
     return ca.Function("rates", [x, p], [ca.vertcat(x[3:], p - x[:3] / ca.norm_2(x[:3]) ** 3)])
 
 
 def _motion(scaled: Scaled) -> float:
-    return (1 - scaled.eccentricity**2) ** 1.5
+    """Mean motion of the target."""
+    return float((1 - scaled.eccentricity**2) ** 1.5)
 
 
 def _mean(scaled: Scaled) -> float:
-    """Mean anomaly at t0."""
+    """Mean anomaly of the target at t0."""
     e, half = scaled.eccentricity, scaled.anomaly / 2
     begin = 2 * math.atan2(math.sqrt(1 - e) * math.sin(half), math.sqrt(1 + e) * math.cos(half))
     return begin - e * math.sin(begin)
 
 
-def _target(ca, scaled: Scaled, eccentric):
+def _target(ca: Any, scaled: Scaled, eccentric: Any) -> Any:
     """R and V of the target at an eccentric anomaly."""
     e = scaled.eccentricity
     axis = 1 / (1 - e**2)
@@ -170,7 +174,7 @@ def _target(ca, scaled: Scaled, eccentric):
 
 
 def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) -> tuple[Array, Array, Array]:
-    """A path that turns and tilts evenly to the target: at nodes, at the points inside, and no thrust."""
+    """A path of evenly changing angle and inclination to the target, at nodes and inner points; no thrust."""
     goal = target_by_kepler(scaled, duration)
     place, velocity = goal[:3], goal[3:]
     normal = np.cross(place, velocity)
@@ -182,17 +186,17 @@ def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) 
     relative = np.array([w, x, y, z])
     angle = twist(relative)
     tilt = product(relative, conjugate(about_third(angle)))
-    turned = angle + 2 * math.pi * round(revolutions - angle / (2 * math.pi))
+    sweep = angle + 2 * math.pi * round(revolutions - angle / (2 * math.pi))
     size = float(np.linalg.norm(tilt[1:]))
     half = math.atan2(size, abs(tilt[0]))
     axis = np.sign(tilt[0] or 1) * tilt[1:] / (size or 1.0)
 
     def states(share: Array) -> Array:
         attitude = np.column_stack([np.cos(share * half), np.sin(share * half)[:, None] * axis])
-        attitude = product(attitude, about_third(share * turned))
+        attitude = product(attitude, about_third(share * sweep))
         r = scaled.start[0] + share * (np.linalg.norm(place) - scaled.start[0])
         still = np.zeros_like(r)
-        return cartesian_of(np.column_stack([r, still, r**2 * turned / duration]), attitude)
+        return cartesian_of(np.column_stack([r, still, r**2 * sweep / duration]), attitude)
 
     import casadi as ca
 

@@ -1,8 +1,8 @@
-"""``python -m pontryagin.rendezvous.judge.table``: what the direct method finds in the report's cases.
+"""``python -m pontryagin.rendezvous.judge``: the results of the direct method in the cases of the report.
 
-Its costs at two meshes are kept in ``judge.csv``, so that the report needs no CasADi; a row carries the
-checksum of the problem that it was found for. The cases of least fuel come last. The judge is told nothing of
-our solutions.
+The costs at two meshes are kept in ``judge.csv``, so that the report needs no CasADi; each row holds a
+checksum of its problem. The cases of least fuel come last. Nothing of the indirect solutions enters the
+direct method.
 """
 
 import csv
@@ -11,6 +11,7 @@ import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -26,23 +27,23 @@ from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 FILE = Path(__file__).with_name("judge.csv")
 MESHES = (40, 96)
-"""Intervals of the coarse mesh and of the fine one."""
+"""Numbers of intervals of the coarse mesh and of the fine one."""
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """What the direct method found in a case.
+class DirectResult:
+    """The solutions of a case by the direct method.
 
     Attributes
     ----------
     checksum : int
-        Of the problem.
+        The problem's checksum.
     costs, durations : tuple of float
-        At the two meshes, in the case's units.
+        J and t_k at the two meshes, in the case's units.
     iterations : tuple of int
-        Of Ipopt.
+        Ipopt's iterations at the two meshes.
     violation : float
-        Largest violation of its constraints, in the solver's units.
+        Largest violation of the constraints, in the solver's units.
     """
 
     checksum: int
@@ -52,13 +53,13 @@ class Verdict:
     violation: float
 
 
-def judged_cases() -> dict[str, Case]:
-    """All cases that the judge is asked about, by name: those of the report, and those of least fuel."""
+def all_cases() -> dict[str, Case]:
+    """The cases of the report and those of least fuel, by name."""
     return {**cases(), **fuel_cases()}
 
 
 def checksum(problem: Rendezvous, fuel: bool = False) -> int:
-    """A number that changes with every number of the problem, and with what alpha2 is the weight of.
+    """A number that changes with every number of the problem, and with the functional.
 
     Examples
     --------
@@ -75,13 +76,13 @@ def checksum(problem: Rendezvous, fuel: bool = False) -> int:
     return zlib.crc32(f"{text} fuel".encode() if fuel else text.encode())
 
 
-def judged(case: Case) -> Verdict:
-    """Solve a case directly at both meshes, each from the cold start of the case.
+def solve_directly(case: Case) -> DirectResult:
+    """Solve a case by the direct method at both meshes, each from the cold start of the case.
 
     Raises
     ------
     ModuleNotFoundError
-        Without CasADi.
+        If CasADi is not installed.
     NotConverged
         If Ipopt does not converge.
     """
@@ -89,7 +90,7 @@ def judged(case: Case) -> Verdict:
 
     fuel = isinstance(case, FuelCase)
     coarse, fine = (direct(case.problem, case.guess, case.revolutions, mesh, fuel) for mesh in MESHES)
-    return Verdict(
+    return DirectResult(
         checksum(case.problem, fuel),
         (coarse.cost, fine.cost),
         (coarse.duration, fine.duration),
@@ -98,21 +99,21 @@ def judged(case: Case) -> Verdict:
     )
 
 
-def verdicts() -> dict[str, Verdict]:
-    """What ``judge.csv`` contains, by the names of the cases.
+def direct_results() -> dict[str, DirectResult]:
+    """The contents of ``judge.csv``, by the names of the cases.
 
     Examples
     --------
-    >>> list(verdicts()) == list(judged_cases())
+    >>> list(direct_results()) == list(all_cases())
     True
     """
     with FILE.open(newline="") as file:
-        return {row["case"]: _verdict(row) for row in csv.DictReader(file)}
+        return {row["case"]: _result(row) for row in csv.DictReader(file)}
 
 
-def _verdict(row: dict[str, str]) -> Verdict:
+def _result(row: dict[str, str]) -> DirectResult:
     low, high = MESHES
-    return Verdict(
+    return DirectResult(
         int(row["checksum"]),
         (float(row[f"cost {low}"]), float(row[f"cost {high}"])),
         (float(row[f"duration {low}"]), float(row[f"duration {high}"])),
@@ -121,9 +122,12 @@ def _verdict(row: dict[str, str]) -> Verdict:
     )
 
 
-def write(found: dict[str, Verdict]) -> None:
-    """Keep verdicts in ``judge.csv``, costs and durations with fifteen digits."""
-    columns: dict[str, list] = {"case": list(found), "checksum": [one.checksum for one in found.values()]}
+def write(found: dict[str, DirectResult]) -> None:
+    """Write results to ``judge.csv``, costs and durations with fifteen digits."""
+    columns: dict[str, list[Any]] = {
+        "case": list(found),
+        "checksum": [one.checksum for one in found.values()],
+    }
     for j, mesh in enumerate(MESHES):
         columns[f"cost {mesh}"] = [f"{one.costs[j]:.15g}" for one in found.values()]
         columns[f"duration {mesh}"] = [f"{one.durations[j]:.15g}" for one in found.values()]
@@ -133,18 +137,14 @@ def write(found: dict[str, Verdict]) -> None:
 
 
 def main(names: Iterable[str] = ()) -> None:
-    """Judge the cases named, or all; the others' rows are kept."""
-    known = judged_cases()
+    """Solve the named cases, or all; the rows of the others are kept."""
+    known = all_cases()
     chosen = list(names) or list(known)
-    found = verdicts() if names else {}
+    found = direct_results() if names else {}
     for name in chosen:
         try:
-            found[name] = judged(known[name])
+            found[name] = solve_directly(known[name])
         except NotConverged as reason:
             sys.exit(f"{name}: {reason}")
         print(f"   {name}: {found[name].costs[1]:.10g}", flush=True)
         write({name: found[name] for name in known if name in found})
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -1,26 +1,29 @@
 """The cases of the report, by name.
 
-Lengths and times are such that fM = 1 and the craft starts near r = 1, but for the two that are given in the
-units of their trade. Angles are in radians here, in degrees in the names.
+Lengths and times are such that fM = 1 and the craft starts near r = 1, except for two cases in km and s.
+Angles are in radians, but in degrees in the names.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.rotation import about_third, product
 from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.orbit import Orbit
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 
 ONE = (1.0, 0.0, 0.0, 0.0)
+"""The unit quaternion."""
 SUN = 1.32712440018e11
 """fM of the Sun, km^3/s^2."""
 EARTH = 398600.4418
 """fM of the Earth, km^3/s^2."""
 DAY = 86400.0
+"""A day in s."""
 ASTRONOMICAL_UNIT = 1.495978707e8
-"""km."""
+"""The astronomical unit in km."""
 
 
 @dataclass(frozen=True)
@@ -30,13 +33,13 @@ class Case:
     Attributes
     ----------
     name : str
-        By which it is asked for.
+        The key of `cases`.
     title : str
-        What it is.
+        A description.
     problem : Rendezvous
         The problem.
     guess, revolutions : float
-        Roughly how long and how many revolutions, for the judge's cold start.
+        Approximate duration and number of revolutions, for the cold start of the direct method.
     """
 
     name: str
@@ -48,26 +51,26 @@ class Case:
 
 @dataclass(frozen=True)
 class FuelCase(Case):
-    """A rendezvous of least fuel: alpha2 is the weight of |p|.
+    """A case of least fuel, in which alpha2 is the weight of |p|.
 
     Attributes
     ----------
     name, title, problem, guess, revolutions
         As for `Case`.
     more : int
-        Revolutions more than the number nearest to what the craft would make coasting, for `least_fuel`.
+        The argument `revolutions` of `least_fuel`: how many more than the coasting craft would make.
     """
 
     more: int = 0
 
 
 def circle(radius: float = 1.0) -> Chaser:
-    """A craft on a circle, fM = 1."""
+    """A craft on a circular orbit, fM = 1."""
     return Chaser(radius, 0.0, math.sqrt(radius), ONE)
 
 
 def chaser_on(orbit: Orbit, gravity: float = 1.0) -> Chaser:
-    """A craft that is on an orbit at its anomaly."""
+    """A craft that moves on an orbit and is at its anomaly."""
     areal = math.sqrt(gravity * orbit.parameter)
     growth = 1 + orbit.eccentricity * math.cos(orbit.anomaly)
     radial = areal / orbit.parameter * orbit.eccentricity * math.sin(orbit.anomaly)
@@ -196,7 +199,7 @@ MAKERS: tuple[Callable[[], Case], ...] = (
 
 
 def leap() -> Rendezvous:
-    """From a circle to an ellipse inclined by 20 degrees in the fixed time 12, with a peak of 0.15."""
+    """From a circle to an ellipse inclined by 20 degrees in the prescribed time 12, with a peak of 0.15."""
     return Rendezvous(
         circle(), _orbit(1.5, 0.1, 20, 0.6), time_weight=0, energy_weight=1, peak=0.15, duration=12.0
     )
@@ -249,12 +252,12 @@ def fuel_cases() -> dict[str, FuelCase]:
 
 
 def case(name: str) -> Case:
-    """One of them.
+    """The case of a given name.
 
     Raises
     ------
     ValueError
-        If there is none of this name.
+        If there is no case of this name.
 
     Examples
     --------
@@ -263,5 +266,5 @@ def case(name: str) -> Case:
     """
     known = cases()
     if name not in known:
-        raise ValueError(f"name must be one of {', '.join(known)}, got {name!r}")
+        raise ArgumentValueError(f"name must be one of {', '.join(known)}, got {name!r}", "name")
     return known[name]

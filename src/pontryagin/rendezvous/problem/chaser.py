@@ -4,9 +4,11 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from pontryagin.rendezvous.problem.checks import by_value, number, unit_quaternion
+from pontryagin.rendezvous.problem.checks import number, unit_quaternion
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Chaser:
     """The place and the velocity of the craft at t0, (4).
@@ -48,9 +50,3 @@ class Chaser:
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Chaser) and by_value(self) == by_value(other)
-
-    def __hash__(self) -> int:
-        return hash(by_value(self))

@@ -6,10 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.rotation import product
-from pontryagin.rendezvous.problem.checks import by_value, number, unit_quaternion
+from pontryagin.rendezvous.problem.checks import number, unit_quaternion
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Orbit:
     """A target on a Kepler ellipse, (5) and (6), and where it is on it at the start, (4).
@@ -50,17 +53,12 @@ class Orbit:
             "anomaly": number("anomaly", self.anomaly),
         }
         if self.eccentricity >= 1:
-            raise ValueError(
-                f"eccentricity must be less than 1: the target moves on an ellipse, got {self.eccentricity}"
+            raise ArgumentValueError(
+                f"eccentricity must be less than 1: the target moves on an ellipse, got {self.eccentricity}",
+                "eccentricity",
             )
         for name, value in checked.items():
             object.__setattr__(self, name, value)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Orbit) and by_value(self) == by_value(other)
-
-    def __hash__(self) -> int:
-        return hash(by_value(self))
 
     @classmethod
     def from_angles(

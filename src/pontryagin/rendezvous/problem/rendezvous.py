@@ -6,13 +6,16 @@ from functools import cached_property
 
 import numpy as np
 
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.orbit import Orbit
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.value import value_class
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Rendezvous:
     """The problem (1)-(7): reach the target at the least integral of alpha1 + alpha2 p^2, |p| <= p_max.
 
@@ -55,7 +58,8 @@ class Rendezvous:
     def __post_init__(self) -> None:
         for name, kind in (("chaser", Chaser), ("target", Orbit)):
             if not isinstance(getattr(self, name), kind):
-                raise TypeError(f"{name} must be of type {kind.__name__}, got {getattr(self, name)!r}")
+                value = getattr(self, name)
+                raise ArgumentTypeError(f"{name} must be of type {kind.__name__}, got {value!r}", name)
         unbounded = isinstance(self.peak, float | np.floating) and self.peak == math.inf
         checked = {
             "time_weight": number("time_weight", self.time_weight, 0.0),
@@ -73,21 +77,25 @@ class Rendezvous:
     def _check_consistency(self) -> None:
         """Refuse what leaves nothing to minimise, and a craft that does not start on an ellipse."""
         if self.time_weight == 0 and self.energy_weight == 0:
-            raise ValueError("time_weight and energy_weight must not both be 0: nothing would be minimised")
+            raise ArgumentValueError(
+                "time_weight and energy_weight must not both be 0: nothing would be minimised", "time_weight"
+            )
         if self.energy_weight == 0 and self.peak == math.inf:
-            raise ValueError("peak must be finite where energy_weight is 0, got inf")
+            raise ArgumentValueError("peak must be finite where energy_weight is 0, got inf", "peak")
         if self.energy_weight == 0 and self.duration is not None:
-            raise ValueError(
+            raise ArgumentValueError(
                 "duration must be left free where energy_weight is 0, "
-                f"got {self.duration:g}: every control would cost the same"
+                f"got {self.duration:g}: every control would cost the same",
+                "duration",
             )
         craft = self.chaser
         with np.errstate(over="ignore"):
             energy = (np.square(craft.v1) + np.square(craft.c / craft.r)) / 2 - self.gravity / craft.r
         if energy >= 0:
-            raise ValueError(
+            raise ArgumentValueError(
                 "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, "
-                f"got {energy:.6g}"
+                f"got {energy:.6g}",
+                "chaser",
             )
 
     def _check_sizes(self) -> None:
@@ -99,7 +107,7 @@ class Rendezvous:
         except (OverflowError, ZeroDivisionError):
             sound = False
         if not sound:
-            raise ValueError(
+            raise ArgumentValueError(
                 "parameter, gravity, the weights, the start and the duration must be of sizes that double "
                 f"precision holds in units of the target's orbit, got parameter {self.target.parameter:g}, "
                 f"gravity {self.gravity:g}, r {self.chaser.r:g}, v1 {self.chaser.v1:g}, c {self.chaser.c:g}"

@@ -11,8 +11,10 @@ from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.orbit import Orbit
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Scaled:
     """The numbers of a rendezvous with p* = c* = fM = 1 and lambda = 1 at t0.

@@ -1,7 +1,7 @@
-"""A second way to the same place: Newton's law in inertial axes, and Kepler's equation for the target.
+"""Newton's law in inertial axes for the craft, and Kepler's equation for the target.
 
-Nothing here is shared with the solver but the costates at the start and the times of the switches: other
-variables, another integrator (SciPy's DOP853), another formula for where the target is.
+An independent check of the solver: the variables, the integrator (SciPy's DOP853) and the formula for the
+target's place are others. Only the costates at t0 and the times of the switches are the solver's.
 """
 
 import math
@@ -17,9 +17,12 @@ from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import Flight
 
+Rates = Callable[[Array], Array]
+"""The rates of a state (n,), (n,)."""
 
-def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, times: Array) -> Array:
-    """States (k, n) at ascending times, arc by arc by DOP853; ``rates(mode)`` is a function of the state."""
+
+def integrate(rates: Callable[[str], Rates], flight: Flight, start: Array, times: Array) -> Array:
+    """States at ascending times, (k, n), arc by arc by DOP853; ``rates(mode)`` is a function of the state."""
     from scipy.integrate import solve_ivp
 
     ends = [*(piece.begin for piece in flight.pieces[1:]), flight.duration]
@@ -28,7 +31,7 @@ def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, ti
     for piece, end in zip(flight.pieces, ends, strict=True):
         rate = rates(piece.mode)
 
-        def along(_: float, x: Array, rate: Callable = rate) -> Array:
+        def along(_: float, x: Array, rate: Rates = rate) -> Array:
             return rate(x)
 
         inside = (times >= piece.begin) & (times <= end)
@@ -41,25 +44,25 @@ def integrate(rates: Callable[[str], Callable], flight: Flight, start: Array, ti
 
 
 def cartesian_of(states: Array, attitude: Array) -> Array:
-    """R and V (..., 6) of r, v1, c and the attitude."""
+    """R and V, (..., 6), of r, v1, c and the attitude."""
     r, v1, c = np.moveaxis(states[..., :3], -1, 0)
     return np.stack(kernels.cartesian(r, v1, c, *np.moveaxis(attitude, -1, 0)), axis=-1)
 
 
 def start_of(flight: Flight) -> Array:
-    """R, V, psi_R and psi_V (12,) at t0, in the axes eta of t0."""
+    """R, V, psi_R and psi_V at t0, (12,), in the axes eta of t0."""
     scaled = flight.scaled
     place = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
     return np.concatenate([place, kernels.primer(*scaled.start, *flight.costates)])
 
 
 def fly_cartesian(flight: Flight, times: Array) -> Array:
-    """R, V, psi_R, psi_V and the integral of p^2 (k, 13) at ascending times.
+    """R, V, psi_R, psi_V and the integral of p^2 at ascending times, (k, 13).
 
-    In the axes eta of t0 and the units of `Scaled`.
+    Vectors are in the axes eta of t0, quantities in the units of `Scaled`.
     """
 
-    def rates(mode: str) -> Callable:
+    def rates(mode: str) -> Rates:
         kernel, scale = getattr(kernels, f"cartesian_{mode}"), flight.peak if mode == "saturated" else 1.0
 
         def along(x: Array) -> Array:
@@ -72,7 +75,7 @@ def fly_cartesian(flight: Flight, times: Array) -> Array:
 
 
 def target_by_kepler(scaled: Scaled, time: float) -> Array:
-    """R and V (6,) of the target after a time, from Kepler's equation, in the axes eta of t0."""
+    """R and V of the target after a time, (6,), from Kepler's equation, in the axes eta of t0."""
     e = scaled.eccentricity
     axis = 1 / (1 - e**2)
     motion = axis**-1.5
@@ -84,3 +87,9 @@ def target_by_kepler(scaled: Scaled, time: float) -> Array:
     place = np.array([axis * (cos - e), minor * sin, 0.0])
     velocity = np.array([-axis * sin, minor * cos, 0.0]) * pace
     return np.concatenate([rotated(place, scaled.orientation), rotated(velocity, scaled.orientation)])
+
+
+def separation(flight: Flight) -> Array:
+    """R and V of the craft less those of the target at t_k, (6,); axes and units as in `fly_cartesian`."""
+    end = fly_cartesian(flight, np.array([flight.duration]))[0, :6]
+    return end - target_by_kepler(flight.scaled, flight.duration)

@@ -1,22 +1,12 @@
-"""Section 3, (3.12) to (3.14): the areas that the parabola cuts off."""
+"""Section 3, (3.12) to (3.14): the areas between the parabola and the axis."""
 
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Consequence,
-    Equality,
-    Misprint,
-)
-from pontryagin.triple_integrator.claims.peak import (
-    area_with_two_zeros,
-    first,
-    second,
-)
+from pontryagin.ledger.evidence import Consequence, Equality, Evidence, Misprint, Sides
+from pontryagin.triple_integrator.claims.peak import area_with_two_zeros, first, second
 from pontryagin.triple_integrator.derivation import parabola
-from pontryagin.triple_integrator.derivation.channel import (
-    tau,
-)
+from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.model import T, c
 from pontryagin.triple_integrator.derivation.parabola import (
     alpha,
@@ -37,7 +27,7 @@ conjugate = T - apex
 
 
 @claim("before (3.12): S_k", "S_k in terms of α_m, τ_m and Δ_m", verdict="holds")
-def piece_in_the_vertex_form():
+def piece_in_the_vertex_form() -> Evidence:
     a, b = lower, upper
     printed = alpha * (b - a) * (apex**2 - half_width**2 - apex * (b + a) + (b**2 + b * a + a**2) / 3)
     return Equality(
@@ -53,10 +43,9 @@ def piece_in_the_vertex_form():
     "limits of the third integral",
     verdict="misprint",
     remark="Printed: b3 = T and a2 = τ_m + Δ_m. Right: a3 = τ_m + Δ_m; the line before has a2 = τ_m − Δ_m, "
-    "and "
-    "(3.12) uses a3.",
+    "and (3.12) uses a3.",
 )
-def limits_of_the_third_piece():
+def limits_of_the_third_piece() -> Evidence:
     def consequence() -> Consequence:
         numbers = {alpha: R(1, 2), apex: R(1, 2), half_width: R(1, 4), T: 1}
         wrong = parabola.area(apex + half_width, apex + half_width).subs(numbers)
@@ -72,7 +61,7 @@ def limits_of_the_third_piece():
 
 
 @claim("(3.12)", "S1, S2 and S3", verdict="holds")
-def three_areas():
+def three_areas() -> Evidence:
     printed = {
         "S_1": alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width),
         "S_2": -R(4, 3) * alpha * half_width**3,
@@ -92,7 +81,7 @@ def three_areas():
 
 
 @claim("after (3.12): S3", "S3 in the conjugate parameter T − τ_m", verdict="holds")
-def third_area_conjugate():
+def third_area_conjugate() -> Evidence:
     printed = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
     return Equality(
         {"S_3": printed},
@@ -103,10 +92,10 @@ def third_area_conjugate():
 
 
 @claim("after (3.12): S1", "S1 has the same form with τ_m for T − τ_m", verdict="holds")
-def first_area_conjugate():
+def first_area_conjugate() -> Evidence:
     printed = alpha / 3 * (apex**3 - 3 * apex * half_width**2 + 2 * half_width**3)
 
-    def derived():
+    def derived() -> Sides:
         # The parabola is symmetric about its apex: S1 is S3 with time reversed.
         return {"S_1": parabola.areas()[2].subs(apex, T - apex)}
 
@@ -118,7 +107,7 @@ def first_area_conjugate():
 
 
 @claim("(3.13)", "the condition l'c = 1 in α_m, τ_m and Δ_m", verdict="holds")
-def condition_on_the_zeros():
+def condition_on_the_zeros() -> Evidence:
     printed = alpha * (2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3)
     return Equality(
         {"1": printed},
@@ -133,14 +122,14 @@ def condition_on_the_zeros():
     verdict="holds",
     remark="For α_m < 0 it is −∫|ψ3*|: see the entry on the sign of α_m.",
 )
-def signed_area():
+def signed_area() -> Evidence:
     sides = (
         alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width),
         -R(4, 3) * alpha * half_width**3,
         alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3),
     )
 
-    def derived():
+    def derived() -> Sides:
         at = {first: apex - half_width, second: apex + half_width}
         return {"F": sp.expand(alpha * area_with_two_zeros().subs(at))}
 
@@ -148,7 +137,7 @@ def signed_area():
 
 
 @claim("(3.14)", "auxiliary function F + λ(…): (3.13) divided by α_m as the condition", verdict="holds")
-def auxiliary_function():
+def auxiliary_function() -> Evidence:
     first_area = alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width)
     third_area = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
     condition = 2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3 - 1 / alpha

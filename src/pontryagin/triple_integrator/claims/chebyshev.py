@@ -1,13 +1,17 @@
 """Section 4 up to the extremes of h0: Chebyshev's polynomial as the minimal element, (4.1) to (4.6)."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     LinearSystem,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -33,7 +37,7 @@ F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 
 @claim("before (4.1)", "norm of h in L_∞, the essential maximum of |h|", verdict="holds")
-def norm_of_the_dual_function():
+def norm_of_the_dual_function() -> Evidence:
     key = r"\lVert h(\cdot) \rVert_{L_\infty}"
     return Equality(
         {key: sp.Max(*map(sp.Abs, levels))},
@@ -49,7 +53,7 @@ def norm_of_the_dual_function():
     verdict="holds",
     remark="The essential maximum is the maximum, for h is continuous.",
 )
-def dual_problem():
+def dual_problem() -> Evidence:
     def argument() -> Steps:
         a0, am, aT = sp.symbols("a_0 a_m a_T", positive=True)
         impulses = {chebyshev.impulses[0]: a0, chebyshev.impulses[1]: am, chebyshev.impulses[2]: aT}
@@ -67,7 +71,7 @@ def dual_problem():
         yield "and l'c = 1", vanishes(condition - 1)
         sample = sp.Matrix([R(1, 3), R(1, 7), R(2, 5)])
         bounds = [impulse_bound(l, sample, sp.S.One) for l in (sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]))]
-        yield "no other h proves more than 1/ρ0 (a sample)", bounds[0] > bounds[1]
+        yield "no other h of a sample proves more than 1/ρ0", bounds[0] > bounds[1]
 
     return Proof(
         argument,
@@ -78,11 +82,11 @@ def dual_problem():
 
 
 @claim("(4.2)", "the minimal element is a quadratic in tf − τ", verdict="holds")
-def minimal_element():
+def minimal_element() -> Evidence:
     key = r"h_0(\tau)"
     printed = l1 * (tf - tau) ** 2 / 2 + l2 * (tf - tau) + l3
 
-    def derived():
+    def derived() -> Sides:
         psi = transition(tf - tau).T * multipliers
         return {key: psi[2]}
 
@@ -94,8 +98,8 @@ def minimal_element():
 
 
 @claim("(4.3)", "its multipliers satisfy l0'c = 1", verdict="holds")
-def condition_on_the_multipliers():
-    def derived():
+def condition_on_the_multipliers() -> Evidence:
+    def derived() -> Sides:
         least = chebyshev.minimal_multipliers()
         return {
             "c_1 l_{10} + c_2 l_{20} + c_3 l_{30}": sum(
@@ -112,20 +116,19 @@ def condition_on_the_multipliers():
     verdict="conditional",
     remark="True where a0, am, aT of (4.10) are all ≥ 0 for s0 = sign F (a cone of c), and nowhere else. For "
     "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: "
-    "the "
-    "polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
+    "the polynomial that deviates least depends on the side condition l'c = 1, which the classical problem "
     "lacks.",
 )
-def minimal_element_is_chebyshev():
+def minimal_element_is_chebyshev() -> Evidence:
     def argument() -> Steps:
         amplitudes = chebyshev.amplitudes().values()
         total = sp.cancel(sum(amplitudes) / sign)
         yield "with a0, am, aT ≥ 0 the impulses cost a0 + am + aT = |F|/T²", vanishes(total - F / T**2)
         bound = 1 / chebyshev.minimal_multipliers()[signed_norm]
-        yield "and ρ0 T2 proves that less is not possible", vanishes(bound - F / T**2)
+        yield "ρ0 T2 proves that less is not possible", vanishes(bound - F / T**2)
         polynomial = chebyshev.chebyshev()
         room = sp.factor(1 - polynomial**2)
-        yield "for |T2| ≤ 1 on [−1, 1]: 1 − T2² = 4z²(1 − z²)", vanishes(room - 4 * z**2 * (1 - z**2))
+        yield "|T2| ≤ 1 on [−1, 1]: 1 − T2² = 4z²(1 − z²)", vanishes(room - 4 * z**2 * (1 - z**2))
 
     def counterexample() -> Steps:
         moments = piecewise_moments([(R(1), 1)])
@@ -149,12 +152,12 @@ def minimal_element_is_chebyshev():
 
 
 @claim("after (4.3): T2", "Chebyshev's polynomial of the first kind, T2(z) = 2z² − 1", verdict="holds")
-def chebyshev_polynomial():
+def chebyshev_polynomial() -> Evidence:
     return Equality({"T_2(z)": 2 * z**2 - 1}, lambda: {"T_2(z)": chebyshev.chebyshev()})
 
 
 @claim("after (4.3): z", "the variable z in [−1, 1]", verdict="holds")
-def unit_variable():
+def unit_variable() -> Evidence:
     return Equality(
         {"z": (2 * tau - (tf + t0)) / (tf - t0)},
         lambda: {"z": chebyshev.unit_variable()},
@@ -163,7 +166,7 @@ def unit_variable():
 
 
 @claim("(4.4)", "h0 in powers of τ, with t0 = 0", verdict="holds")
-def minimal_element_in_powers():
+def minimal_element_in_powers() -> Evidence:
     printed = l1 * tau**2 / 2 - (T * l1 + l2) * tau + l1 * T**2 / 2 + l2 * T + l3
     return Equality(
         {r"h_0(\tau)": printed},
@@ -179,7 +182,7 @@ def minimal_element_in_powers():
     verdict="holds",
     remark="The scan reads τ as φ in the sentence before it.",
 )
-def chebyshev_in_time():
+def chebyshev_in_time() -> Evidence:
     key = r"T_2(2\tau/T - 1)"
     printed = 8 * tau**2 / T**2 - 8 * tau / T + 1
     return Equality(
@@ -190,7 +193,7 @@ def chebyshev_in_time():
 
 
 @claim("before (4.6): system", "equal coefficients of h0 and ρ~0 T2, and (4.3)", verdict="holds")
-def matching_system():
+def matching_system() -> Evidence:
     printed = [
         T**2 * l1 / 16 - signed_norm,
         T**2 * l1 / 8 + T * l2 / 8 - signed_norm,
@@ -198,7 +201,7 @@ def matching_system():
         c1 * l1 + c2 * l2 + c3 * l3 - 1,
     ]
 
-    def derived():
+    def derived() -> list[Any]:
         # A quadratic equals rho~ T_2 when it does at three instants.
         gap = chebyshev.dual_in_time() - signed_norm * chebyshev.chebyshev_in_time()
         return [*(gap.subs(tau, instant) for instant in (0, T / 2, T)), (multipliers.T * c)[0] - 1]
@@ -214,12 +217,12 @@ def matching_system():
 
 
 @claim("(4.6)", "Cramer's rule for l10, l20, l30 and ρ~0", verdict="holds")
-def cramers_rule():
+def cramers_rule() -> Evidence:
     keys = ("l_{10}", "l_{20}", "l_{30}", r"\tilde\rho_0")
     numerators = (T / 8, -(T**2) / 16, T**3 / 128, T**3 / 128)
     printed = {key: numerator / (F * T / 128) for key, numerator in zip(keys, numerators, strict=True)}
 
-    def derived():
+    def derived() -> Sides:
         found = chebyshev.minimal_multipliers()
         return {key: found[unknown] for key, unknown in zip(keys, (*multipliers, signed_norm), strict=True)}
 
@@ -232,13 +235,13 @@ def cramers_rule():
 
 
 @claim("after (4.6): determinants", "D1, D2, D3, Dρ", verdict="holds")
-def cramer_numerators():
+def cramer_numerators() -> Evidence:
     printed = {"D_1": T / 8, "D_2": -(T**2) / 16, "D_3": T**3 / 128, r"D_\rho": T**3 / 128}
     return Equality(printed, lambda: chebyshev.cramer(chebyshev.matching())[0])
 
 
 @claim("after (4.6): D", "D = FT/128 with F = 16c1 − 8Tc2 + T²c3", verdict="holds")
-def cramer_denominator():
+def cramer_denominator() -> Evidence:
     return Equality(
         {"D": F * T / 128},
         lambda: {"D": chebyshev.cramer(chebyshev.matching())[1]},
@@ -247,10 +250,10 @@ def cramer_denominator():
 
 
 @claim("after (4.6): solution", "l10 = 16/F, l20 = −8T/F, l30 = T²/F, ρ~0 = T²/F", verdict="holds")
-def multipliers_of_the_polynomial():
+def multipliers_of_the_polynomial() -> Evidence:
     printed = {"l_{10}": 16 / F, "l_{20}": -8 * T / F, "l_{30}": T**2 / F, r"\tilde\rho_0": T**2 / F}
 
-    def derived():
+    def derived() -> Sides:
         # Read off T_2: its value and its two derivatives at the end, scaled so that l'c = 1.
         polynomial = chebyshev.chebyshev_in_time()
         end = [polynomial.diff(tau, k).subs(tau, T) * (-1) ** k for k in range(3)]
@@ -271,7 +274,7 @@ def element() -> sp.Expr:
 
 
 @claim("after (4.6): h0", "h0(τ) = ρ~0 (8τ²/T² − 8τ/T + 1)", verdict="holds")
-def chebyshev_element():
+def chebyshev_element() -> Evidence:
     printed = T**2 / F * (8 * tau**2 / T**2 - 8 * tau / T + 1)
     return Equality(
         {r"h_0(\tau)": printed},
@@ -286,8 +289,8 @@ def chebyshev_element():
     verdict="holds",
     remark="The norm of this h0; that it is the least norm is another claim, above.",
 )
-def norm_of_the_chebyshev_element():
-    def derived():
+def norm_of_the_chebyshev_element() -> Evidence:
+    def derived() -> Sides:
         ends = [element().subs(tau, instant) for instant in (0, T / 2, T)]
         return {r"\rho_0^2": sp.cancel(ends[0] ** 2), r"\rho_0": sp.Abs(sp.factor(ends[0]))}
 
@@ -305,10 +308,10 @@ def norm_of_the_chebyshev_element():
 
 
 @claim("after (4.6): extremes", "h0 is extreme at 0, T/2 and T", verdict="holds")
-def instants_of_the_extremes():
+def instants_of_the_extremes() -> Evidence:
     keys = (r"\tau_1^*", r"\tau_2^*", r"\tau_3^*")
 
-    def derived():
+    def derived() -> Sides:
         inner = sp.solve(element().diff(tau), tau)[0]
         return dict(zip(keys, (sp.S.Zero, inner, T), strict=True))
 
@@ -319,7 +322,7 @@ def instants_of_the_extremes():
 
 
 @claim("after (4.6): values", "h0 = s0ρ0 at the ends and −s0ρ0 in the middle", verdict="holds")
-def values_at_the_extremes():
+def values_at_the_extremes() -> Evidence:
     keys = (r"h_0(0)", r"h_0(T/2)", r"h_0(T)")
     # s0 rho0 = rho~0 = T^2/F.
     printed = dict(zip(keys, (T**2 / F, -(T**2) / F, T**2 / F), strict=True))

@@ -6,22 +6,17 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
+    Sides,
     Steps,
     Unreadable,
     vanishes,
 )
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import drive, tau, tf
-from pontryagin.triple_integrator.derivation.model import (
-    T,
-    c,
-    impulse_response,
-    moments_of,
-    multipliers,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import T, c, impulse_response, moments_of, multipliers, s
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -45,8 +40,8 @@ def in_paper_time(program: sp.Expr) -> sp.Expr:
     "the least L2 norm of h on l'c = 1 is the least (l'Dl)^(1/2)",
     verdict="holds",
 )
-def dual_norm_in_l2():
-    def derived():
+def dual_norm_in_l2() -> Evidence:
+    def derived() -> Sides:
         h = sp.expand((multipliers.T * impulse_response())[0] ** 2)
         return {r"\lVert h(\cdot) \rVert_{L_2}^2": sp.integrate(h, (s, 0, T))}
 
@@ -64,11 +59,11 @@ def dual_norm_in_l2():
     "D = W(tf, t0), the integral of Φbb'Φ', is the controllability Gramian",
     verdict="holds",
 )
-def definition_of_the_gramian():
+def definition_of_the_gramian() -> Evidence:
     def argument() -> Steps:
         candidate = energy.gramian()
         yield "it solves dW/dT = AW + WA' + bb'", vanishes(energy.lyapunov_residual(candidate))
-        yield "and is zero at T = 0", vanishes(candidate.subs(T, 0))
+        yield "D is zero at T = 0", vanishes(candidate.subs(T, 0))
         program = energy.minimum_energy_control()
         end = drive(sp.zeros(3, 1), T, program.subs(s, T - tau))
         yield "b'Φ'D⁻¹c takes the channel from rest to c", vanishes(end - c)
@@ -86,7 +81,7 @@ def definition_of_the_gramian():
     "T³/2; 20/8; T⁴/8), and what it shows is not symmetric. The lower right block can be read and is right. "
     "Derived: D = [[T⁵/20, T⁴/8, T³/6], [T⁴/8, T³/3, T²/2], [T³/6, T²/2, T]].",
 )
-def gramian_in_powers():
+def gramian_in_powers() -> Evidence:
     keys = [f"D_{{{i}{j}}}" for i in (1, 2, 3) for j in (1, 2, 3)]
     seen = [T**5 / 6, T**4 / 2, T**3 / 2, R(20, 8), T**3 / 3, T**2 / 2, T**4 / 8, T**2 / 2, T]
     return Unreadable(
@@ -100,7 +95,7 @@ def gramian_in_powers():
 
 
 @claim("after (2.1): λ", "Lagrange multiplier λ = −2 (c'D⁻¹c)⁻¹", verdict="holds")
-def lagrange_multiplier():
+def lagrange_multiplier() -> Evidence:
     return Equality(
         {r"\lambda": -2 / inverse_form()},
         lambda: {r"\lambda": energy.stationary()[0]},
@@ -109,7 +104,7 @@ def lagrange_multiplier():
 
 
 @claim("after (2.1): l0", "l0 = (c'D⁻¹c)⁻¹ D⁻¹c", verdict="holds")
-def minimal_multipliers():
+def minimal_multipliers() -> Evidence:
     printed = energy.gramian().inv() * c / inverse_form()
     return Equality(
         {r"\mathbf{l}_0": printed},
@@ -119,7 +114,7 @@ def minimal_multipliers():
 
 
 @claim("after (2.1): ρ0", "ρ0 = (c'D⁻¹c)^(−1/2)", verdict="holds")
-def least_dual_norm():
+def least_dual_norm() -> Evidence:
     return Equality(
         {r"\rho_0^2": 1 / inverse_form()},
         lambda: {r"\rho_0^2": energy.dual_norm() ** 2},
@@ -128,7 +123,7 @@ def least_dual_norm():
 
 
 @claim("after (2.1): h0", "h0(τ) = (c'D⁻¹c)⁻¹ c'D⁻¹ Φ(tf, τ)b", verdict="holds")
-def minimal_element():
+def minimal_element() -> Evidence:
     printed = (c.T * energy.gramian().inv() * impulse_response())[0] / inverse_form()
     return Equality(
         {r"h_0(\tau)": in_paper_time(printed)},
@@ -139,7 +134,7 @@ def minimal_element():
 
 
 @claim("before (2.2): conditions", "max ∫h0 u = 1 with ‖u‖ = 1/ρ0 is met by u = μ h0, μ > 0", verdict="holds")
-def conditions_on_the_optimum():
+def conditions_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         square = sp.Symbol("H", positive=True)
         # Of u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N, the pairing is mu H.
@@ -153,7 +148,7 @@ def conditions_on_the_optimum():
         program = energy.minimum_energy_control()
         ratio = sp.cancel(program / energy.minimal_element())
         yield "the programme is a multiple of h0", not ratio.has(s)
-        yield "by c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
+        yield "the factor is c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
 
     return Proof(
         argument,
@@ -163,8 +158,8 @@ def conditions_on_the_optimum():
 
 
 @claim("before (2.2): μ", "μ = 1/ρ0²", verdict="holds")
-def multiplier_of_the_optimum():
-    def derived():
+def multiplier_of_the_optimum() -> Evidence:
+    def derived() -> Sides:
         factor = sp.Symbol("mu")
         reached = moments_of(factor * energy.minimal_element())
         found = sp.solve(sp.cancel(reached[0]) - c1, factor)[0]
@@ -174,7 +169,7 @@ def multiplier_of_the_optimum():
 
 
 @claim("(2.2)", "least-energy programme u* = c'D⁻¹ Φ(tf, τ)b", verdict="holds")
-def least_energy_programme():
+def least_energy_programme() -> Evidence:
     printed = (c.T * energy.gramian().inv() * impulse_response())[0]
     return Equality(
         {r"u^*(\tau)": in_paper_time(printed)},
@@ -184,8 +179,8 @@ def least_energy_programme():
 
 
 @claim("after (2.2): norm", "‖u*‖ = (c'D⁻¹c)^(1/2)", verdict="holds")
-def norm_of_the_programme():
-    def derived():
+def norm_of_the_programme() -> Evidence:
+    def derived() -> Sides:
         square = sp.integrate(sp.expand(energy.minimum_energy_control() ** 2), (s, 0, T))
         return {r"\lVert u^* \rVert_{L_2}^2": square}
 
@@ -197,7 +192,7 @@ def norm_of_the_programme():
 
 
 @claim("after (2.2): solution", "this solves problem 1 for arbitrary ends", verdict="holds")
-def general_solution():
+def general_solution() -> Evidence:
     def argument() -> Steps:
         force = sp.Symbol("f_0", real=True)
         end = channel.transfer(force).subs(tau, T)
@@ -207,7 +202,7 @@ def general_solution():
         noise = sum(a * s**k for k, a in enumerate(extra))
         silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
         cross = sp.integrate(sp.expand(program * noise.subs(silent)), (s, 0, T))
-        yield "what any other control adds is orthogonal to it, and costs", vanishes(cross)
+        yield "the difference of any other control is orthogonal to it, and adds to the norm", vanishes(cross)
 
     return Proof(argument)
 
@@ -219,7 +214,7 @@ def general_solution():
     remark="Printed: the last bracket has 20c1/T². Right: 20c1/(3T²), as (2.2) gives and as the paper's own "
     "(2.5) uses: with the print, example 1 would have the constant 180γ/T³ instead of 60γ/T³ and overshoot.",
 )
-def programme_written_out():
+def programme_written_out() -> Evidence:
     key = r"u^*(\tau)"
     printed = (
         30 * to_go**2 / T**3 * (12 * c1 / T**2 - 6 * c2 / T + c3)

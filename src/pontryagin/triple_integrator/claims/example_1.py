@@ -3,19 +3,10 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import tau
-from pontryagin.triple_integrator.derivation.model import (
-    T,
-    c,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import T, c, s
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -29,14 +20,14 @@ def example_1() -> dict[sp.Symbol, sp.Expr]:
 
 
 @claim("(2.4)", "ends of example 1: a turn by γ_T from rest to rest, so c = (γ_T, 0, 0)", verdict="holds")
-def ends_of_example_1():
+def ends_of_example_1() -> Evidence:
     ends = {
         **dict(zip(channel.initial, (0, 0, 0), strict=True)),
         **dict(zip(channel.final, (turn, 0, 0), strict=True)),
     }
     keys = ("c_1", "c_2", "c_3")
 
-    def derived():
+    def derived() -> Sides:
         return dict(zip(keys, channel.required_moments().subs(ends), strict=True))
 
     return Equality(
@@ -53,7 +44,7 @@ def programme_of_example_1() -> sp.Expr:
 
 
 @claim("(2.5), first form", "programme of example 1 in powers of T − τ", verdict="holds")
-def example_1_in_time_to_go():
+def example_1_in_time_to_go() -> Evidence:
     lag = T - tau
     printed = 360 / T**5 * (lag**2 - lag * T + T**2 / 6) * turn
     return Equality(
@@ -65,7 +56,7 @@ def example_1_in_time_to_go():
 
 
 @claim("(2.5)", "programme of example 1", verdict="holds")
-def example_1_programme():
+def example_1_programme() -> Evidence:
     printed = 360 / T**5 * (tau**2 - T * tau + T**2 / 6) * turn
     return Equality(
         {r"\tilde u^*(\tau)": printed},
@@ -75,7 +66,7 @@ def example_1_programme():
 
 
 @claim("after (2.5): symmetry", "the programme of example 1 is symmetric about τ = T/2", verdict="holds")
-def symmetry_of_example_1():
+def symmetry_of_example_1() -> Evidence:
     return Equality(
         {r"\tilde u^*(T - \tau)": programme_of_example_1()},
         lambda: {r"\tilde u^*(T - \tau)": programme_of_example_1().subs(tau, T - tau)},
@@ -84,10 +75,10 @@ def symmetry_of_example_1():
 
 
 @claim("after (2.5): ends", "its end values 60γ_T/T³ are its maximum", verdict="holds")
-def end_values_of_example_1():
+def end_values_of_example_1() -> Evidence:
     keys = (r"\tilde u^*(0)", r"\tilde u^*(T)")
 
-    def derived():
+    def derived() -> Sides:
         program = programme_of_example_1()
         return {keys[0]: program.subs(tau, 0), keys[1]: program.subs(tau, T)}
 
@@ -100,7 +91,7 @@ def end_values_of_example_1():
 
 
 @claim("after (2.5): middle", "its value −30γ_T/T³ at T/2 is its minimum", verdict="holds")
-def middle_value_of_example_1():
+def middle_value_of_example_1() -> Evidence:
     key = r"\tilde u^*(T/2)"
 
     def argument() -> Steps:

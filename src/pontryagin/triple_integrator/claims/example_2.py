@@ -3,20 +3,12 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.duality import area_of, dual_function_of, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
-from pontryagin.triple_integrator.derivation.parabola import (
-    alpha,
-    half_width,
-)
+from pontryagin.triple_integrator.derivation.parabola import alpha, half_width
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -28,8 +20,8 @@ TURN = {c1: turn, c2: sp.S.Zero, c3: sp.S.Zero}
 
 
 @claim("example 2: l10", "for the turn of example 1, l10 = 1/c1 = 1/γ_T", verdict="holds")
-def first_multiplier_of_example_2():
-    def derived():
+def first_multiplier_of_example_2() -> Evidence:
+    def derived() -> Sides:
         first = sp.solve(((multipliers.T * c)[0] - 1).subs(TURN), multipliers[0])[0]
         return {"l_{10}": first}
 
@@ -44,7 +36,7 @@ def vertex_of_the_turn() -> dict[sp.Symbol, sp.Expr]:
 
 
 @claim("example 2: parameters", "α_m = 1/(2γ_T), τ_m = T/2, Δ_m = T/4", verdict="holds")
-def parameters_of_example_2():
+def parameters_of_example_2() -> Evidence:
     printed = {r"\alpha_m": 1 / (2 * turn), r"\tau_m": T / 2, r"\Delta_m": T / 4}
     return Equality(
         printed,
@@ -53,10 +45,10 @@ def parameters_of_example_2():
 
 
 @claim("example 2: areas", "S1 = S3 = T³/(96γ_T), S2 = −T³/(96γ_T)", verdict="holds")
-def areas_of_example_2():
+def areas_of_example_2() -> Evidence:
     printed = {"S_1": T**3 / (96 * turn), "S_3": T**3 / (96 * turn), "S_2": -(T**3) / (96 * turn)}
 
-    def derived():
+    def derived() -> Sides:
         first, second, third = (area.subs(vertex_of_the_turn()) for area in parabola.areas())
         return {"S_1": first, "S_3": third, "S_2": second}
 
@@ -64,8 +56,8 @@ def areas_of_example_2():
 
 
 @claim("example 2: ρ0", "ρ0 = T³/(32γ_T)", verdict="holds")
-def dual_norm_of_example_2():
-    def derived():
+def dual_norm_of_example_2() -> Evidence:
+    def derived() -> Sides:
         unit = {T: 1, turn: 1}
         l = parabola.multipliers_from_vertex().subs(parabola.beta, alpha * half_width**2)
         l = l.subs(vertex_of_the_turn())
@@ -78,37 +70,37 @@ def dual_norm_of_example_2():
 
 
 def bang_bang_turn() -> list[tuple[sp.Expr, sp.Expr]]:
-    """Example 2's control, by pieces, at the level that its moments ask for."""
+    """Example 2's control by pieces, at the level that its moments require."""
     signs = [(T / 4, peak), (T / 2, -peak), (T / 4, peak)]
     needed = sp.solve(piecewise_moments(signs)[0] - turn, peak)[0]
     return [(duration, value.subs(peak, needed)) for duration, value in signs]
 
 
 @claim("(3.20)", "least peak of the turn, u0 = 32γ_T/T³", verdict="holds")
-def least_peak_of_the_turn():
-    def derived():
+def least_peak_of_the_turn() -> Evidence:
+    def derived() -> Sides:
         return {"u_0": bang_bang_turn()[0][1]}
 
     def argument() -> Steps:
         end = piecewise_moments(bang_bang_turn())
         yield "switching at T/4 and 3T/4 makes the turn", vanishes(end - sp.Matrix([turn, 0, 0]))
         bound = 1 / sp.simplify(parabola.signed_area().subs(vertex_of_the_turn()))
-        yield "and 1/ρ0 is a lower bound, attained", vanishes(bound - bang_bang_turn()[0][1])
+        yield "1/ρ0 is a lower bound, which it attains", vanishes(bound - bang_bang_turn()[0][1])
 
     return Proof(argument, Equality({"u_0": 32 * turn / T**3}, derived))
 
 
 @claim("after (3.20): R", "its total impulse, R = u0 T = 32γ_T/T²", verdict="holds")
-def impulse_of_the_bang_bang_turn():
-    def derived():
+def impulse_of_the_bang_bang_turn() -> Evidence:
+    def derived() -> Sides:
         return {"R": sum(duration * sp.Abs(value) for duration, value in bang_bang_turn())}
 
     return Equality({"R": 32 * turn / T**2}, derived)
 
 
 @claim("after (3.20): bound on T", "for a given u0 the duration must satisfy T³ ≥ 32γ_T/u0", verdict="holds")
-def bound_on_the_duration():
-    def derived():
+def bound_on_the_duration() -> Evidence:
+    def derived() -> Sides:
         found = sp.solve(sp.Eq(peak, bang_bang_turn()[0][1]), T**3)[0]
         return {r"\min T^3": found}
 
@@ -119,7 +111,7 @@ def bound_on_the_duration():
             least.diff(T).is_negative,
         )
         rest = drive(sp.Matrix([turn, 0, 0]), sp.Symbol("w", positive=True), sp.S.Zero)
-        yield "and longer ones can wait at the end", vanishes(rest - sp.Matrix([turn, 0, 0]))
+        yield "longer manoeuvres can wait at the end", vanishes(rest - sp.Matrix([turn, 0, 0]))
 
     return Proof(
         argument,
@@ -129,8 +121,8 @@ def bound_on_the_duration():
 
 
 @claim("after (3.20): T_min", "least time of the turn, T_min = 2 (4γ_T/u0)^(1/3)", verdict="holds")
-def least_time_of_the_turn():
-    def derived():
+def least_time_of_the_turn() -> Evidence:
+    def derived() -> Sides:
         found = [root for root in sp.solve(sp.Eq(peak, bang_bang_turn()[0][1]), T) if root.is_positive]
         return {r"T_{\min}": found[0]}
 

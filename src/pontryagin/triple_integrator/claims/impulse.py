@@ -1,5 +1,7 @@
 """Section 4, (4.7) to (4.10): pulses, impulses and their amplitudes."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -7,9 +9,11 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     LinearSystem,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -17,9 +21,7 @@ from pontryagin.triple_integrator.claims.chebyshev import element
 from pontryagin.triple_integrator.derivation import channel, chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive, kick, required_moments, tau
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
-from pontryagin.triple_integrator.derivation.duality import (
-    dual_function_of,
-)
+from pontryagin.triple_integrator.derivation.duality import dual_function_of
 from pontryagin.triple_integrator.derivation.model import T, c, s
 
 claim = Page("Gorelov & Morozova 2012")
@@ -38,17 +40,16 @@ F = 16 * c1 - 8 * T * c2 + T**2 * c3
     "max ∫h0 u = 1 over u in L_1 with ∫|u| = 1/ρ0",
     verdict="conditional",
     remark="True as a supremum, and as a maximum for impulses. No integrable u attains it: |h0| = ρ0 at "
-    "three "
-    "instants only.",
+    "three instants only.",
 )
-def conditions_on_the_optimum():
+def conditions_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         moments = dict(zip(c, three_impulses((a0, -am, aT), T), strict=True))
         values = [element().subs(tau, at).subs(moments) for at in (0, T / 2, T)]
         paired = a0 * values[0] - am * values[1] + aT * values[2]
         yield "impulses a0, −am, aT at 0, T/2, T have ∫ h0 u = 1", vanishes(paired - 1)
         yield (
-            "where h0 is 1/(a0 + am + aT), so that positive ones have the norm 1/ρ0",
+            "|h0| there is 1/(a0 + am + aT), so that positive ones have the norm 1/ρ0",
             vanishes(values[0] * (a0 + am + aT) - 1),
         )
         width = sp.Symbol("epsilon", positive=True)
@@ -61,11 +62,11 @@ def conditions_on_the_optimum():
     def counterexample() -> Steps:
         room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
         shape = 16 * tau * (T - tau) * (T - 2 * tau) ** 2 / F**2
-        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive but at 0, T/2, T", vanishes(room - shape)
+        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive except at 0, T/2, T", vanishes(room - shape)
         h = dual_function_of(sp.Matrix([1, -R(1, 2), R(1, 16)]))
         reached = 64 * (sp.integrate(h, (s, R(7, 8), 1)) + sp.integrate(h, (s, 0, R(1, 8))))
         yield (
-            "so every integrable u stays below 1: 64 on [0, 1/8] and [7/8, 1] (unit turn) gives 13/24",
+            "so ∫ h0 u < 1 for every integrable u: 64 on [0, 1/8] and [7/8, 1] (unit turn) gives 13/24",
             (reached == R(13, 24)),
         )
 
@@ -83,12 +84,10 @@ def conditions_on_the_optimum():
     "pulses that approximate the impulses, and their intervals",
     verdict="misprint",
     remark="Printed: I_m = [−ε_m, +ε_m]. Right: [T/2 − ε_m, T/2 + ε_m], where the sign h0(T/2) in the same "
-    "line "
-    "and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would end at "
-    "(0, 0, 4) "
-    "instead of (1, 0, 0).",
+    "line and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would "
+    "end at (0, 0, 4) instead of (1, 0, 0).",
 )
-def approximating_pulses():
+def approximating_pulses() -> Evidence:
     keys = (
         r"\inf I_m",
         r"\sup I_m",
@@ -98,7 +97,7 @@ def approximating_pulses():
     )
     printed = dict(zip(keys, (-widthm, widthm, a0 / width0, aT / widthT, am / (2 * widthm)), strict=True))
 
-    def derived():
+    def derived() -> Sides:
         centre = sp.solve(element().diff(tau), tau)[0]
         heights = (a0 / width0, aT / widthT, am / ((centre + widthm) - (centre - widthm)))
         return dict(zip(keys, (centre - widthm, centre + widthm, *heights), strict=True))
@@ -131,11 +130,11 @@ def approximating_pulses():
     verdict="holds",
     remark="For the h0 of (4.4). Where the minimal element is a constant, every instant is extreme.",
 )
-def only_at_the_extremes():
+def only_at_the_extremes() -> Evidence:
     def argument() -> Steps:
         room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
         inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
-        yield "|h0| < ρ0 but at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
+        yield "|h0| < ρ0 except at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
         h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
         weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
         yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1
@@ -150,11 +149,11 @@ def only_at_the_extremes():
     remark="With δ(τ + 0) and δ(τ − T − 0) read as the impulses wholly inside [0, T]; a shift by that sign "
     "would put them outside. (4.8) is taken with its middle pulse at T/2.",
 )
-def limit_of_the_pulses():
+def limit_of_the_pulses() -> Evidence:
     keys = ("x_1(T)", "x_2(T)", "x_3(T)")
     printed = three_impulses((sign * a0, -sign * am, sign * aT), T)
 
-    def derived():
+    def derived() -> Sides:
         width = sp.Symbol("epsilon", positive=True)
         middle = chebyshev.spike(T / 2 - width, T / 2 + width, -sign * am)
         pulses = chebyshev.spike(sp.S.Zero, width, sign * a0) + middle
@@ -170,7 +169,7 @@ def limit_of_the_pulses():
 
 
 @claim("after (4.9): L_1", "the impulsive control is not an element of L_1", verdict="holds")
-def impulses_are_not_integrable():
+def impulses_are_not_integrable() -> Evidence:
     def argument() -> Steps:
         width, bound = sp.symbols("epsilon U", positive=True)
         yield (
@@ -184,10 +183,10 @@ def impulses_are_not_integrable():
 
 
 @claim("after (4.9): s0", "s0 = sign h0(0)", verdict="holds")
-def sign_of_the_polynomial():
+def sign_of_the_polynomial() -> Evidence:
     number = sp.Symbol("F", real=True, nonzero=True)
 
-    def derived():
+    def derived() -> Sides:
         start = sp.cancel(element().subs(tau, 0) / T**2)
         return {"s_0": sp.sign(start.subs(c1, (number + 8 * T * c2 - T**2 * c3) / 16).simplify())}
 
@@ -196,14 +195,14 @@ def sign_of_the_polynomial():
 
 
 @claim("before (4.10): states", "the end state under the three impulses, f = 0", verdict="holds")
-def end_state_under_impulses():
+def end_state_under_impulses() -> Evidence:
     printed = {
         "x_{3f}": x30 + sign * (a0 - am + aT),
         "x_{2f}": x20 + (x30 + sign * a0) * T - sign * am * T / 2,
         "x_{1f}": x10 + x20 * T + (x30 + sign * a0) * T**2 / 2 - sign * am * T**2 / 8,
     }
 
-    def derived():
+    def derived() -> Sides:
         first, second, third = chebyshev.impulse_transfer()
         return {"x_{3f}": third, "x_{2f}": second, "x_{1f}": first}
 
@@ -217,7 +216,7 @@ def end_state_under_impulses():
 
 
 @claim("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)", verdict="holds")
-def with_a_disturbance():
+def with_a_disturbance() -> Evidence:
     def argument() -> Steps:
         force = sp.symbols("f_0", real=True) * (1 + tau)
         start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
@@ -234,7 +233,7 @@ def with_a_disturbance():
 
 
 @claim("before (4.10): system", "linear system for a0, am, aT with c~ = s0 c", verdict="holds")
-def system_for_the_impulses():
+def system_for_the_impulses() -> Evidence:
     wanted = sp.symbols(r"\tilde{c}_1:4", real=True)
     printed = [
         a0 * T**2 / 2 - am * T**2 / 8 - wanted[0],
@@ -242,7 +241,7 @@ def system_for_the_impulses():
         a0 - am + aT - wanted[2],
     ]
 
-    def derived():
+    def derived() -> list[Any]:
         reached = three_impulses((a0, -am, aT), T)
         return [x - w for x, w in zip(reached, wanted, strict=True)]
 
@@ -261,14 +260,14 @@ def system_for_the_impulses():
     verdict="holds",
     remark="They reach the target for every c; where one of them is negative they are not optimal.",
 )
-def impulses():
+def impulses() -> Evidence:
     printed = {
         "a_0": sign * (4 * c1 - T * c2) / T**2,
         "a_m": sign * (8 * c1 - 4 * T * c2) / T**2,
         "a_T": sign * (4 * c1 - 3 * T * c2 + T**2 * c3) / T**2,
     }
 
-    def derived():
+    def derived() -> Sides:
         found = chebyshev.amplitudes()
         return {"a_0": found[a0], "a_m": found[am], "a_T": found[aT]}
 

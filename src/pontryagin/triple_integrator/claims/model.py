@@ -3,13 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import (
@@ -34,8 +28,8 @@ kappa = sp.Symbol("kappa", real=True)
 
 
 @claim("(0.1)", "rotation about a fixed axis: dγ/dt = ω, dω/dt = ε", verdict="holds")
-def rotation_about_an_axis():
-    def derived():
+def rotation_about_an_axis() -> Evidence:
+    def derived() -> Sides:
         # Rodrigues' matrix gives the rate; along a fixed axis its derivative is the angular acceleration.
         rate = sp.solve(sp.Eq(channel.rate_of_rotation(), omega(t)), gamma(t).diff(t))[0]
         axis = sp.Matrix([sp.cos(kappa), sp.sin(kappa), 0])
@@ -53,11 +47,11 @@ def rotation_about_an_axis():
 
 
 @claim("(0.2)", "ends of the turn: angle and rate at t0 and tf", verdict="holds")
-def ends_of_the_turn():
+def ends_of_the_turn() -> Evidence:
     g0, w0, gf, wf = sp.symbols("gamma_0 omega_0 gamma_f omega_f", real=True)
     names = {x10: g0, x20: w0, x1f: gf, x2f: wf}
 
-    def derived():
+    def derived() -> Sides:
         state = channel.transfer(kappa).subs(names)
         start, end = state.subs(tau, 0), state.subs(tau, T)
         return {
@@ -76,7 +70,7 @@ def ends_of_the_turn():
     "γ0 = 0, 0 < γf ≤ π, ω0 = ωf = 0 is a turn by the angle γf about the body axis, and not a trivial one",
     verdict="holds",
 )
-def turn_by_an_angle():
+def turn_by_an_angle() -> Evidence:
     angle = sp.Symbol("gamma_f", real=True)
 
     def argument() -> Steps:
@@ -98,28 +92,28 @@ def turn_by_an_angle():
 @claim(
     "(0.3)", "angular acceleration = control torque + disturbances, cross-couplings included", verdict="holds"
 )
-def acceleration_is_torque_and_disturbance():
+def acceleration_is_torque_and_disturbance() -> Evidence:
     applied, external = sp.symbols("M_1 M_d", real=True)
     inertia = sp.Symbol("J_1", positive=True)
     acceleration = channel.euler_acceleration(applied, external)
     rest = acceleration.subs(applied, 0)
 
-    def derived():
+    def derived() -> Sides:
         in_relative_torque = acceleration.subs(applied, inertia * torque(t))
         return {r"\varepsilon(t)": in_relative_torque - rest + disturbance(t)}
 
     def argument() -> Steps:
         rates = sp.symbols("omega_2:4", real=True)
-        yield "what is not control is free of the control torque", not rest.has(applied)
+        yield "the rest of the acceleration does not depend on the control torque", not rest.has(applied)
         yield "it holds the product of the other two rates", rest.diff(*rates) != 0
-        yield "and the external torque", vanishes(rest.diff(external) - 1 / inertia)
+        yield "it holds the external torque", vanishes(rest.diff(external) - 1 / inertia)
 
     return Proof(argument, Equality({r"\varepsilon(t)": torque(t) + disturbance(t)}, derived))
 
 
 @claim("after (0.3)", "(0.1) and (0.3) make a double integrator: d²γ/dt² = m + f", verdict="holds")
-def double_integrator():
-    def derived():
+def double_integrator() -> Evidence:
+    def derived() -> Sides:
         rate = {gamma(t).diff(t): omega(t), omega(t).diff(t): torque(t) + disturbance(t)}
         return {r"\ddot\gamma(t)": gamma(t).diff(t).subs(rate).diff(t).subs(rate)}
 
@@ -127,8 +121,8 @@ def double_integrator():
 
 
 @claim("(0.4)", "the control u is the rate of the control torque", verdict="holds")
-def rate_of_the_torque():
-    def derived():
+def rate_of_the_torque() -> Evidence:
+    def derived() -> Sides:
         built_up = sp.Symbol("m_0") + sp.Integral(control(tau), (tau, channel.t0, t))
         return {r"\dot m(t)": built_up.diff(t)}
 
@@ -146,7 +140,7 @@ def rate_of_the_torque():
     remark="True for every integrable u. The impulsive programme (4.9), the paper's own answer to problem 3, "
     "makes m jump: in example 1 by 4γ/T² at once.",
 )
-def torque_is_continuous():
+def torque_is_continuous() -> Evidence:
     def argument() -> Steps:
         instant, bound = sp.symbols("delta U", positive=True)
         grown = channel.drive(sp.zeros(3, 1), instant, bound)[2]
@@ -154,7 +148,7 @@ def torque_is_continuous():
             "over a time δ the torque changes by at most the integral of |u|",
             vanishes(grown - bound * instant),
         )
-        yield "which goes to zero with δ", sp.limit(grown, instant, 0) == 0
+        yield "that bound goes to zero with δ", sp.limit(grown, instant, 0) == 0
 
     def counterexample() -> Steps:
         rest = sp.zeros(3, 1)
@@ -163,16 +157,16 @@ def torque_is_continuous():
         state = channel.drive(channel.kick(state, middle), T / 2, sp.S.Zero)
         end = channel.kick(state, first)
         yield "(4.9) performs the turn of example 1", vanishes(end - sp.Matrix([kappa, 0, 0]))
-        yield "and starts with a jump of m from 0 to 4γ/T²", channel.kick(rest, first)[2] == first
+        yield "(4.9) starts with a jump of m from 0 to 4γ/T²", channel.kick(rest, first)[2] == first
 
     return Conditional(argument, counterexample=counterexample)
 
 
 @claim("(0.5)", "ends of the control torque", verdict="holds")
-def ends_of_the_torque():
+def ends_of_the_torque() -> Evidence:
     m0, mf = sp.symbols("m_0 m_f", real=True)
 
-    def derived():
+    def derived() -> Sides:
         third = channel.transfer(kappa)[2].subs({x30: m0, x3f: mf})
         return {"m(t_0)": third.subs(tau, 0), "m(t_f)": third.subs(tau, T)}
 
@@ -182,10 +176,10 @@ def ends_of_the_torque():
 @claim(
     "(0.6)", "the channel is a triple integrator with the disturbance in the second equation", verdict="holds"
 )
-def triple_integrator():
+def triple_integrator() -> Evidence:
     names = {gamma(t): x1(t), omega(t): x2(t), torque(t): x3(t)}
 
-    def derived():
+    def derived() -> Sides:
         acceleration = torque(t) + disturbance(t)
         return {
             r"\dot x_1(t)": omega(t).subs(names),
@@ -207,10 +201,13 @@ def triple_integrator():
 
 
 @claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")
-def bound_on_the_control():
+def bound_on_the_control() -> Evidence:
     def argument() -> Steps:
         yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
-        yield "and with no smaller u0", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+        yield (
+            "no smaller u0 suffices: the bound by a dual function",
+            peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32,
+        )
         least_energy = energy.minimum_energy_control().subs(unit_turn())
         yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
 
@@ -218,8 +215,8 @@ def bound_on_the_control():
 
 
 @claim("(0.8)", "the state at t0", verdict="holds")
-def initial_state():
-    def derived():
+def initial_state() -> Evidence:
+    def derived() -> Sides:
         start = channel.transfer(kappa).subs(tau, 0)
         return {f"x_{k}(t_0)": start[k - 1] for k in (1, 2, 3)}
 
@@ -227,8 +224,8 @@ def initial_state():
 
 
 @claim("(0.9)", "the state at tf", verdict="holds")
-def final_state():
-    def derived():
+def final_state() -> Evidence:
+    def derived() -> Sides:
         end = channel.transfer(kappa).subs(tau, T)
         return {f"x_{k}(t_f)": end[k - 1] for k in (1, 2, 3)}
 
@@ -240,10 +237,13 @@ def final_state():
     "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c",
     verdict="holds",
 )
-def nontrivial():
+def nontrivial() -> Evidence:
     def argument() -> Steps:
         gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
         yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
-        yield "and the gap can be anything: it is onto in xf", gap.jacobian(channel.final) == sp.eye(3)
+        yield (
+            "every gap occurs: its derivative by xf is the identity",
+            gap.jacobian(channel.final) == sp.eye(3),
+        )
 
     return Proof(argument)

@@ -3,21 +3,10 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import channel
 from pontryagin.triple_integrator.derivation.channel import control, disturbance, t, t0, tau, tf
-from pontryagin.triple_integrator.derivation.model import (
-    INPUT,
-    T,
-    moments_of,
-    s,
-    transition,
-)
+from pontryagin.triple_integrator.derivation.model import INPUT, T, moments_of, s, transition
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -28,8 +17,8 @@ p, q = sp.symbols("p q", positive=True)
 
 
 @claim("(1.1)", "state equations in matrix form, with A, b and f(t)", verdict="holds")
-def matrix_form():
-    def derived():
+def matrix_form() -> Evidence:
+    def derived() -> Sides:
         x = sp.Matrix([sp.Function(f"x_{k}")(t) for k in (1, 2, 3)])
         rates = sp.Matrix([x[1], x[2] + disturbance(t), control(t)])
         # The matrices are the derivatives of the right-hand sides of (0.6).
@@ -49,8 +38,8 @@ def matrix_form():
 
 
 @claim("(1.2)", "ends as vectors: x(t0) = x0, x(tf) = xf", verdict="holds")
-def vector_ends():
-    def derived():
+def vector_ends() -> Evidence:
+    def derived() -> Sides:
         path = channel.transfer(sp.Symbol("kappa", real=True))
         return {r"\mathbf{x}(t_0)": path.subs(tau, 0), r"\mathbf{x}(t_f)": path.subs(tau, T)}
 
@@ -58,7 +47,7 @@ def vector_ends():
 
 
 @claim("(1.3)", "Cauchy's formula solves (1.1) with x(t0) = x0", verdict="holds")
-def cauchy_formula():
+def cauchy_formula() -> Evidence:
     def argument() -> Steps:
         path = channel.cauchy()
         residual = path.diff(t) - channel.right_hand_side(path)
@@ -79,7 +68,7 @@ def cauchy_formula():
 
 
 @claim("(1.4)", "transition matrix", verdict="holds")
-def transition_matrix():
+def transition_matrix() -> Evidence:
     lapse = t - t0
     printed = sp.Matrix([[1, lapse, lapse**2 / 2], [0, 1, lapse], [0, 0, 1]])
     return Equality(
@@ -91,7 +80,7 @@ def transition_matrix():
 
 
 @claim("(1.5)", "response to the control, Φ(tf, τ) b", verdict="holds")
-def response():
+def response() -> Evidence:
     printed = sp.Matrix([to_go**2 / 2, to_go, 1])
     return Equality(
         {r"\Phi(t_f, \tau)\mathbf{b}": printed},
@@ -102,10 +91,10 @@ def response():
 
 
 @claim("(1.6)", "its components h1, h2, h3", verdict="holds")
-def response_components():
+def response_components() -> Evidence:
     printed = {r"h_1(\tau)": to_go**2 / 2, r"h_2(\tau)": to_go, r"h_3(\tau)": sp.S.One}
 
-    def derived():
+    def derived() -> Sides:
         # An impulse at tau from rest, and then the free motion.
         after = channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
         return dict(zip(printed, after, strict=True))
@@ -124,7 +113,7 @@ def ramp() -> tuple[sp.Expr, list[sp.Symbol]]:
 
 
 @claim("(1.7)", "c = xf − Φ x0 − g", verdict="holds")
-def moments_of_the_manoeuvre():
+def moments_of_the_manoeuvre() -> Evidence:
     force, _ = ramp()
     g = channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force)
     printed = channel.final - transition(T) * channel.initial - g
@@ -136,12 +125,12 @@ def moments_of_the_manoeuvre():
 
 
 @claim("after (1.7): g", "g(t), the integral of Φ(t, τ) f(τ), is what the disturbance adds", verdict="holds")
-def forced_motion():
+def forced_motion() -> Evidence:
     force, _ = ramp()
     kernel = transition(T - tau) * sp.Matrix([0, force, 0])
     printed = kernel.applyfunc(lambda entry: sp.integrate(sp.expand(entry), (tau, 0, T)))
 
-    def derived():
+    def derived() -> Sides:
         return {r"\mathbf{g}(t_f)": channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force)}
 
     return Equality(
@@ -152,11 +141,11 @@ def forced_motion():
 
 
 @claim("(1.8)", "what the disturbance adds: g1, g2, g3", verdict="holds")
-def effect_of_the_disturbance():
+def effect_of_the_disturbance() -> Evidence:
     lag = sp.Integral((t - tau) * disturbance(tau), (tau, t0, t))
     printed = {"g_1(t)": lag, "g_2(t)": sp.Integral(disturbance(tau), (tau, t0, t)), "g_3(t)": sp.S.Zero}
 
-    def derived():
+    def derived() -> Sides:
         kernel = transition(t - tau) * sp.Matrix([0, disturbance(tau), 0])
         return {f"g_{k + 1}(t)": sp.Integral(kernel[k], (tau, t0, t)).doit(deep=False) for k in range(3)}
 
@@ -166,13 +155,13 @@ def effect_of_the_disturbance():
         first = sp.integrate(sp.expand((T - tau) * force), (tau, 0, T))
         yield "g1 is where a quadratic disturbance takes the channel from rest", vanishes(moved[0] - first)
         yield "g2 likewise", vanishes(moved[1] - sp.integrate(force, (tau, 0, T)))
-        yield "for each of its three coefficients", all(moved[0].has(f) for f in coefficients)
+        yield "this holds for each of its three coefficients", all(moved[0].has(f) for f in coefficients)
 
     return Proof(argument, Equality(printed, derived))
 
 
 @claim("(1.9)", "the control steers x0 to xf exactly when its moments are c", verdict="holds")
-def moment_equation():
+def moment_equation() -> Evidence:
     def argument() -> Steps:
         coefficients = sp.symbols("u_0:5", real=True)
         program = sum(u * tau**k for k, u in enumerate(coefficients))
@@ -183,7 +172,7 @@ def moment_equation():
         gap = channel.required_moments(force) - moments
         yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
         solved = sp.solve(list(gap), coefficients[:3], dict=True)
-        yield "and controls with the moments c exist", len(solved) == 1
+        yield "controls with the moments c exist", len(solved) == 1
 
     return Proof(
         argument,
@@ -192,7 +181,7 @@ def moment_equation():
 
 
 @claim("(1.10)", "the components of c", verdict="holds")
-def moment_components():
+def moment_components() -> Evidence:
     force, coefficients = ramp()
     g1 = sum(f * sp.integrate((T - tau) * tau**k, (tau, 0, T)) for k, f in enumerate(coefficients))
     g2 = sum(f * sp.integrate(tau**k, (tau, 0, T)) for k, f in enumerate(coefficients))

@@ -7,8 +7,10 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -40,7 +42,7 @@ def by_level(power: sp.Expr) -> sp.Expr:
 
 
 @claim("before (1.11): norm in L_q", "norm of the control in L_q, 1 ≤ q < ∞", verdict="holds")
-def norm_in_lq():
+def norm_in_lq() -> Evidence:
     exponents = (sp.S.One, sp.S(2), R(3, 2), sp.S(3))
     keys = {n: rf"\lVert u \rVert_{{L_{{{n}}}}}" for n in exponents}
     return Equality(
@@ -58,7 +60,7 @@ def norm_in_lq():
     remark="Printed: vrai max u(t). Right: vrai max |u(t)|, as in (1.19). Without the modulus the constant "
     "control −2 would have the norm −2.",
 )
-def norm_in_linf():
+def norm_in_linf() -> Evidence:
     key = r"\lVert u \rVert_{L_\infty}"
     two_levels = {v1: -2, v2: 1}
     printed = sp.Max(v1, v2)
@@ -74,7 +76,7 @@ def norm_in_linf():
 
 
 @claim("before (1.11): exponents", "the spaces L_p and L_q are conjugate: 1/p + 1/q = 1", verdict="holds")
-def conjugate_exponents():
+def conjugate_exponents() -> Evidence:
     # Hölder's best h is |u|^(q-1) sign u; its norm in L_p is a power of the same integral if p(q-1) = q.
     return Equality(
         {"p": sp.solve(sp.Eq(1 / p + 1 / q, 1), p)[0]},
@@ -84,10 +86,10 @@ def conjugate_exponents():
 
 
 @claim("(1.11)", "the moment equalities Φ(h_k) = c_k", verdict="holds")
-def moment_equalities():
+def moment_equalities() -> Evidence:
     keys = [rf"\Phi(h_{k}(\cdot))" for k in (1, 2, 3)]
 
-    def derived():
+    def derived() -> Sides:
         return dict(zip(keys, moments_of(energy.minimum_energy_control()), strict=True))
 
     return Equality(dict(zip(keys, c, strict=True)), derived)
@@ -98,12 +100,10 @@ def moment_equalities():
     "every bounded functional on L_p is an integral with some u in L_q",
     verdict="conditional",
     remark="True for 1 ≤ p < ∞ (Riesz). For p = ∞ (q = 1, problem 3) it is false: the value at one instant, "
-    "extended "
-    "from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. It is "
-    "just "
-    "such functionals that solve problem 3, (4.9).",
+    "extended from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. "
+    "It is just such functionals that solve problem 3, (4.9).",
 )
-def form_of_the_functional():
+def form_of_the_functional() -> Evidence:
     def argument() -> Steps:
         # On two levels: the functional v -> w'v is the pairing with u = w/lengths, of the conjugate norm.
         w1, w2 = sp.symbols("w_1 w_2", real=True)
@@ -115,7 +115,10 @@ def form_of_the_functional():
         )
         for n in (sp.S(2), R(3, 2), sp.oo):
             size = conjugate_norm(n).subs(represented, simultaneous=True)
-            yield f"of finite norm in L_{n}", size.has(w1) and not size.has(sp.zoo, sp.nan)
+            yield (
+                f"the step function has a finite norm in L_{n}",
+                size.has(w1) and not size.has(sp.zoo, sp.nan),
+            )
 
     def counterexample() -> Steps:
         order, bound = sp.symbols("n U", positive=True)
@@ -127,7 +130,7 @@ def form_of_the_functional():
             "its integral with any u of bound U is at most U T/(n + 1)",
             vanishes(paired - bound / (order + 1)),
         )
-        yield "which goes to 0, not 1; bounded u are dense in L_1", sp.limit(paired, order, sp.oo) == 0
+        yield "that bound goes to 0, not 1; bounded u are dense in L_1", sp.limit(paired, order, sp.oo) == 0
 
     return Conditional(
         argument,
@@ -141,7 +144,7 @@ def form_of_the_functional():
     "the moment problem of the triple integrator is solvable for every c: h1, h2, h3 are independent",
     verdict="holds",
 )
-def solvability():
+def solvability() -> Evidence:
     def argument() -> Steps:
         h = impulse_response()
         wronskian = sp.Matrix([[entry.diff(s, k) for entry in h] for k in range(3)]).det()
@@ -160,8 +163,8 @@ def solvability():
 
 
 @claim("(1.12)", "the set P of dual functions h = Σ l_k h_k with Σ l_k c_k = 1", verdict="holds")
-def dual_set():
-    def derived():
+def dual_set() -> Evidence:
+    def derived() -> Sides:
         least = energy.stationary()[1]
         return {r"\sum_k l_k c_k": (least.T * c)[0]}
 
@@ -169,6 +172,6 @@ def dual_set():
         spanned = sp.expand((multipliers.T * impulse_response())[0] - energy.minimal_element())
         found = sp.solve(sp.Poly(spanned, s).coeffs(), list(multipliers), dict=True)[0]
         yield "the least element of P is a combination of the h_k", len(found) == 3
-        yield "with l'c = 1", vanishes((multipliers.subs(found).T * c)[0] - 1)
+        yield "the least element has l'c = 1", vanishes((multipliers.subs(found).T * c)[0] - 1)
 
     return Proof(argument, Equality({r"\sum_k l_k c_k": sp.S.One}, derived))

@@ -7,8 +7,10 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -51,7 +53,7 @@ def paired_with(moments: sp.Matrix) -> sp.Expr:
 
 
 @claim("before (3.1)", "the least L1 norm of h on l'c = 1 is ρ0", verdict="holds")
-def dual_norm_in_l1():
+def dual_norm_in_l1() -> Evidence:
     def argument() -> Steps:
         yield (
             "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
@@ -60,7 +62,7 @@ def dual_norm_in_l1():
         sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
         moments = two_switches(v, first, second, T).subs(sample)
         others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
-        yield "and no h does better than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
+        yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
 
     return Proof(
         argument,
@@ -70,7 +72,7 @@ def dual_norm_in_l1():
 
 
 @claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
-def dual_problem():
+def dual_problem() -> Evidence:
     key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
     return Equality(
@@ -82,11 +84,11 @@ def dual_problem():
 
 
 @claim("before (3.2)", "ψ3 from the adjoint equation and its end values", verdict="holds")
-def third_costate():
+def third_costate() -> Evidence:
     end = sp.symbols("psi_1f psi_2f psi_3f", real=True)
     printed = (tf - tau) ** 2 / 2 * end[0] + (tf - tau) * end[1] + end[2]
 
-    def derived():
+    def derived() -> Sides:
         # Integrate (1.15) backwards from tf.
         clock = sp.Dummy("t")
         middle = end[1] + sp.integrate(end[0], (clock, tau, tf))
@@ -104,10 +106,9 @@ def third_costate():
     "ρ0 as the least integral of the quadratic",
     verdict="misprint",
     remark="Printed: square brackets around the integrand. Right: the modulus, as in (3.1) and (3.6). "
-    "Without "
-    "it the integral is linear in l and has no minimum (the scan may have read bars as brackets).",
+    "Without it the integral is linear in l and has no minimum (the scan may have read bars as brackets).",
 )
-def dual_problem_written_out():
+def dual_problem_written_out() -> Evidence:
     key = r"\text{integrand}"
     quadratic = (tf - tau) ** 2 / 2 * l1 + (tf - tau) * l2 + l3
 
@@ -129,10 +130,10 @@ def dual_problem_written_out():
 
 
 @claim("(3.3)", "the minimising ψ3* with the coefficients l10, l20, l30", verdict="holds")
-def minimising_costate():
+def minimising_costate() -> Evidence:
     printed = (tf - t) ** 2 / 2 * l1 + (tf - t) * l2 + l3
 
-    def derived():
+    def derived() -> Sides:
         psi = transition(tf - t).T * multipliers
         return {r"\psi_3^*(t)": psi[2]}
 
@@ -144,10 +145,10 @@ def minimising_costate():
 
 
 @claim("after (3.3): end values", "l10, l20, l30 are the end values of ψ1*, ψ2*, ψ3*", verdict="holds")
-def end_values_of_the_costate():
+def end_values_of_the_costate() -> Evidence:
     keys = [rf"\psi_{k}^*(t_f)" for k in (1, 2, 3)]
 
-    def derived():
+    def derived() -> Sides:
         end = (transition(tf - t).T * multipliers).subs(t, tf)
         return dict(zip(keys, end, strict=True))
 
@@ -159,10 +160,10 @@ def end_values_of_the_costate():
 
 
 @claim("before (3.4): conditions", "max ∫h0 u = 1 with max |u| = 1/ρ0, and u0 = 1/ρ0", verdict="holds")
-def conditions_on_the_optimum():
+def conditions_on_the_optimum() -> Evidence:
     key = "u_0"
 
-    def derived():
+    def derived() -> Sides:
         # The level of a control with two switches, from its moments and the h with the same zeros.
         moments = two_switches(v, first, second, T)
         return {key: sp.cancel(paired_with(moments) / area_with_two_zeros())}
@@ -170,7 +171,7 @@ def conditions_on_the_optimum():
     def argument() -> Steps:
         norm = area_with_two_zeros() / paired_with(two_switches(v, first, second, T))
         yield "ρ0 = ∫|h|/l'c is 1/v for the control of level v", vanishes(norm - 1 / v)
-        yield "and ∫h0 u = l'c/l'c = 1", vanishes(norm * v - 1)
+        yield "∫h0 u = l'c/l'c = 1", vanishes(norm * v - 1)
 
     return Proof(
         argument,
@@ -181,7 +182,7 @@ def conditions_on_the_optimum():
 
 
 @claim("before (3.4): uniqueness", "the maximum is attained only by u = sign h0 / ρ0", verdict="holds")
-def only_the_sign_attains_it():
+def only_the_sign_attains_it() -> Evidence:
     def argument() -> Steps:
         yield (
             "h0 is a polynomial and not zero, so it vanishes at two instants at most",
@@ -201,7 +202,7 @@ def only_the_sign_attains_it():
     verdict="holds",
     remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.",
 )
-def least_peak_programme():
+def least_peak_programme() -> Evidence:
     def argument() -> Steps:
         x = sp.Symbol("x", real=True, nonzero=True)
         yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
@@ -213,8 +214,8 @@ def least_peak_programme():
         rho = area_of(h, sp.S.One)
         levels = [sp.sign(h.subs(s, 1 - x)) / rho for x in (R(1, 10), R(1, 2), R(9, 10))]
         pieces = list(zip((R(1, 5), R(7, 15), R(1, 3)), levels, strict=True))
-        yield "sign h0 / ρ0 has the moments that h0 was made for", piecewise_moments(pieces) == moments
-        yield "and no control with them a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
+        yield "sign h0 / ρ0 has the moments c of that h0", piecewise_moments(pieces) == moments
+        yield "no control with these moments has a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
 
     return Proof(
         argument,
@@ -228,13 +229,13 @@ def least_peak_programme():
     "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout",
     verdict="holds",
 )
-def general_structure():
+def general_structure() -> Evidence:
     def argument() -> Steps:
         zeros = sp.Poly(parabola.parabola(), tau).degree()
         yield "h0 changes sign at most twice", zeros == 2
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield (
-            "and is not zero, so sign h0 is ±1 almost everywhere",
+            "h0 is not zero, so sign h0 is ±1 almost everywhere",
             all(minor.is_positive for minor in minors),
         )
         determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
@@ -251,12 +252,11 @@ def general_structure():
     "T and u0 correspond one to one, so the problem is the inverse of least time",
     verdict="conditional",
     remark="True where one end is an equilibrium (x2 = 0, x3 + f = 0, f constant): one can wait there, so "
-    "u0(T) "
-    "falls strictly. In general it need not: from (0, 1, 0) to (1, 1, 0) with f = 0, u0(T) = 32|1 − T|/T³ "
-    "takes "
-    "the value 4 at three durations, T = 0.9067..., √5 − 1 and 2. Least time is then the smallest root.",
+    "u0(T) falls strictly. In general it need not: from (0, 1, 0) to (1, 1, 0) with f = 0, u0(T) = 32|1 − "
+    "T|/T³ takes the value 4 at three durations, T = 0.9067..., √5 − 1 and 2. Least time is then the "
+    "smallest root.",
 )
-def one_to_one():
+def one_to_one() -> Evidence:
     force, wait = sp.symbols("f w", real=True)
     positive = sp.Symbol("T", positive=True)
 
@@ -274,12 +274,12 @@ def one_to_one():
         )
         later = moments(rest, channel.final, positive + wait)
         yield (
-            "initial equilibrium: likewise with 0 first",
+            "initial equilibrium: 0 for the time w, then the control, performs the T + w manoeuvre",
             vanishes(later - moments(rest, channel.final, positive)),
         )
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield (
-            "so u0(T + w) ≤ u0(T); and less, for no h vanishes while one waits: l'c < u0(T) ∫|h|",
+            "so u0(T + w) ≤ u0(T), and it is less because no h vanishes during the wait: l'c < u0(T) ∫|h|",
             all(minor.is_positive for minor in minors),
         )
 
@@ -290,7 +290,7 @@ def one_to_one():
         for share, sign in ((R(1, 4), -1), (R(1, 2), 1), (R(1, 4), -1)):
             state = drive(state, share * positive, sign * level)
         yield (
-            "from (0, 1, 0) to (1, 1, 0): ∓32(T − 1)/T³ with switches at T/4, 3T/4 gets there",
+            "from (0, 1, 0) to (1, 1, 0): ∓32(T − 1)/T³ with switches at T/4, 3T/4 reaches the target",
             vanishes(state - end),
         )
         needed = (end - drive(start, positive, sp.S.Zero)).applyfunc(sp.expand)
@@ -298,7 +298,7 @@ def one_to_one():
         area = area_with_two_zeros().subs({first: R(1, 4) * T, second: R(3, 4) * T}).subs(T, positive)
         bound = sp.simplify((l.T * needed)[0] / area)
         yield (
-            "and h = (τ − T/4)(τ − 3T/4) shows that no peak below 32|T − 1|/T³ does",
+            "h = (τ − T/4)(τ − 3T/4) shows that no peak below 32|T − 1|/T³ does",
             vanishes(bound + level),
         )
         earlier = sp.Poly(4 * positive**3 - 32 * (1 - positive), positive)
@@ -306,6 +306,6 @@ def one_to_one():
         before = [x for x in earlier.real_roots() if 0 < x < 1]
         after = [x for x in later.real_roots() if x > 1]
         yield "u0 = 4 at one T < 1", len(before) == 1
-        yield "and at T = √5 − 1 and T = 2", set(after) == {sp.sqrt(5) - 1, sp.Integer(2)}
+        yield "u0 = 4 at T = √5 − 1 and at T = 2", set(after) == {sp.sqrt(5) - 1, sp.Integer(2)}
 
     return Conditional(argument, counterexample=counterexample)

@@ -3,13 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import chebyshev, energy
 from pontryagin.triple_integrator.derivation.channel import drive, kick
@@ -23,14 +17,7 @@ from pontryagin.triple_integrator.derivation.duality import (
     peak_of,
     piecewise_moments,
 )
-from pontryagin.triple_integrator.derivation.model import (
-    T,
-    c,
-    impulse_response,
-    moments_of,
-    multipliers,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import T, c, impulse_response, moments_of, multipliers, s
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -44,7 +31,7 @@ T1, T2 = lengths
     "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖",
     verdict="holds",
 )
-def minimal_element_exists():
+def minimal_element_exists() -> Evidence:
     def argument() -> Steps:
         minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", all(minor.is_positive for minor in minors)
@@ -65,8 +52,8 @@ def minimal_element_exists():
 @claim(
     "after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds"
 )
-def functional_on_the_dual_set():
-    def derived():
+def functional_on_the_dual_set() -> Evidence:
+    def derived() -> Sides:
         program = energy.minimum_energy_control()
         h = (multipliers.T * impulse_response())[0]
         paired = sp.expand(sp.integrate(sp.expand(h * program), (s, 0, T)))
@@ -77,7 +64,7 @@ def functional_on_the_dual_set():
 
 
 @claim("after (1.12): criterion", "the moment problem is solvable if and only if ρ0 > 0", verdict="holds")
-def solvable_where_norm_is_positive():
+def solvable_where_norm_is_positive() -> Evidence:
     def argument() -> Steps:
         program = energy.minimum_energy_control()
         yield "independent h_k: ρ0 > 0, and solvable", vanishes(moments_of(program) - c)
@@ -90,7 +77,7 @@ def solvable_where_norm_is_positive():
             "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0",
             ((witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0),
         )
-        yield "and no control has those moments", vanishes((witness.T * moments)[0])
+        yield "no control has the moments that belong to such h_k", vanishes((witness.T * moments)[0])
 
     return Proof(argument)
 
@@ -100,7 +87,7 @@ def solvable_where_norm_is_positive():
     "‖Φ‖ ≥ 1/ρ0 for every functional that solves the moment problem",
     verdict="holds",
 )
-def norm_estimate():
+def norm_estimate() -> Evidence:
     def argument() -> Steps:
         extra = sp.symbols("n_0:4", real=True)
         noise = sum(a * s**k for k, a in enumerate(extra))
@@ -122,11 +109,11 @@ def norm_estimate():
 
 
 @claim("before (1.13): norm of Φ0", "the optimal functional has the norm 1/ρ0", verdict="holds")
-def norm_of_the_optimum():
+def norm_of_the_optimum() -> Evidence:
     key = r"\lVert \Phi_0 \rVert"
     keys = [f"{key}_{{L_{p}^*}}" for p in ("2", "1", r"\infty")]
 
-    def derived():
+    def derived() -> Sides:
         program = energy.minimum_energy_control().subs(unit_turn())
         in_l2 = sp.sqrt(sp.integrate(sp.expand(program**2), (s, 0, 1)))
         return dict(
@@ -155,10 +142,9 @@ def norm_of_the_optimum():
     "the dual of L_p is isometric to L_q, so min ‖u‖ = min ‖Φ‖ = 1/ρ0, for all 1 ≤ q ≤ ∞",
     verdict="conditional",
     remark="True for 1 < q ≤ ∞. For q = 1 the dual of L_∞ is larger than L_1: already in example 1 the "
-    "infimum "
-    "16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
+    "infimum 16γ/T² = 1/ρ0 over controls in L_1 is attained by no integrable control, only by impulses.",
 )
-def isometry():
+def isometry() -> Evidence:
     def argument() -> Steps:
         for n in (sp.S(2), R(3, 2), sp.S(3), sp.oo):
             size = conjugate_norm(n).subs({T1: 1, T2: 1, v1: 0})
@@ -174,11 +160,11 @@ def isometry():
         yield "unit turn: ∫ h u = 1 for every u that makes it", (IMPULSE_DUAL.T * TURN)[0] == 1
         room = sp.factor(R(1, 16) ** 2 - h**2)
         touching = sp.Poly(room, s).real_roots()
-        yield "and |h| touches 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
+        yield "|h| = 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
         between = [room.subs(s, x) for x in (R(1, 4), R(3, 4))]
-        yield "being smaller between: hence 1 < ‖u‖/16, for every integrable u", min(between) > 0
+        yield "|h| is smaller between them: hence 1 < ‖u‖/16 for every integrable u", min(between) > 0
         turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
-        yield "but impulses of total 16 make the turn, and narrow pulses come near", turned == TURN
+        yield "impulses of total 16 make the turn, and narrow pulses approach them", turned == TURN
         width = sp.Symbol("epsilon", positive=True)
         pulses = sum(
             (
@@ -188,7 +174,7 @@ def isometry():
             sp.zeros(3, 1),
         ).subs(T, 1)
         reached = pulses.applyfunc(lambda x: sp.limit(x, width, 0))
-        yield "as their width goes to 0", reached == TURN
+        yield "the pulses reach the target as their width goes to 0", reached == TURN
 
     return Conditional(
         argument,
@@ -199,7 +185,7 @@ def isometry():
 
 
 @claim("(1.13)", "the dual problem: least norm of h = l'Φ(tf, τ)b on l'c = 1", verdict="holds")
-def dual_problem():
+def dual_problem() -> Evidence:
     def argument() -> Steps:
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
         square = sp.integrate(sp.expand((multipliers.T * impulse_response())[0] ** 2), (s, 0, T))
@@ -228,7 +214,7 @@ def dual_problem():
     "Krasovskii's principle: a unique u of norm 1/ρ0 with the largest ∫h0 u is optimal",
     verdict="holds",
 )
-def krasovskii_principle():
+def krasovskii_principle() -> Evidence:
     def argument() -> Steps:
         p, q = sp.S(3), R(3, 2)
         size = T1 * sp.Abs(v1) ** p + T2 * sp.Abs(v2) ** p
@@ -237,10 +223,10 @@ def krasovskii_principle():
         paired = (T1 * v1 * best[0] + T2 * v2 * best[1]).subs(numbers)
         yield "u = ρ0^(−p) |h0|^(p−1) sign h0 has ∫ h0 u = 1 (h0 of two levels, p = 3)", paired == 1
         powers = sum(n * sp.Abs(u) ** q for n, u in zip(lengths, best, strict=True)).subs(numbers)
-        yield "and ‖u‖ = 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
+        yield "its norm is 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
         paired = energy.stationary()[1].T * moments_of(energy.minimum_energy_control())
         yield "q = 2: ∫ h0 u* = 1", vanishes(paired[0] - 1)
-        yield "and u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
+        yield "u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
         h = dual_function_of(PEAK_DUAL)
         signs = [sp.sign(h.subs(s, x)) for x in (R(1, 8), R(1, 2), R(7, 8))]
         yield (
@@ -260,10 +246,9 @@ def krasovskii_principle():
     "for J = ‖u‖ in L_q the problem is solved by (1.13) and then (1.14)",
     verdict="conditional",
     remark="True for 1 < q ≤ ∞, where (1.14) has one solution. For q = 1 it has many (or none in L_1) and "
-    "does "
-    "not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
+    "does not fix the amplitudes: the moments are needed as well, as the paper does before (4.10).",
 )
-def two_problems_in_turn():
+def two_problems_in_turn() -> Evidence:
     def argument() -> Steps:
         h = dual_function_of(PEAK_DUAL)
         yield (
@@ -279,6 +264,9 @@ def two_problems_in_turn():
         yield "q = 1, unit turn: one impulse of 16 at τ = 0 has ∫ h0 u = 1", 16 * h.subs(s, 1) == 1
         yield "and norm 1/ρ0 = 16", 1 / peak_of(h, sp.S.One) == 16
         missed = drive(kick(sp.zeros(3, 1), sp.Integer(16)), sp.S.One, sp.S.Zero)
-        yield "but takes the craft to (8, 16, 16), not to (1, 0, 0)", missed == sp.Matrix([8, 16, 16])
+        yield (
+            "that impulse takes the craft to (8, 16, 16), not to (1, 0, 0)",
+            missed == sp.Matrix([8, 16, 16]),
+        )
 
     return Conditional(argument, counterexample=counterexample)

@@ -3,13 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN
 from pontryagin.triple_integrator.derivation.channel import t, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
@@ -42,10 +36,10 @@ T1, T2 = lengths
 @claim(
     "before (1.15)", "ψ(τ) = Φ'(tf, τ) l, whose third component is h; (1.15): dψ/dt = −A'ψ", verdict="holds"
 )
-def adjoint_vector():
+def adjoint_vector() -> Evidence:
     key = r"\boldsymbol{\psi}(\tau)"
 
-    def derived():
+    def derived() -> Sides:
         names = sp.symbols("k_1:4")
         # Integrate dpsi/dt = -A' psi backwards from psi(tf) = l: psi1 const, psi2' = -psi1, psi3' = -psi2.
         first = multipliers[0]
@@ -63,8 +57,8 @@ def adjoint_vector():
 
 
 @claim("(1.15)", "adjoint equation dψ/dt = −A'ψ", verdict="holds")
-def adjoint_equation():
-    def derived():
+def adjoint_equation() -> Evidence:
+    def derived() -> Sides:
         psi = transition(tf - t).T * multipliers
         return {r"\dot{\boldsymbol{\psi}}(t)": psi.diff(t)}
 
@@ -77,8 +71,8 @@ def adjoint_equation():
 
 
 @claim("(1.16)", "its final condition: ψ'(tf) c = l'c = 1", verdict="holds")
-def adjoint_end():
-    def derived():
+def adjoint_end() -> Evidence:
+    def derived() -> Sides:
         psi = (transition(tf - t).T * multipliers).subs(t, tf)
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
         return {r"\boldsymbol{\psi}^T(t_f)c": sp.simplify((psi.T * c)[0].subs(multipliers[2], third))}
@@ -87,11 +81,11 @@ def adjoint_end():
 
 
 @claim("(1.17)", "the dual problem in the costate; ψ'b = ψ3 = h", verdict="holds")
-def dual_problem_in_the_costate():
+def dual_problem_in_the_costate() -> Evidence:
     key = r"\boldsymbol{\psi}^T(t)\mathbf{b}"
     psi = transition(tf - t).T * multipliers
 
-    def derived():
+    def derived() -> Sides:
         return {key: (multipliers.T * impulse_response())[0].subs(s, tf - t)}
 
     return Equality(
@@ -103,7 +97,7 @@ def dual_problem_in_the_costate():
 
 
 @claim("(1.18)", "problem 1: J = ‖u‖² in L_2, the integral of u²", verdict="holds")
-def problem_1():
+def problem_1() -> Evidence:
     return Equality(
         {"J(u)": T1 * v1**2 + T2 * v2**2},
         lambda: {"J(u)": conjugate_norm(sp.S(2)) ** 2},
@@ -113,7 +107,7 @@ def problem_1():
 
 
 @claim("(1.19)", "problem 2: J = ‖u‖ in L_∞, the essential maximum of |u|", verdict="holds")
-def problem_2():
+def problem_2() -> Evidence:
     return Equality(
         {"J(u)": sp.Max(sp.Abs(v1), sp.Abs(v2))},
         lambda: {"J(u)": conjugate_norm(sp.oo)},
@@ -123,16 +117,16 @@ def problem_2():
 
 
 @claim("after (1.19)", "problem 2 finds the least u0 for which (0.7) can be kept", verdict="holds")
-def least_bound():
+def least_bound() -> Evidence:
     def argument() -> Steps:
         yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
-        yield "and nothing less: h proves it", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+        yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
 
     return Proof(argument)
 
 
 @claim("(1.20)", "problem 3: J = ‖u‖ in L_1, the total impulse", verdict="holds")
-def problem_3():
+def problem_3() -> Evidence:
     return Equality(
         {"J(u)": T1 * sp.Abs(v1) + T2 * sp.Abs(v2)},
         lambda: {"J(u)": conjugate_norm(sp.S.One)},
@@ -148,23 +142,26 @@ def problem_3():
     "Otherwise no integrable control attains the infimum, which belongs to impulses: so already in example "
     "1.",
 )
-def minimiser_in_l1():
+def minimiser_in_l1() -> Evidence:
     def argument() -> Steps:
         times, sizes = sp.symbols("d_1:4", positive=True), sp.symbols("u_1:4", positive=True)
         pieces = list(zip(times, sizes, strict=True))
         spent = sum(duration * size for duration, size in pieces)
         yield "a control of one sign spends c3 (three pieces)", vanishes(piecewise_moments(pieces)[2] - spent)
         bound = impulse_bound(sp.Matrix([0, 0, 1]), sp.Matrix([0, 0, 1]), sp.S.One)
-        yield "and h = 1 proves that |c3| is the least: attained", bound == 1
+        yield "h = 1 proves that no control spends less than |c3|", bound == 1
 
     def counterexample() -> Steps:
         h = dual_function_of(IMPULSE_DUAL)
         room = sp.factor(1 - 256 * h**2)
         yield (
-            "example 1: 1 = ∫ h u with |h| < 1/16 but at three instants",
+            "example 1: 1 = ∫ h u with |h| < 1/16 except at three instants",
             set(sp.Poly(room, s).real_roots()) == {0, R(1, 2), 1},
         )
-        yield "so ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
-        yield "while 16 is approached", three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4))) == TURN
+        yield "hence ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
+        yield (
+            "narrow pulses approach 16",
+            three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4))) == TURN,
+        )
 
     return Conditional(argument, counterexample=counterexample)

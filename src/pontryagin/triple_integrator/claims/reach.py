@@ -1,4 +1,4 @@
-"""After (4.10), and the conclusion: where the three impulses are the answer, and where not."""
+"""Section 4 after (4.10), and the conclusion: where the three impulses are optimal and where not."""
 
 import sympy as sp
 
@@ -6,18 +6,17 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Refutation,
+    Sides,
     Steps,
     vanishes,
 )
 from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
-from pontryagin.triple_integrator.derivation.duality import (
-    impulse_bound,
-    piecewise_moments,
-)
+from pontryagin.triple_integrator.derivation.duality import impulse_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c
 
 claim = Page("Gorelov & Morozova 2012")
@@ -40,7 +39,10 @@ def pulse_certificate() -> Steps:
         moments == sp.Matrix([R(13, 384), R(1, 4), 1]),
     )
     yield "its total impulse is 1", sum(duration * abs(level) for duration, level in PULSE) == 1
-    yield "and none is smaller: h = 1", impulse_bound(sp.Matrix([0, 0, 1]), moments, sp.S.One) == 1
+    yield (
+        "no total impulse is smaller: the bound by h = 1",
+        impulse_bound(sp.Matrix([0, 0, 1]), moments, sp.S.One) == 1,
+    )
     impulses = impulses_for(moments)
     yield "(4.10) reaches the same state", three_impulses(impulses) == moments
     yield "at the price 59/48", sum(abs(a) for a in impulses) == R(59, 48)
@@ -53,12 +55,12 @@ def pulse_certificate() -> Steps:
     remark="True where a0, am, aT ≥ 0. For u = 4 on [5/8, 7/8], T = 1, F = −11/24: (4.10) pays 59/48, and "
     "1/ρ0 = 1, not |F|/T² = 11/24, which no control attains.",
 )
-def sum_of_the_impulses():
+def sum_of_the_impulses() -> Evidence:
     def argument() -> Steps:
         yield "a0 + am + aT = s0 F/T²", vanishes(chebyshev.total() - sign * F / T**2)
         bound = 1 / chebyshev.minimal_multipliers()[chebyshev.signed_norm]
         yield (
-            "which is the bound that h0 proves, and their cost where none is negative",
+            "that is the bound by h0, and their cost where none is negative",
             vanishes(bound - F / T**2),
         )
 
@@ -82,19 +84,19 @@ def sum_of_the_impulses():
     verdict="conditional",
     remark="True where a0 > 0. For c = (0, 1, 20), T = 1, F = 12 > 0, but the first impulse of (4.10) is −1.",
 )
-def sign_of_the_first_impulse():
+def sign_of_the_first_impulse() -> Evidence:
     def argument() -> Steps:
         weight = sp.Symbol("a", positive=True)
         for s0 in (1, -1):
             yield f"the first impulse s0 a0 has the sign s0 = {s0} for a0 > 0", sp.sign(s0 * weight) == s0
         first = chebyshev.amplitudes()[a0]
-        yield "where a0 = s0 (4c1 − Tc2)/T²", vanishes(first - sign * (4 * c1 - T * c2) / T**2)
+        yield "a0 = s0 (4c1 − Tc2)/T²", vanishes(first - sign * (4 * c1 - T * c2) / T**2)
 
     def counterexample() -> Steps:
         moments = sp.Matrix([0, 1, 20])
         impulses = impulses_for(moments)
         yield "c = (0, 1, 20), T = 1: (4.10) gives −1, 4, 17", impulses == (-1, 4, 17)
-        yield "which reach the target", three_impulses(impulses) == moments
+        yield "those impulses reach the target", three_impulses(impulses) == moments
         yield "with F = 12 > 0", F.subs({T: 1, **dict(zip(c, moments, strict=True))}) == 12
 
     return Conditional(argument, counterexample=counterexample)
@@ -105,11 +107,11 @@ def sign_of_the_first_impulse():
     "if F = 0, the free motion u = 0 meets the boundary conditions",
     verdict="false",
     remark="u = 0 does so only where c = 0. F = 0 is a plane of c on which the manoeuvre is as hard as "
-    "elsewhere: "
-    "c = (1, 2, 0), T = 1 has F = 0, the free motion stays at 0, and every control costs at least 2. There "
-    "a0 + am + aT = 0, so the three cannot all be positive, and other families of impulses are optimal.",
+    "elsewhere: c = (1, 2, 0), T = 1 has F = 0, the free motion stays at 0, and every control costs at least "
+    "2. There a0 + am + aT = 0, so the three cannot all be positive, and other families of impulses are "
+    "optimal.",
 )
-def free_motion_where_f_is_zero():
+def free_motion_where_f_is_zero() -> Evidence:
     def counterexample() -> Steps:
         target = sp.Matrix([1, 2, 0])
         yield "c = (1, 2, 0), T = 1: F = 0", F.subs({T: 1, **dict(zip(c, target, strict=True))}) == 0
@@ -129,12 +131,10 @@ def free_motion_where_f_is_zero():
     "this completes the solution of problem 3 for arbitrary ends",
     verdict="false",
     remark="The three impulses are optimal only where a0, am, aT ≥ 0. For u = 4 on [5/8, 7/8], T = 1, they "
-    "cost "
-    "59/48 against 1. Complete: any u ≥ 0 in the moment cone; 0, T/2, T on the Chebyshev cone; two "
-    "impulses, one "
-    "of them at an end, in the rest.",
+    "cost 59/48 against 1. Complete: any u ≥ 0 in the moment cone; 0, T/2, T on the Chebyshev cone; two "
+    "impulses, one of them at an end, in the rest.",
 )
-def complete_solution():
+def complete_solution() -> Evidence:
     return Refutation(pulse_certificate)
 
 
@@ -143,10 +143,10 @@ def complete_solution():
     "for the ends of example 1 the total impulse is R = 1/ρ0 = 16γ_T/T²",
     verdict="holds",
 )
-def impulse_of_the_turn():
+def impulse_of_the_turn() -> Evidence:
     turned = {c1: turn, c2: 0, c3: 0, sign: 1}
 
-    def derived():
+    def derived() -> Sides:
         return {"R": sp.expand(sum(sp.Abs(value.subs(turned)) for value in chebyshev.amplitudes().values()))}
 
     def argument() -> Steps:
@@ -155,14 +155,14 @@ def impulse_of_the_turn():
         reached = three_impulses((amplitudes[0], -amplitudes[1], amplitudes[2]), T)
         yield "they make the turn", vanishes(reached - sp.Matrix([turn, 0, 0]))
         bound = impulse_bound(sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]), sp.S.One)
-        yield "and 16 is a lower bound for γ = T = 1", bound == 16
+        yield "16 is a lower bound for γ = T = 1", bound == 16
 
     return Proof(argument, Equality({"R": 16 * turn / T**2}, derived))
 
 
 @claim("end of section 4: half", "that is half of what example 2's programme spends", verdict="holds")
-def half_of_example_2():
-    def derived():
+def half_of_example_2() -> Evidence:
+    def derived() -> Sides:
         bang_bang = sum(
             duration * abs(level) for duration, level in [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
         )
@@ -180,5 +180,5 @@ def half_of_example_2():
     "with (2.3) corrected; q = ∞ yes, as a structure and an equation to solve; q = 1 only on the cone "
     "a0, am, aT ≥ 0.",
 )
-def general_solutions():
+def general_solutions() -> Evidence:
     return Refutation(pulse_certificate)

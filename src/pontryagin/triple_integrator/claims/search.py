@@ -7,8 +7,10 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -16,14 +18,7 @@ from pontryagin.triple_integrator.claims.peak import two_switches
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.duality import piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c
-from pontryagin.triple_integrator.derivation.parabola import (
-    alpha,
-    apex,
-    half_width,
-    level,
-    price,
-    slope,
-)
+from pontryagin.triple_integrator.derivation.parabola import alpha, apex, half_width, level, price, slope
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -41,7 +36,7 @@ def cubic() -> sp.Expr:
 
 
 @claim("after (3.14): ∂/∂τ_m", "derivative with respect to τ_m", verdict="holds")
-def derivative_by_apex():
+def derivative_by_apex() -> Evidence:
     key = r"\partial\tilde F/\partial\tau_m"
     printed = alpha * (apex**2 - conjugate**2) + 2 * price * (c2 - conjugate * c3)
     return Equality(
@@ -53,7 +48,7 @@ def derivative_by_apex():
 
 
 @claim("after (3.14): ∂/∂α_m", "derivative with respect to α_m", verdict="holds")
-def derivative_by_curvature():
+def derivative_by_curvature() -> Evidence:
     key = r"\partial\tilde F/\partial\alpha_m"
     printed = (apex**3 + conjugate**3) / 3 - T * half_width**2 + R(8, 3) * half_width**3 + price / alpha**2
     return Equality(
@@ -66,7 +61,7 @@ def derivative_by_curvature():
 
 
 @claim("after (3.14): ∂/∂Δ_m", "derivative with respect to Δ_m", verdict="holds")
-def derivative_by_width():
+def derivative_by_width() -> Evidence:
     key = r"\partial\tilde F/\partial\Delta_m"
     printed = 2 * half_width * (4 * alpha * half_width - alpha * T - price * c3)
     return Equality(
@@ -78,7 +73,7 @@ def derivative_by_width():
 
 
 @claim("before (3.15)", "the three conditions with τ_m + (T − τ_m) = T", verdict="holds")
-def transformed_conditions():
+def transformed_conditions() -> Evidence:
     printed = {
         r"\partial\tilde F/\partial\tau_m": alpha * T * (2 * apex - T) + 2 * price * (c2 - (T - apex) * c3),
         r"\partial\tilde F/\partial\alpha_m": cubic() + price / alpha**2,
@@ -87,7 +82,7 @@ def transformed_conditions():
         - price * c3,
     }
 
-    def derived():
+    def derived() -> Sides:
         by_apex, by_curvature, by_width = parabola.gradient().values()
         return dict(zip(printed, (by_apex, by_curvature, by_width / (2 * half_width)), strict=True))
 
@@ -102,7 +97,7 @@ def transformed_conditions():
 
 
 @claim("(3.15)", "stationary in τ_m, with λ = α_m λ~", verdict="holds")
-def stationary_in_the_apex():
+def stationary_in_the_apex() -> Evidence:
     printed = T * (2 * apex - T) + 2 * slope * (c2 - (T - apex) * c3)
     return Equality(
         {"0": printed},
@@ -112,7 +107,7 @@ def stationary_in_the_apex():
 
 
 @claim("(3.16)", "stationary in α_m", verdict="holds")
-def stationary_in_the_curvature():
+def stationary_in_the_curvature() -> Evidence:
     return Equality(
         {"0": cubic() + slope / alpha},
         lambda: {"0": parabola.stationarity()[1]},
@@ -122,7 +117,7 @@ def stationary_in_the_curvature():
 
 
 @claim("(3.17)", "stationary in Δ_m", verdict="holds")
-def stationary_in_the_width():
+def stationary_in_the_width() -> Evidence:
     return Equality(
         {"0": 4 * half_width - T - slope * c3},
         lambda: {"0": parabola.stationarity()[2]},
@@ -131,7 +126,7 @@ def stationary_in_the_width():
 
 
 @claim("after (3.17): τ_m", "τ_m from (3.15), in two forms", verdict="holds")
-def apex_on_the_curve():
+def apex_on_the_curve() -> Evidence:
     printed = {
         r"\tau_m": (T**2 - 2 * slope * (c2 - T * c3)) / (2 * (T + slope * c3)),
         r"\tau_m ": (T / 2 - slope * (c2 - T * c3) / T) / (1 + slope * c3 / T),
@@ -146,7 +141,7 @@ def apex_on_the_curve():
 
 
 @claim("(3.18)", "Δ_m from (3.17)", verdict="holds")
-def width_on_the_curve():
+def width_on_the_curve() -> Evidence:
     return Equality(
         {r"\Delta_m": (T + slope * c3) / 4},
         lambda: {r"\Delta_m": parabola.curve()[half_width]},
@@ -155,11 +150,11 @@ def width_on_the_curve():
 
 
 @claim("(3.19)", "t1 and t2 as functions of λ~", verdict="holds")
-def switches_on_the_curve():
+def switches_on_the_curve() -> Evidence:
     middle = (T**2 - 2 * slope * (c2 - T * c3)) / (2 * (T + slope * c3))
     printed = {"t_1": middle - (T + slope * c3) / 4, "t_2": middle + (T + slope * c3) / 4}
 
-    def derived():
+    def derived() -> Sides:
         curve = parabola.curve()
         return {"t_1": curve[apex] - curve[half_width], "t_2": curve[apex] + curve[half_width]}
 
@@ -177,12 +172,11 @@ def switches_on_the_curve():
     "the problem (3.6) is now a one-dimensional search in λ~",
     verdict="conditional",
     remark="True for the global minimum of |S1 − S2 + S3| (with the modulus) over the λ~ with T + λ~c3 > 0, "
-    "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 "
-    "puts t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. "
-    "And "
+    "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 puts "
+    "t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. And "
     "for c2 = c3 = 0 (example 2) every λ~ gives the same t1, t2: λ~ is not found at all.",
 )
-def one_dimensional_search():
+def one_dimensional_search() -> Evidence:
     def argument() -> Steps:
         v, early, late = sp.symbols("v a b", positive=True)
         moments = two_switches(v, early, late, T)
@@ -194,9 +188,9 @@ def one_dimensional_search():
             "the optimum of level v with switches a < b lies on the curve (3.19): t1 = a",
             vanishes(first - early),
         )
-        yield "and t2 = b, both at λ~ = −1/v", vanishes(second - late)
+        yield "there t2 = b, both at λ~ = −1/v", vanishes(second - late)
         width = sp.cancel(T + (slope * c3).subs(at).subs(slope, -1 / v))
-        yield "where T + λ~c3 = 2(b − a) > 0", vanishes(width - 2 * (late - early))
+        yield "there T + λ~c3 = 2(b − a) > 0", vanishes(width - 2 * (late - early))
 
     def counterexample() -> Steps:
         moments = sp.Matrix([0, 0, 1])
@@ -234,11 +228,11 @@ def one_dimensional_search():
     "τ_m* and Δ_m* are half the sum and half the difference of t2* and t1*",
     verdict="holds",
 )
-def vertex_from_the_switches():
+def vertex_from_the_switches() -> Evidence:
     t1, t2 = parabola.t1, parabola.t2
     printed = {r"\tau_m^*": (t2 + t1) / 2, r"\Delta_m^*": (t2 - t1) / 2}
 
-    def derived():
+    def derived() -> Sides:
         found = sp.solve([apex - half_width - t1, apex + half_width - t2], [apex, half_width], dict=True)[0]
         return {r"\tau_m^*": found[apex], r"\Delta_m^*": found[half_width]}
 
@@ -256,7 +250,7 @@ def vertex_from_the_switches():
     remark="Printed: α_m = −λ~[…]. Right: α_m = −λ~[…]⁻¹, from (3.16). In example 2 with γ = T = 1 the print "
     "gives 1/512 instead of 1/2.",
 )
-def curvature_from_the_search():
+def curvature_from_the_search() -> Evidence:
     key = r"\alpha_m"
     numbers = {T: 1, apex: R(1, 2), half_width: R(1, 4), slope: -R(1, 32)}
 
@@ -284,10 +278,9 @@ def curvature_from_the_search():
     "(3.15) to (3.17) have an analytic solution, too bulky to print",
     verdict="holds",
     remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + "
-    "4c3³v "
-    "− c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
+    "4c3³v − c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
 )
-def closed_form():
+def closed_form() -> Evidence:
     def argument() -> Steps:
         quartic = sp.Poly(parabola.level_polynomial(), level)
         yield (
@@ -301,7 +294,7 @@ def closed_form():
             vanishes(quartic.as_expr().subs(level, v).subs(at)),
         )
         yield (
-            "and −v for those of its negative",
+            "−v is a root for the moments of its negative",
             vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
         )
         remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3

@@ -3,13 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import (
-    Conditional,
-    Equality,
-    Proof,
-    Steps,
-    vanishes,
-)
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import (
     drive,
@@ -22,14 +16,7 @@ from pontryagin.triple_integrator.derivation.channel import (
 )
 from pontryagin.triple_integrator.derivation.duality import piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
-from pontryagin.triple_integrator.derivation.parabola import (
-    alpha,
-    apex,
-    beta,
-    half_width,
-    t1,
-    t2,
-)
+from pontryagin.triple_integrator.derivation.parabola import alpha, apex, beta, half_width, t1, t2
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -41,10 +28,10 @@ conjugate = T - apex
 
 
 @claim("(3.8)", "vertex form of the parabola", verdict="holds")
-def vertex_form():
+def vertex_form() -> Evidence:
     printed = alpha * (tau - apex) ** 2 - beta
 
-    def derived():
+    def derived() -> Sides:
         inverse = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
         return {r"\psi_3^*(\tau)": parabola.parabola().subs(tf, T).subs(inverse)}
 
@@ -56,10 +43,10 @@ def vertex_form():
 
 
 @claim("after (3.8): vertex", "τ_m = tf + l20/l10 = (t1 + t2)/2", verdict="holds")
-def apex_of_the_parabola():
+def apex_of_the_parabola() -> Evidence:
     key, other = r"\tau_m", r"t_f + l_{20}/l_{10}"
 
-    def derived():
+    def derived() -> Sides:
         ratio = parabola.multipliers_from_zeros()
         return {key: parabola.vertex()[apex], other: sp.cancel(tf + ratio[1] / ratio[0])}
 
@@ -71,7 +58,7 @@ def apex_of_the_parabola():
 
 
 @claim("after (3.8): β_m", "β_m = −ψ3*(τ_m)", verdict="holds")
-def depth_of_the_parabola():
+def depth_of_the_parabola() -> Evidence:
     printed = -parabola.parabola().subs(tau, tf + l2 / l1)
     return Equality(
         {r"\beta_m": printed},
@@ -86,10 +73,9 @@ def depth_of_the_parabola():
     verdict="conditional",
     remark="α_m and β_m do have one sign, and c → −c changes it; but for a given c the sign is not free. For "
     "c = (−γ, 0, 0) condition (3.13) reads −2γα_m = 1: no α_m > 0. One has to solve for c and −c, or "
-    "minimise "
-    "|F| instead of F in (3.14).",
+    "minimise |F| instead of F in (3.14).",
 )
-def convex_parabola():
+def convex_parabola() -> Evidence:
     def argument() -> Steps:
         width = sp.Symbol("Delta", positive=True)
         depth = sp.solve(parabola.vertex_form().subs(tau, apex + width), beta)[0]
@@ -111,13 +97,13 @@ def convex_parabola():
         best = area.subs({apex: R(1, 2), half_width: R(1, 4)})
         lower_still = area.subs({apex: R(1, 2), half_width: R(1, 8)})
         yield "with α_m = −1/2 its F is −1/32", best == -R(1, 32)
-        yield "and is not the least F, but the least |F|", lower_still < best
+        yield "that is not the least F, but the least |F|", lower_still < best
 
     return Conditional(argument, counterexample=counterexample)
 
 
 @claim("after (3.8): t1, t2", "the zeros are τ_m ∓ √(β_m/α_m) = τ_m ∓ Δ_m", verdict="holds")
-def zeros_of_the_parabola():
+def zeros_of_the_parabola() -> Evidence:
     root = sp.sqrt(beta / alpha)
     return Equality(
         {"t_1": apex - root, "t_2": apex + root},
@@ -127,7 +113,7 @@ def zeros_of_the_parabola():
 
 
 @claim("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T", verdict="holds")
-def time_from_zero():
+def time_from_zero() -> Evidence:
     def argument() -> Steps:
         shift, force = sp.symbols("t_s f_0", real=True)
         h = parabola.parabola()
@@ -147,11 +133,11 @@ def time_from_zero():
 
 
 @claim("(3.9)", "vertex form from the multipliers (t0 = 0)", verdict="holds")
-def vertex_from_multipliers():
+def vertex_from_multipliers() -> Evidence:
     keys = (r"\alpha_m", r"2\alpha_m\tau_m", r"\alpha_m\tau_m^2 - \beta_m")
     printed = dict(zip(keys, (l1 / 2, l1 * T + l2, l1 * T**2 / 2 + l2 * T + l3), strict=True))
 
-    def derived():
+    def derived() -> Sides:
         found = {symbol: value.subs(tf, T) for symbol, value in parabola.vertex().items()}
         sides = (alpha, 2 * alpha * apex, alpha * apex**2 - beta)
         return dict(zip(keys, (side.subs(found) for side in sides), strict=True))
@@ -165,7 +151,7 @@ def vertex_from_multipliers():
 
 
 @claim("(3.10)", "multipliers from the vertex form", verdict="holds")
-def multipliers_from_the_vertex():
+def multipliers_from_the_vertex() -> Evidence:
     printed = {
         "l_{10}": 2 * alpha,
         "l_{20}": 2 * alpha * (apex - T),
@@ -180,7 +166,7 @@ def multipliers_from_the_vertex():
 
 
 @claim("(3.11)", "the condition l'c = 1 in the vertex form", verdict="holds")
-def condition_on_the_vertex():
+def condition_on_the_vertex() -> Evidence:
     printed = 2 * alpha * c1 + 2 * alpha * (apex - T) * c2 + (alpha * (apex - T) ** 2 - beta) * c3
     return Equality(
         {"1": printed},

@@ -1,6 +1,7 @@
 """Section 3, (3.5) to (3.7): a dual function given by its two zeros."""
 
 import itertools
+from typing import Any
 
 import sympy as sp
 
@@ -8,8 +9,10 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     LinearSystem,
     Proof,
+    Sides,
     Steps,
     vanishes,
 )
@@ -22,20 +25,10 @@ from pontryagin.triple_integrator.claims.peak import (
     v,
 )
 from pontryagin.triple_integrator.derivation import parabola
-from pontryagin.triple_integrator.derivation.channel import (
-    t0,
-    tau,
-    tf,
-)
+from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
 from pontryagin.triple_integrator.derivation.duality import peak_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
-from pontryagin.triple_integrator.derivation.parabola import (
-    apex,
-    lower,
-    t1,
-    t2,
-    upper,
-)
+from pontryagin.triple_integrator.derivation.parabola import apex, lower, t1, t2, upper
 
 claim = Page("Gorelov & Morozova 2012")
 
@@ -53,7 +46,7 @@ conjugate = T - apex
     remark="True unless the optimum is a constant control; where it has one switch only, one zero lies at an "
     "end. For c = (1/6, 1/2, 1), T = 1 the optimum is u = 1, and no h that changes sign is minimal.",
 )
-def zeros_in_the_interval():
+def zeros_in_the_interval() -> Evidence:
     def argument() -> Steps:
         moments = two_switches(v, first, second, T)
         yield (
@@ -80,14 +73,14 @@ def zeros_in_the_interval():
 
 
 @claim("before (3.5): system", "two equations for the zeros, and l'c = 1", verdict="holds")
-def system_for_the_multipliers():
+def system_for_the_multipliers() -> Evidence:
     printed = [
         (tf - t1) ** 2 / 2 * l1 + (tf - t1) * l2 + l3,
         (tf - t2) ** 2 / 2 * l1 + (tf - t2) * l2 + l3,
         c1 * l1 + c2 * l2 + c3 * l3 - 1,
     ]
 
-    def derived():
+    def derived() -> list[Any]:
         # A quadratic with these zeros is a multiple of (tau - t1)(tau - t2).
         height = sp.Symbol("k")
         matching = sp.Poly(
@@ -111,7 +104,7 @@ def denominator() -> sp.Expr:
 
 
 @claim("(3.5)", "multipliers from the zeros", verdict="holds")
-def multipliers_from_the_zeros():
+def multipliers_from_the_zeros() -> Evidence:
     c0 = denominator()
     printed = {
         "l_{10}": 1 / c0,
@@ -127,7 +120,7 @@ def multipliers_from_the_zeros():
 
 
 @claim("after (3.5): c0", "the denominator c0", verdict="holds")
-def denominator_of_the_multipliers():
+def denominator_of_the_multipliers() -> Evidence:
     return Equality(
         {"c_0": denominator()},
         lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]},
@@ -142,7 +135,7 @@ def denominator_of_the_multipliers():
     remark="The paper assumes that the two bounds are not active. They may be; the claim holds all the same, "
     "for a zero outside only adds to S1 − S2 + S3. The order t1 < t2 must be kept.",
 )
-def bounds_may_be_dropped():
+def bounds_may_be_dropped() -> Evidence:
     def argument() -> Steps:
         outside, other = sp.symbols("x y", positive=True)
 
@@ -165,11 +158,14 @@ def bounds_may_be_dropped():
             "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
             vanishes(extra + 2 * between(early, late, early, late)),
         )
-        yield "and that is positive", sp.expand(extra).is_positive
+        yield "that integral is positive", sp.expand(extra).is_positive
         early, late = first, T + outside
         inside = between(early, late, 0, early) - between(early, late, early, T)
         extra = signed(early, late) - inside
-        yield "t2 after tf: likewise", vanishes(extra + 2 * between(early, late, T, late))
+        yield (
+            "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
+            vanishes(extra + 2 * between(early, late, T, late)),
+        )
         early, late = -outside, T + other
         extra = signed(early, late) + between(early, late, 0, T)
         ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
@@ -185,7 +181,7 @@ def bounds_may_be_dropped():
     remark="Where the optimum has fewer than two switches the minimum lies on the boundary: at t1 = t0 or "
     "t2 = tf for one switch, at both for a constant control.",
 )
-def least_signed_area():
+def least_signed_area() -> Evidence:
     def argument() -> Steps:
         h = (tau - first) * (tau - second)
         signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
@@ -209,11 +205,11 @@ def least_signed_area():
 
 
 @claim("after (3.6): limits", "the three pieces are [t0, t1], [t1, t2], [t2, tf]", verdict="holds")
-def limits_of_the_pieces():
+def limits_of_the_pieces() -> Evidence:
     keys = (r"b_1 - a_1", r"b_2 - a_2", r"b_3 - a_3")
     printed = dict(zip(keys, (t1 - t0, t2 - t1, tf - t2), strict=True))
 
-    def derived():
+    def derived() -> Sides:
         cuts = (t0, *sorted((t1, t2), key=str), tf)
         return dict(zip(keys, (b - a for a, b in itertools.pairwise(cuts)), strict=True))
 
@@ -227,7 +223,7 @@ def limits_of_the_pieces():
 
 
 @claim("(3.7)", "S_k in terms of its limits and the multipliers", verdict="holds")
-def piece_of_the_integral():
+def piece_of_the_integral() -> Evidence:
     a, b = lower, upper
     printed = (b - a) * (
         (l1 * tf**2 / 2 + l2 * tf + l3) - (l1 * tf + l2) * (b + a) / 2 + l1 * (b**2 + b * a + a**2) / 6

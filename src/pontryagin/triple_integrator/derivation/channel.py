@@ -1,4 +1,4 @@
-"""The channel as the paper sets it up: rotation about an axis, state equations, transfers; (0.1) to (1.10).
+"""The channel of the paper: rotation about an axis, state equations and transfers, (0.1) to (1.10).
 
 Times are the paper's: t runs from t0 to tf, tau is the time of integration, T = tf - t0.
 """
@@ -7,7 +7,8 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.triple_integrator.derivation.model import CHAIN, INPUT, T, c, impulse_response, s, transition
+from pontryagin.triple_integrator.derivation.energy import minimum_energy_control
+from pontryagin.triple_integrator.derivation.model import CHAIN, INPUT, T, c, s, transition
 
 t, t0, tf, tau = sp.symbols("t t_0 t_f tau", real=True)
 initial = sp.Matrix(sp.symbols("x_10 x_20 x_30", real=True))
@@ -17,14 +18,14 @@ gamma, omega, epsilon, torque, disturbance, control = (
 )
 
 
-def cross(v: sp.Matrix) -> sp.Matrix:
-    """The matrix of the vector product with v."""
+def skew(v: sp.Matrix) -> sp.Matrix:
+    """[v], the matrix with [v] b = v x b."""
     return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
 def rotation(angle: sp.Expr, axis: sp.Matrix) -> sp.Matrix:
     """Rotation by an angle about a unit axis (Rodrigues)."""
-    k = cross(axis)
+    k = skew(axis)
     return sp.eye(3) + sp.sin(angle) * k + (1 - sp.cos(angle)) * k**2
 
 
@@ -47,7 +48,7 @@ def euler_acceleration(applied: sp.Expr, external: sp.Expr) -> sp.Expr:
 
 
 def drive(state: sp.Matrix, duration: sp.Expr, program: sp.Expr, force: sp.Expr = sp.S.Zero) -> sp.Matrix:
-    """The state after driving with the control `program`, a function of `tau` from 0: (0.6) integrated."""
+    """The state after a duration under the control `program` of `tau`, which runs from 0, by (0.6)."""
     clock = sp.Dummy("t", positive=True)
 
     def integral(rate: sp.Expr) -> sp.Expr:
@@ -65,16 +66,14 @@ def kick(state: sp.Matrix, impulse: sp.Expr) -> sp.Matrix:
 
 
 def required_moments(force: sp.Expr = sp.S.Zero) -> sp.Matrix:
-    """c = x_f - Phi x_0 - g in terms of the ends, by leaving the channel to itself; (1.7), (1.10)."""
+    """c = x_f - Phi x_0 - g in terms of the ends, from the motion without control; (1.7), (1.10)."""
     return (final - drive(initial, T, sp.S.Zero, force)).applyfunc(sp.expand)
 
 
 @cache
 def transfer(force: sp.Expr = sp.S.Zero) -> sp.Matrix:
-    """A solved manoeuvre: the state at the time tau after t0 under the least-energy programme."""
-    h = impulse_response()
-    gramian = (h * h.T).applyfunc(lambda entry: sp.integrate(entry, (s, 0, T)))
-    program = (c.T * gramian.inv() * h)[0].subs(s, T - tau)
+    """The state at the time tau after t0 under the least-energy programme between the given ends."""
+    program = minimum_energy_control().subs(s, T - tau)
     clock = sp.Dummy("t", positive=True)
     state = drive(initial, clock, program, force).subs(clock, tau)
     return state.subs(dict(zip(c, required_moments(force), strict=True)))

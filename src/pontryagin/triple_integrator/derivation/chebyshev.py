@@ -5,7 +5,7 @@ paper     here                meaning
 T_2       chebyshev           2 z^2 - 1, in the paper's time with t0 = 0
 rho~_0    signed_norm         s0 rho_0
 F         F                   16 c1 - 8 T c2 + T^2 c3
-a0 am aT  amplitudes          impulses at 0, T/2 and T, signed so that all are to be positive
+a0 am aT  amplitudes          impulses at 0, T/2 and T, with signs such that all should be positive
 """
 
 from functools import cache
@@ -47,7 +47,7 @@ def dual_in_time() -> sp.Expr:
 
 @cache
 def matching() -> tuple[sp.Expr, ...]:
-    """Coefficients of tau^2, tau and 1 in h0 - rho~ T_2, each to vanish, divided to end in -rho~."""
+    """Coefficients of tau^2, tau and 1 in h0 - rho~ T_2, which must vanish, scaled so that rho~ has -1."""
     raw = sp.Poly(dual_in_time() - signed_norm * chebyshev_in_time(), tau).all_coeffs()
     return tuple(
         sp.expand(-coefficient / coefficient.coeff(signed_norm)) for coefficient in map(sp.expand, raw)
@@ -56,9 +56,9 @@ def matching() -> tuple[sp.Expr, ...]:
 
 @cache
 def cramer(rows: tuple[sp.Expr, ...]) -> tuple[dict[str, sp.Expr], sp.Expr]:
-    """Determinants of the matching system with l'c = 1 added, in the order l10, l20, l30, rho~; (4.6).
+    """Cramer's determinants of the matching system with l'c = 1, in the order l10, l20, l30, rho~; (4.6).
 
-    Determinants depend on how the rows are scaled, so the rows are an argument.
+    The rows are an argument because determinants depend on how the rows are scaled.
     """
     unknowns = [*multipliers, signed_norm]
     matrix, right = sp.linear_eq_to_matrix([*rows, (multipliers.T * c)[0] - 1], unknowns)
@@ -74,7 +74,7 @@ def cramer(rows: tuple[sp.Expr, ...]) -> tuple[dict[str, sp.Expr], sp.Expr]:
 def minimal_multipliers() -> dict[sp.Symbol, sp.Expr]:
     """l10, l20, l30 and rho~ of the Chebyshev dual function with l'c = 1."""
     equations = [*matching(), (multipliers.T * c)[0] - 1]
-    return sp.solve(equations, [*multipliers, signed_norm], dict=True)[0]
+    return dict(sp.solve(equations, [*multipliers, signed_norm], dict=True)[0])
 
 
 def impulse_transfer() -> sp.Matrix:
@@ -99,13 +99,13 @@ def total() -> sp.Expr:
 
 
 def spike(start: sp.Expr, end: sp.Expr, weight: sp.Expr) -> sp.Matrix:
-    """What a constant control of the given integral on [start, end] adds to the state at T."""
+    """Change of the state at T by a constant control of the given integral on [start, end]."""
     state = drive(sp.zeros(3, 1), end - start, weight / (end - start))
     return drive(state, T - end, sp.S.Zero).applyfunc(sp.factor)
 
 
 def three_impulses(amplitudes: tuple[sp.Expr, sp.Expr, sp.Expr], duration: sp.Expr = sp.S.One) -> sp.Matrix:
-    """Where impulses at 0, T/2 and T take the channel from rest, by integrating (0.6)."""
+    """The state at T after impulses at 0, T/2 and T from rest, by integrating (0.6)."""
     state = drive(kick(sp.zeros(3, 1), amplitudes[0]), duration / 2, sp.S.Zero)
     state = drive(kick(state, amplitudes[1]), duration / 2, sp.S.Zero)
     return kick(state, amplitudes[2])

@@ -1,7 +1,7 @@
-"""Where the printed least-impulse solution (4.10) holds, and what it costs where it does not.
+"""Where the printed least-impulse solution (4.10) holds, and the cost of its impulses elsewhere.
 
-Directions of c are points of the unit sphere of (6 c1, 2 c2, c3), T = 1, on which a constant control lies
-at (1, 1, 1)/sqrt(3).
+Directions of c are points of the unit sphere of (6 c1, 2 c2, c3), T = 1; that of a constant control is
+(1, 1, 1)/sqrt(3).
 """
 
 import sympy as sp
@@ -42,10 +42,11 @@ def share_of_directions() -> sp.Expr:
 
 
 def overpayment() -> sp.Expr:
-    """Total of the three impulses (4.10) for a unit impulse at sigma <= 1/2, the worst kind of direction.
+    """Total of the three impulses (4.10) for the moments of a unit impulse at sigma <= 1/2.
 
-    That total is a norm of c, and the least total impulse is the gauge of the hull of the unit impulses:
-    their ratio is largest at one of these. It is the Lebesgue function of interpolation at 0, 1/2, 1.
+    That total is a norm of c, and the least total impulse is the gauge of the convex hull of the unit
+    impulses, so that their ratio is largest at a unit impulse. It is the Lebesgue function of interpolation
+    at 0, 1/2, 1.
     """
     moments = dict(zip((impulse.m0, impulse.m1, impulse.m2), (1, sigma, sigma**2), strict=True))
     amplitudes = impulse.chebyshev_amplitudes().subs(moments)

@@ -1,7 +1,7 @@
-"""Bounds from both sides, exact: dual functions bound every control from below, a control bounds from above.
+"""Exact lower bounds on the norm of every control by dual functions, and the moments of given controls.
 
-For any multipliers l and any control u with the moments c: l'c = integral of h u, hence
-|l'c| <= norm of h times norm of u, the two norms conjugate.
+For any multipliers l and any control u with the moments c the integral of h u is l'c, so that |l'c| is at
+most the norm of h times the conjugate norm of u.
 """
 
 import itertools
@@ -46,17 +46,17 @@ def area_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 
 def peak_bound(multipliers: sp.Matrix, c: sp.Matrix, duration: sp.Expr) -> sp.Expr:
-    """No control with the moments c has a smaller peak."""
+    """Lower bound on the peak of every control with the moments c."""
     return abs((multipliers.T * c)[0]) / area_of(dual_function_of(multipliers), duration)
 
 
 def impulse_bound(multipliers: sp.Matrix, c: sp.Matrix, duration: sp.Expr) -> sp.Expr:
-    """No control with the moments c has a smaller total impulse."""
+    """Lower bound on the total impulse of every control with the moments c."""
     return abs((multipliers.T * c)[0]) / peak_of(dual_function_of(multipliers), duration)
 
 
 def piecewise_moments(pieces: list[tuple[sp.Expr, sp.Expr]]) -> sp.Matrix:
-    """Where a control of constant pieces (duration, level) takes the channel from rest at zero: its c."""
+    """Moments c of a control of constant pieces (duration, level), by driving the channel from rest."""
     state = sp.zeros(3, 1)
     for duration, level in pieces:
         state = drive(state, duration, sp.sympify(level))
@@ -64,10 +64,10 @@ def piecewise_moments(pieces: list[tuple[sp.Expr, sp.Expr]]) -> sp.Matrix:
 
 
 def conjugate_norm(q: sp.Expr) -> sp.Expr:
-    """L_q norm of a control of two levels: its largest pairing with an h of conjugate norm one.
+    """L_q norm of a control of two levels: its largest pairing with a function h of conjugate norm one.
 
-    For finite q the best h is a multiple of |u|^(q-1) sign u; for q = oo the extreme h are spikes on one
-    level, of either sign.
+    For finite q the best h is a multiple of |u|^(q-1) sign u. For q = oo the extreme h are concentrated on
+    one of the levels, with either sign.
     """
     sizes = [sp.Abs(v) for v in levels]
     if q == sp.oo:

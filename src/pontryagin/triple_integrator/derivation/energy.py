@@ -1,4 +1,4 @@
-"""The least-energy programme, (2.1) to (2.5): a quadratic problem, solved by one inverse.
+"""The least-energy programme, (2.1) to (2.5): a quadratic problem, solved by the inverse of the Gramian.
 
 paper   here            meaning
 ------  --------------  ----------------------------------------------------------
@@ -13,15 +13,7 @@ from functools import cache
 
 import sympy as sp
 
-from pontryagin.triple_integrator.derivation.model import (
-    CHAIN,
-    INPUT,
-    T,
-    c,
-    impulse_response,
-    multipliers,
-    s,
-)
+from pontryagin.triple_integrator.derivation.model import CHAIN, INPUT, T, c, impulse_response, multipliers, s
 
 
 @cache

@@ -1,9 +1,9 @@
-"""Least total impulse: the complete solution, beyond (4.10).
+"""Least total impulse: the complete solution, of which (4.10) is a part.
 
 In sigma = s/T the control's moments of 1, sigma, sigma^2 are mu = (c3, c2/T, 2 c1/T^2). The least total
-impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], and the optimum's impulses sit
-where the best p touches its bounds. Up to sign and reversal of time, the extreme points of that set of
-quadratics are the constant 1 and the family
+impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], and the optimal impulses act where
+the best p touches its bounds. Up to sign and reversal of time, the extreme points of that set of quadratics
+are the constant 1 and the family
 
     p(sigma) = 2 (1 - x sigma)^2 - 1,      1 <= x <= 2,
 
@@ -58,7 +58,7 @@ def reversed_moments() -> sp.Matrix:
 
 
 def amplitudes(places: list[sp.Expr]) -> sp.Matrix:
-    """Impulses at up to three places in sigma whose moments are mu (as many moments as places)."""
+    """Impulses at up to three places in sigma with the first moments mu, as many as there are places."""
     count = len(places)
     system = sp.Matrix(count, count, lambda i, j: places[j] ** i)
     return system.LUsolve(sp.Matrix([m0, m1, m2][:count])).applyfunc(sp.factor)
@@ -70,5 +70,5 @@ def chebyshev_amplitudes() -> sp.Matrix:
 
 
 def two_impulses() -> sp.Matrix:
-    """Impulses at sigma = 0 and mu2/mu1: the first two moments fit by choice, the third by the place."""
+    """Impulses at sigma = 0 and mu2/mu1: their sizes fit the first two moments, the place the third."""
     return amplitudes([sp.Integer(0), m2 / m1])

@@ -4,8 +4,8 @@ paper   here            meaning
 ------  --------------  ----------------------------------------------------------
 T       T               duration t_f - t_0
 -       s               time to go, s = t_f - tau
-h       response        what an impulse leaves in each state after the time s, (1.6)
-c       moments         what the control's moments must be, (1.10)
+h       response        effect of a unit impulse on each state after the time s, (1.6)
+c       moments         required moments of the control, (1.10)
 l       multipliers     coefficients of the dual function h = l' h(s)
 """
 

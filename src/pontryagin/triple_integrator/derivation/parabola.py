@@ -1,4 +1,4 @@
-"""The paper's route to the least peak, (3.3) to (3.20): a parabola, its two zeros, one unknown.
+"""The paper's route to the least peak, (3.3) to (3.20): a parabola, its zeros, and one unknown.
 
 paper     here          meaning
 --------  ------------  ------------------------------------------------------------
@@ -74,7 +74,7 @@ def multipliers_from_vertex() -> sp.Matrix:
 
 
 def normalisation() -> sp.Expr:
-    """l'c in terms of the vertex, which is to be 1; (3.11), and (3.13) with beta = alpha Delta^2."""
+    """l'c in terms of the vertex, which must be 1; (3.11), and (3.13) with beta = alpha Delta^2."""
     return (multipliers_from_vertex().T * c)[0]
 
 
@@ -111,7 +111,7 @@ def gradient() -> dict[sp.Symbol, sp.Expr]:
 
 @cache
 def stationarity() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """The conditions (3.15), (3.16) and (3.17), each to vanish, with lambda = alpha lambda~."""
+    """The left-hand sides of (3.15), (3.16) and (3.17), which must vanish, with lambda = alpha lambda~."""
     by_apex, by_alpha, by_width = (expr.subs(price, alpha * slope) for expr in gradient().values())
     return (
         sp.cancel(by_apex / alpha),
@@ -134,7 +134,7 @@ def curvature_on_the_curve() -> sp.Expr:
 
 @cache
 def level_polynomial() -> sp.Expr:
-    """The quartic in v = -1/lambda~ that (3.13) and (3.15) to (3.17) leave: its roots are all solutions."""
+    """The quartic in v = -1/lambda~ that follows from (3.13) and (3.15) to (3.17), with all solutions."""
     bracket = normalisation().subs(beta, alpha * half_width**2) / alpha
     alone = sp.cancel(1 / bracket - curvature_on_the_curve()).subs(curve()).subs(slope, -1 / level)
     factors = sp.factor_list(sp.numer(sp.together(alone)), level)[1]
@@ -143,7 +143,7 @@ def level_polynomial() -> sp.Expr:
 
 
 def objective(zeros_at: tuple[sp.Expr, sp.Expr], moments: sp.Matrix, duration: sp.Expr) -> sp.Expr:
-    """S1 - S2 + S3 with alpha from (3.13) for given zeros: what (3.6) minimises, before the modulus."""
+    """S1 - S2 + S3 with alpha from (3.13) for given zeros; (3.6) minimises its modulus."""
     first, second = zeros_at
     values = {apex: (first + second) / 2, half_width: (second - first) / 2, T: duration}
     values.update(zip(c, moments, strict=True))

@@ -1,4 +1,4 @@
-"""Least peak: one convex equation for the level of the control, beyond (3.4).
+"""Least peak: one convex equation for the level of the control (3.4), which the paper does not give.
 
 The optimum is v outside [b, a] and -v inside (in the time to go, scaled to s in [0, 1]), because the dual
 function is a quadratic and changes sign at most twice. Its three moments, scaled so that a constant
@@ -7,11 +7,11 @@ control has all three equal to its level,
     k = (6 c1 / T^3, 2 c2 / T^2, c3 / T),
 
 determine v, m = a + b and d = a - b. Eliminating m and d leaves one equation in t = 1/v which is convex:
-a quadratic over a positive linear function, plus a cube of it. A convex function that is negative at zero
-has at most one root on either side, and the optimum is the root nearer to zero. (A nearer root on the
-other side would give a function of larger level, constant outside one interval of the whole line, with the
-same moments; its difference from the optimum would change sign at most twice and yet be orthogonal to
-1, s and s^2.)
+a quadratic over a positive linear function, plus a cube of that linear function. A convex function that
+is negative at zero has at most one root on either side, and the optimum is the root nearer to zero. (A
+nearer root on the other side would belong to a function of larger level, constant outside one interval of
+the whole line, with the same moments. Its difference from the optimum would change sign at most twice and
+yet be orthogonal to 1, s and s^2, which is impossible.)
 """
 
 import sympy as sp
@@ -41,7 +41,7 @@ def bang_bang_moments() -> sp.Matrix:
 
 
 def centred_moments() -> sp.Matrix:
-    """The same in m = a + b and d = a - b: v(1 - 2d(3m^2 + d^2)/4), v(1 - 2md), v(1 - 2d)."""
+    """`bang_bang_moments` in m = a + b, d = a - b: v(1 - 2d(3m^2 + d^2)/4), v(1 - 2md), v(1 - 2d)."""
     return bang_bang_moments().subs({a: (m + d) / 2, b: (m - d) / 2}).applyfunc(sp.simplify)
 
 
@@ -66,9 +66,9 @@ def level_equation() -> sp.Expr:
 
 
 def near_constant_equation() -> sp.Expr:
-    """The same in y = 1 - k3 t, exact also where the control is constant but for a narrow flip.
+    """`level_equation` in y = 1 - k3 t, exact also where the control is constant except for a narrow flip.
 
-    With e2 = k2 - k3 and w = k1 - k3 - 3 e2/2 nothing of size one cancels when y is small:
+    With e2 = k2 - k3 and w = k1 - k3 - 3 e2/2 no terms of size one cancel when y is small:
     G = w t - y/4 + 3 e2^2 t^2 / (4 y) + y^3 / 16.
     """
     inverse = {k1: w + sp.Rational(3, 2) * e2 + k3, k2: e2 + k3}
@@ -76,7 +76,7 @@ def near_constant_equation() -> sp.Expr:
 
 
 def near_constant_start() -> sp.Expr:
-    """Positive root in y of the equation above without its cube, at t = 1/k3."""
+    """Positive root in y of `near_constant_equation` without its cube, at t = 1/k3."""
     quadratic = sp.expand(near_constant_equation().subs(t, 1 / k3) - y**3 / 16) * y
     return max(sp.solve(sp.expand(quadratic), y), key=lambda root: root.subs({w: 0, e2: 1, k3: 1}))
 
@@ -96,7 +96,7 @@ def second_derivative() -> sp.Expr:
 
 
 def dual_bound() -> sp.Expr:
-    """What the dual function (s - a)(s - b) proves: peak >= |its value| (without the modulus)."""
+    """The lower bound on the peak by the dual function (s - a)(s - b), without its modulus."""
     h = (model.s - a) * (model.s - b)
     coefficients = [sp.Poly(sp.expand(h), model.s).coeff_monomial(model.s**i) for i in range(3)]
     value = coefficients[2] * k1 / 3 + coefficients[1] * k2 / 2 + coefficients[0] * k3

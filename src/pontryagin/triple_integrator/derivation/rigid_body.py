@@ -1,4 +1,4 @@
-"""What a rigid body does that a channel does not know: Euler's equations around (0.1)-(0.6).
+"""Torques and cross-couplings of a rigid body, which a channel (0.1) to (0.6) leaves out.
 
 here            meaning
 --------------  ----------------------------------------------------------------------------
@@ -13,6 +13,8 @@ from functools import cache
 
 import sympy as sp
 
+from pontryagin.triple_integrator.derivation.channel import skew
+
 inertia = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"J{min(i, j) + 1}{max(i, j) + 1}", real=True))
 inverse_inertia = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"K{min(i, j) + 1}{max(i, j) + 1}", real=True))
 rate = sp.Matrix(sp.symbols("w1:4", real=True))
@@ -24,11 +26,6 @@ rotation_vector_rate = sp.Matrix(sp.symbols("phidot1:4", real=True))
 control_acceleration = sp.Matrix(sp.symbols("m1:4", real=True))
 x2, x3, f = sp.symbols("x2 x3 f", real=True)
 angle = sp.Symbol("theta", positive=True)
-
-
-def skew(a: sp.Matrix) -> sp.Matrix:
-    """[a], the matrix with [a] b = a x b."""
-    return sp.Matrix([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
 
 
 def euler_torque() -> sp.Matrix:
@@ -45,13 +42,13 @@ def euler_torque() -> sp.Matrix:
 
 
 def fixed_axis_torque() -> sp.Matrix:
-    """Torque that keeps the body turning about the unit axis e with w = x2 e, w' = (x3 + f) e of (0.6)."""
+    """Torque that turns the body about the unit axis e with w = x2 e and w' = (x3 + f) e of (0.6)."""
     motion = dict(zip(rate, x2 * axis, strict=True)) | dict(zip(acceleration, (x3 + f) * axis, strict=True))
     return euler_torque().subs(motion, simultaneous=True).applyfunc(sp.expand)
 
 
 def gyroscopic_torque() -> sp.Matrix:
-    """The share of `fixed_axis_torque` that no channel asks for: what is left at x3 + f = 0."""
+    """The part of `fixed_axis_torque` that no channel commands: its value for x3 + f = 0."""
     return fixed_axis_torque().subs(x3, -f).applyfunc(sp.expand)
 
 
@@ -81,7 +78,7 @@ def quaternion_rate() -> sp.Matrix:
 
 
 def along(expression: sp.Matrix, component: sp.Symbol) -> sp.Matrix:
-    """Derivative by one component of phi, theta = |phi| included."""
+    """Derivative by one component of phi, on which theta = |phi| depends too."""
     return expression.diff(component) + expression.diff(angle) * component / angle
 
 
@@ -107,7 +104,7 @@ def inverse_rate_matrix() -> sp.Matrix:
 
 
 def free_acceleration(w: sp.Matrix = rate) -> sp.Matrix:
-    """-J^-1 (w x J w): what Euler's equations w' = m + ... add to the control acceleration m = J^-1 M."""
+    """-J^-1 (w x J w), which Euler's equations add to the control acceleration m = J^-1 M in w'."""
     return -inverse_inertia * w.cross(inertia * w)
 
 

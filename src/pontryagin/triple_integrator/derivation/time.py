@@ -1,8 +1,8 @@
-"""Least time for |u| <= U: a quartic in T for either sign of the control, beyond the end of section 3.
+"""Least time for |u| <= U: a quartic in T for either sign of the control, after the end of section 3.
 
-The level equation of the fixed-time problem is read the other way round: the level v = +-1 is given
-(units with U = 1) and the moments depend on T. The time is never less than |c3|, the least that moves x3,
-so the unknown is z = T - |c3| >= 0, in which narrow flips of the control keep their digits.
+In the level equation of the fixed-time problem the level v = +-1 is now given (units with U = 1), and the
+moments depend on T. The time is never less than |c3|, which x3 alone needs, so the unknown is
+z = T - |c3| >= 0, in which narrow flips of the control keep their digits.
 """
 
 import sympy as sp
@@ -43,7 +43,7 @@ def quartic() -> sp.Expr:
 
 
 def stable_form() -> sp.Expr:
-    """The same in p3 = v T - c3, r2 and w, which are all small where the control is nearly constant.
+    """`quartic` in p3 = v T - c3, r2 and w, which are all small where the control is nearly constant.
 
     p3^2 (4 T^2 - p3^2) + 8 p3 w - 12 r2^2 with
     r2 = 2 (x2f - x20) - (x3f + x30 + 2 f) T and w = 6 (x2f + x20) T - 12 (x1f - x10) - (x3f - x30) T^2.
@@ -62,9 +62,9 @@ def small_parts() -> dict[sp.Symbol, sp.Expr]:
 
 
 def in_excess_time() -> dict[str, list[sp.Expr]]:
-    """Coefficients, from the constant up, of `stable_form` in z = T - c3 for c3 >= 0 and either sign.
+    """Coefficients of `stable_form` in z = T - c3, constant term first, for c3 >= 0 and either sign.
 
-    With r2 = r20 + r21 z and w = w0 + w1 z + w2 z^2; the "same" branch has v = 1 = sign c3, p3 = z.
+    Here r2 = r20 + r21 z and w = w0 + w1 z + w2 z^2; the branch "same" has v = 1 = sign c3 and p3 = z.
     """
     r20, r21, w0, w1, w2, c3 = coefficient_symbols()
     parts = {r2: r20 + r21 * z, w: w0 + w1 * z + w2 * z**2}
@@ -78,7 +78,7 @@ def in_excess_time() -> dict[str, list[sp.Expr]]:
 
 def coefficient_symbols() -> tuple[sp.Symbol, ...]:
     """r20, r21, w0, w1, w2 and c3 of `in_excess_time`."""
-    return sp.symbols("r20 r21 w0 w1 w2 c3", real=True)
+    return tuple(sp.symbols("r20 r21 w0 w1 w2 c3", real=True))
 
 
 def small_part_coefficients() -> list[sp.Expr]:

@@ -1,33 +1,31 @@
-"""How fast the iteration over the cross-coupling settles, and from what angle on it does not."""
+"""Convergence of the iteration over the cross-coupling, and the angles from which on it fails."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    BLUE,
-    INK,
-    RED,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import BLUE, INK, RED, SEQUENTIAL, styled, subplots
 from pontryagin.errors import NotConverged
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.coupling import CoupledManeuver, couple, spherical_factor
-from pontryagin.triple_integrator.energy import minimum_energy
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import RigidBody
+from pontryagin.triple_integrator.norms.energy import minimum_energy
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.value import value_class
 
 TOLERANCE = 1e-6
+"""Largest miss of the target that counts as reached, rad."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """A turn from rest to rest by an angle (degrees), coupled; or why it could not be."""
+    """A coupled turn from rest to rest by an angle (degrees), or the reason why none was found."""
 
     degrees: float
     turn: CoupledManeuver | None
@@ -42,19 +40,20 @@ def attempts(
     Parameters
     ----------
     body : RigidBody
+        The body that turns.
     direction : (3,) array_like
-        Of the rotation vector to reach.
+        Direction of the rotation vector to reach.
     degrees : sequence of float
         The angles.
     duration : float
-        T, s.
+        Duration T of each turn, s.
     """
     unit = np.asarray(direction, dtype=float) / np.linalg.norm(np.asarray(direction, dtype=float))
     return [_attempt(body, unit, angle, duration) for angle in degrees]
 
 
-def attempts_table(tried: Sequence[Attempt]) -> dict[str, list]:
-    """A row for each angle: iterations, factor measured and of a spherical body, what became of it."""
+def attempts_table(tried: Sequence[Attempt]) -> dict[str, list[Any]]:
+    """A row for each angle: iterations, factor measured and of a spherical body, and the outcome."""
     return {
         "angle, degrees": [attempt.degrees for attempt in tried],
         "first miss, rad": [attempt.turn.misses[0] if attempt.turn else None for attempt in tried],
@@ -67,12 +66,12 @@ def attempts_table(tried: Sequence[Attempt]) -> dict[str, list]:
 
 @styled
 def coupling_convergence(tried: Sequence[Attempt]) -> Figure:
-    """What each iterate misses of the target, and the factor between iterates against the angle of the turn.
+    """The miss of the target by each iterate, and the factor between iterates against the angle of the turn.
 
     Parameters
     ----------
     tried : sequence of Attempt
-        What `attempts` returned; those that did not settle are marked in the second panel.
+        Returned by `attempts`; those that did not settle are marked in the second panel.
     """
     figure, (left, right) = subplots(1, 2, height=3.4, width_ratios=(1.15, 1))
     settled = [(attempt.degrees, attempt.turn) for attempt in tried if attempt.turn]
@@ -98,9 +97,9 @@ def coupling_convergence(tried: Sequence[Attempt]) -> Figure:
     return figure
 
 
-def _attempt(body: RigidBody, unit: np.ndarray, degrees: float, duration: float) -> Attempt:
+def _attempt(body: RigidBody, unit: Array, degrees: float, duration: float) -> Attempt:
     ends = np.deg2rad(degrees) * unit
-    channels = [Maneuver([0, 0, 0], [end, 0, 0], tf=duration) for end in ends]  # type: ignore[arg-type, list-item]
+    channels = [Maneuver([0, 0, 0], [end, 0, 0], tf=duration) for end in ends]
     try:
         return Attempt(degrees, couple(body, channels, minimum_energy, tol=TOLERANCE), "settles")
     except NotConverged as reason:

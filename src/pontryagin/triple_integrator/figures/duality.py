@@ -1,25 +1,23 @@
-"""The minimal elements h0 of (1.13), and how each touches its bound."""
+"""The minimal elements h0 of (1.13) in three norms, with the measure of each."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import INK, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import ImpulseSolution
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.norms.impulse import ImpulseSolution
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled
 def dual_functions(maneuver: Maneuver) -> Figure:
     """The least dual function h0 with l'c = 1 in the norms conjugate to L2, L-infinity and L1.
 
-    What measures it is shaded: its square for L2, its area for L-infinity, its range for L1.
+    The shading shows what its norm measures: the area for L-infinity, the range for L1.
 
     Parameters
     ----------
@@ -33,7 +31,7 @@ def dual_functions(maneuver: Maneuver) -> Figure:
     """
     energy, peak, impulse = labels.three(maneuver)
     if not maneuver.moments.any():
-        raise ValueError("maneuver: got one with c = 0, takes one that needs a control")
+        raise ArgumentValueError("maneuver: got one with c = 0, takes one that needs a control", "maneuver")
     solutions: list[Solution] = [energy, peak, impulse]
     figure, axes = subplots(1, 3, height=2.9, sharex=True, sharey=True)
     t = labels.instants(peak)
@@ -56,11 +54,11 @@ def dual_functions(maneuver: Maneuver) -> Figure:
     return figure
 
 
-def _shade_to_zero(ax: Axes, t: np.ndarray, h: np.ndarray, colour: str) -> None:
+def _shade_to_zero(ax: Axes, t: Array, h: Array, colour: str) -> None:
     ax.fill_between(t, h, color=colour, alpha=0.15, linewidth=0)
 
 
-def _mark_signs(ax: Axes, t: np.ndarray, h: np.ndarray, colour: str) -> None:
+def _mark_signs(ax: Axes, t: Array, h: Array, colour: str) -> None:
     """The sign of the control over each piece."""
     cuts = np.flatnonzero(np.diff(np.sign(h)) != 0)
     pieces = np.split(np.arange(len(t)), cuts + 1)

@@ -1,4 +1,4 @@
-"""From impulses to a parabola to bang-bang: the programmes of least L_q norm as q runs from 1 to infinity."""
+"""The programmes of least L_q norm for q from 1 (impulses) over 2 (a parabola) to infinity (bang-bang)."""
 
 from collections.abc import Iterable, Sequence
 
@@ -8,22 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    RED,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
-from pontryagin.triple_integrator.energy import minimum_energy
+from pontryagin.display.plotting import BLUE, GREEN, INK, RED, SEQUENTIAL, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.programmes import draw_impulses
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import minimum_norm
-from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.norms.energy import minimum_energy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.norm import minimum_norm
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 EXPONENTS = (1.06, 1.15, 1.3, 1.6, 2.0, 3.0, 5.0, 10.0, 40.0)
 
@@ -37,7 +29,7 @@ def norm_family(maneuver: Maneuver, exponents: Sequence[float] = EXPONENTS) -> F
     maneuver : Maneuver
         One manoeuvre.
     exponents : sequence of float
-        The q, each 1 < q < infinity; the ends 1 and infinity are added.
+        The exponents q, each 1 < q < infinity; q = 1 and infinity are added.
     """
     labels.single(maneuver)
     figure, (left, right) = subplots(1, 2, height=3.8, width_ratios=(1.55, 1))

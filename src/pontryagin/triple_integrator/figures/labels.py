@@ -4,20 +4,15 @@ from typing import Any
 
 import numpy as np
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-)
-from pontryagin.triple_integrator.energy import EnergySolution, minimum_energy
-from pontryagin.triple_integrator.impulse import ImpulseSolution, minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import NormSolution
-from pontryagin.triple_integrator.peak import PeakSolution, minimum_peak
-from pontryagin.triple_integrator.time import TimeSolution
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED
+from pontryagin.errors import ArgumentValueError
+from pontryagin.triple_integrator.least_time.time import TimeSolution
+from pontryagin.triple_integrator.norms.energy import EnergySolution, minimum_energy
+from pontryagin.triple_integrator.norms.impulse import ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.norms.norm import NormSolution
+from pontryagin.triple_integrator.norms.peak import PeakSolution, minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 Solution = EnergySolution | PeakSolution | ImpulseSolution | NormSolution | TimeSolution
 
@@ -47,14 +42,14 @@ def three(maneuver: Maneuver) -> tuple[EnergySolution, PeakSolution, ImpulseSolu
 
 
 def name(solution: Solution) -> str:
-    """What a programme makes least."""
+    """The quantity that a programme minimises, in words."""
     if isinstance(solution, NormSolution):
         return f"least $L_q$ norm, $q = {solution.q:g}$"
     return NAMES[type(solution)]
 
 
 def colour(solution: Solution) -> str:
-    """The colour of a kind of programme."""
+    """The colour of a programme, by its kind."""
     return COLOURS.get(type(solution), INK)
 
 
@@ -71,7 +66,7 @@ def value(solution: Solution) -> str:
 
 
 def number(x: float) -> str:
-    """Four digits for mathtext, a power of ten where it takes one."""
+    """A number in mathtext: four digits, with a power of ten where it needs one."""
     mantissa, _, exponent = f"{x + 0.0:.4g}".partition("e")
     return mantissa if not exponent else rf"{mantissa}\cdot 10^{{{int(exponent)}}}"
 
@@ -82,15 +77,17 @@ def single(solution: Any) -> Maneuver:
     Raises
     ------
     ValueError
-        If it is a stack, which one figure cannot show.
+        If it is the solution of a stack.
     """
-    maneuver = solution.maneuver if hasattr(solution, "maneuver") else solution
+    maneuver: Maneuver = solution if isinstance(solution, Maneuver) else solution.maneuver
     if maneuver.shape:
-        raise ValueError(f"solution: got a stack of shape {maneuver.shape}, takes that of one manoeuvre")
+        raise ArgumentValueError(
+            f"solution: got a stack of shape {maneuver.shape}, takes that of one manoeuvre", "solution"
+        )
     return maneuver
 
 
-def instants(solution: Solution, count: int = 400) -> np.ndarray:
+def instants(solution: Solution, count: int = 400) -> Array:
     """Times (k,) over the manoeuvre, with both sides of every instant where the programme is not smooth."""
     m = single(solution)
     even = np.linspace(float(m.t0), float(m.tf), count)

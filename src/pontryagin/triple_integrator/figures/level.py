@@ -1,29 +1,25 @@
-"""The convex equation for the level of the least-peak control, and why its nearer root is the answer."""
+"""The convex equation for the level of the least-peak control, and the functions that its roots give."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from pontryagin.display.plotting import (
-    INK,
-    RED,
-    SKY,
-    styled,
-    subplots,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import INK, RED, SKY, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.kernels import level_equation
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled
 def convex_level_equation(maneuver: Maneuver) -> Figure:
-    """G(t), t = 1/v, with a root on either side of zero; and the function on the line that each root means.
+    """G(t), t = 1/v, with a root on either side of zero, and the function of the time to go of each root.
 
-    The function is v on [0, T] but for the inner interval, from which 2 v is taken; where that reaches
-    beyond [0, T] it is no control.
+    The function is v on [0, T] minus 2 v on the inner interval. Where that interval reaches beyond [0, T],
+    the function is no control.
 
     Parameters
     ----------
@@ -50,7 +46,7 @@ def convex_level_equation(maneuver: Maneuver) -> Figure:
     return figure
 
 
-def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> None:
+def _draw_equation(ax: Axes, k: Array, nearer: float, farther: float) -> None:
     low, high = sorted((nearer, farther))
     margin = 0.45 * (high - low)
     pole = 1 / k[2] if k[2] else np.inf
@@ -79,21 +75,25 @@ def _draw_equation(ax: Axes, k: np.ndarray, nearer: float, farther: float) -> No
     ax.set(xlabel="$t = 1/v$, s³/rad", ylabel="$G(t)$", ylim=(-0.32, 0.75))
 
 
-def _roots(level: float, k: np.ndarray) -> tuple[float, float]:
+def _roots(level: float, k: Array) -> tuple[float, float]:
     """The root of the least peak, and the one on the other side."""
     if not abs(level) > 0 or 1 - k[2] / level < 1e-9:
-        raise ValueError("maneuver: got one with a constant control, takes one with two switches")
+        raise ArgumentValueError(
+            "maneuver: got one with a constant control, takes one with two switches", "maneuver"
+        )
     nearer = 1 / level
     side = -np.sign(nearer)
     limit = 0.999 * abs(1 / k[2]) if side * k[2] > 0 else 100 * abs(nearer)
     if level_equation(side * limit, *k)[0] < 0:
-        raise ValueError("maneuver: G has one root only, takes one with a root on either side")
+        raise ArgumentValueError(
+            "maneuver: G has one root only, takes one with a root on either side", "maneuver"
+        )
     farther = brentq(lambda t: level_equation(t, *k)[0], side * abs(nearer) * 1e-9, side * limit)
     return nearer, float(farther)
 
 
-def _function_of(root: float, k: np.ndarray, T: float) -> tuple[np.ndarray, np.ndarray]:
-    """v on [0, T] less 2 v on [b, a], as corners of a step function over [-T, 2T]."""
+def _function_of(root: float, k: Array, T: float) -> tuple[Array, Array]:
+    """v on [0, T] minus 2 v on [b, a], as the corners of a step function over [-T, 2T]."""
     y = 1 - k[2] * root
     d, m = y / 2, 1 - (k[1] - k[2]) * root / y
     corners = np.sort([-0.8, 0.0, (m - d) / 2, (m + d) / 2, 1.0, 1.8])

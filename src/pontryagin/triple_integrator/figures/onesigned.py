@@ -1,4 +1,4 @@
-"""Equally cheap programmes of one sign, and the one that the limit q -> 1 chooses."""
+"""Programmes of one sign with the same total impulse, and the one that is the limit q -> 1."""
 
 from collections.abc import Sequence
 
@@ -6,20 +6,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    GREEN,
-    INK,
-    ORANGE,
-    SEQUENTIAL,
-    styled,
-    subplots,
-)
-from pontryagin.triple_integrator.entropy import maximum_entropy
+from pontryagin.display.plotting import GREEN, INK, ORANGE, SEQUENTIAL, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.programmes import draw_impulses
-from pontryagin.triple_integrator.impulse import minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.norm import minimum_norm
+from pontryagin.triple_integrator.norms.entropy import maximum_entropy
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.norm import minimum_norm
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled
@@ -31,7 +24,7 @@ def equally_cheap(maneuver: Maneuver, exponents: Sequence[float] = (2.0, 1.3, 1.
     maneuver : Maneuver
         One manoeuvre whose moments lie inside the moment cone.
     exponents : sequence of float
-        The q, in falling order.
+        The exponents q, in falling order.
     """
     labels.single(maneuver)
     impulse, entropy = minimum_impulse(maneuver), maximum_entropy(maneuver)

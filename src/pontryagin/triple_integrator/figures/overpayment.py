@@ -1,27 +1,25 @@
-"""What the printed formula (4.10) is worth off its cone: its value, and its impulses."""
+"""The printed formula (4.10) outside the cone where it holds: its value, and the cost of its impulses."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    INK,
-    WIDTH,
-    styled,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import INK, WIDTH, styled
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.figures import sphere
-from pontryagin.triple_integrator.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.impulse import minimum_impulse
 
 SIZE = 500
+"""Cells along each side of the map."""
 
 
 @styled
 def printed_impulses() -> Figure:
     """The printed value |F|/T^2, and the total of the printed impulses, over the least total impulse.
 
-    Over half the sphere of directions. The value is a bound from below and falls to zero; the impulses
-    reach the target everywhere and cost up to a quarter more.
+    Both are drawn over half the sphere of directions. The value is a lower bound and falls to zero; the
+    impulses reach the target everywhere and cost up to a quarter more than the least.
     """
     figure = Figure(figsize=(WIDTH, 3.9), layout="constrained")
     axes = figure.subplots(1, 2)
@@ -41,7 +39,7 @@ def printed_impulses() -> Figure:
     return figure
 
 
-def printed(moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def printed(moments: Array) -> tuple[Array, Array]:
     """|F|/T^2 and |a0| + |am| + |aT| of (4.10) for T = 1, (..., 3) -> (...), (...)."""
     c1, c2, c3 = np.moveaxis(moments, -1, 0)
     m = c3, c2, 2 * c1
@@ -50,7 +48,7 @@ def printed(moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _map(
-    ax: Axes, ratio: np.ndarray, limits: tuple[float, float], colours: str, words: str, inside: np.ndarray
+    ax: Axes, ratio: Array, limits: tuple[float, float], colours: str, words: str, inside: Array
 ) -> None:
     sphere.prepare(ax)
     image = ax.imshow(

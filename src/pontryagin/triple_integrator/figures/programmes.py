@@ -1,4 +1,4 @@
-"""Programmes and the motions they make, one solution or three side by side."""
+"""Controls and the motions they cause, of one solution or of three side by side."""
 
 from collections.abc import Sequence
 
@@ -6,15 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    INK,
-    styled,
-    subplots,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import ImpulseSolution
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.norms.impulse import ImpulseSolution
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled
@@ -79,7 +76,7 @@ def solution_figure(solution: Solution) -> Figure:
 
 
 def draw_control(ax: Axes, solution: Solution, peak: float) -> None:
-    """u(t); impulses as arrows in proportion to their size, the largest as high as `peak`."""
+    """Draw u(t); impulses are arrows in proportion to their size, the largest as high as `peak`."""
     t = labels.instants(solution)
     u, colour = solution.control(t), labels.colour(solution)
     ax.axhline(0, color=INK, linewidth=0.6)
@@ -95,12 +92,12 @@ def draw_control(ax: Axes, solution: Solution, peak: float) -> None:
 
 def draw_impulses(
     ax: Axes,
-    times: Sequence[float] | np.ndarray,
-    sizes: Sequence[float] | np.ndarray,
+    times: Sequence[float] | Array,
+    sizes: Sequence[float] | Array,
     peak: float,
     colour: str,
 ) -> None:
-    """Impulses as arrows from the axis, each with its size in rad/s²."""
+    """Draw impulses as arrows from the axis, each with its size in rad/s²."""
     present = [(time, size) for time, size in zip(times, sizes, strict=True) if size]
     largest = max((abs(size) for _, size in present), default=1.0)
     for time, size in present:
@@ -123,7 +120,7 @@ def draw_impulses(
 
 
 def draw_state(ax: Axes, solution: Solution, state: int) -> None:
-    """One of x1, x2, x3 against time, with its ends; x3 is drawn with its jumps at impulses."""
+    """Draw one of x1, x2, x3 against time, with its ends; x3 includes its jumps at impulses."""
     m = solution.maneuver
     t = labels.instants(solution)
     x = solution.state(t)[:, state]
@@ -135,6 +132,6 @@ def draw_state(ax: Axes, solution: Solution, state: int) -> None:
 
 
 def finite_peak(solution: Solution) -> float:
-    """Largest modulus of the part of a control that is a function; 1 where there is none."""
+    """Largest finite modulus of a control; 1 where it is zero or consists of impulses."""
     u = np.abs(solution.control(labels.instants(solution)))
     return float(np.max(u[np.isfinite(u)], initial=0.0)) or 1.0

@@ -1,4 +1,4 @@
-"""Where which impulses are the least: the regimes of problem 3 over the directions of c."""
+"""The regimes of problem 3, (1.20), over the directions of c."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -6,17 +6,10 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    WIDTH,
-    styled,
-)
+from pontryagin.arrays import Array
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, WIDTH, styled
 from pontryagin.triple_integrator.figures import sphere
-from pontryagin.triple_integrator.impulse import REGIMES, minimum_impulse
+from pontryagin.triple_integrator.norms.impulse import REGIMES, minimum_impulse
 
 COLOURS = dict(zip(REGIMES[1:], (ORANGE, GREEN, BLUE, PURPLE), strict=True))
 WORDS = {
@@ -32,6 +25,7 @@ PLACES = {
     "moment": ((0.2, 0.005),),
 }
 SIZE = 700
+"""Cells along each side of the map."""
 
 
 @styled
@@ -54,7 +48,7 @@ def impulse_regimes() -> Figure:
     return figure
 
 
-def _fill(ax: Axes, regime: np.ndarray) -> None:
+def _fill(ax: Axes, regime: Array) -> None:
     sphere.prepare(ax)
     paint = ListedColormap([COLOURS[name] for name in REGIMES[1:]])
     ax.imshow(

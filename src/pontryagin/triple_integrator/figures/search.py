@@ -1,19 +1,9 @@
-"""Where the paper's own numerical routes to the least peak arrive."""
+"""Results of the paper's own numerical routes to the least peak, over the directions of the moments."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import (
-    BLUE,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    WIDTH,
-    styled,
-)
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.search import Survey
 
@@ -37,12 +27,12 @@ WORDS = {
 
 @styled
 def search_routes(survey: Survey) -> Figure:
-    """Outcome of each route over the directions of a survey; opposite directions are drawn together.
+    """Outcome of each route over the directions of a survey; opposite directions are drawn as one.
 
     Parameters
     ----------
     survey : Survey
-        What `search.survey` returned.
+        Returned by `search.survey`.
     """
     figure = Figure(figsize=(WIDTH, 5.3), layout="constrained")
     axes = figure.subplots(2, 3).ravel()

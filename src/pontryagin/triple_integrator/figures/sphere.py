@@ -1,10 +1,11 @@
-"""Directions of c as points of a disc: half the sphere of (6 c1, 2 c2, c3), T = 1, with areas kept.
+"""Equal-area map of the directions of (6 c1, 2 c2, c3), T = 1: half the sphere as a disc.
 
-A constant control lies at the centre, the impulses at the start and at the end to its left and right.
-Opposite directions have opposite programmes, so that half the sphere shows all.
+The direction of a constant control lies at the centre, those of an impulse at the start and at the end to
+its left and right. Opposite directions have opposite programmes, so that half the sphere shows all.
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,7 @@ from matplotlib.patches import Circle
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import INK
-from pontryagin.triple_integrator.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 SCALES = np.array([6.0, 2.0, 1.0])
 
@@ -24,7 +25,7 @@ def unit_impulse(sigma: Array) -> Array:
 
 @cache
 def frame() -> Array:
-    """Rows: to the right, upwards, to the centre of the disc; (3, 3)."""
+    """Unit vectors that the disc shows to the right, upwards and at its centre, as rows (3, 3)."""
     centre = np.ones(3) / np.sqrt(3)
     start, end = unit_impulse(np.array([1.0, 0.0]))
     right = end / np.linalg.norm(end) - start / np.linalg.norm(start)
@@ -34,9 +35,9 @@ def frame() -> Array:
 
 
 def to_disc(directions: Array) -> Array:
-    """Lambert's azimuthal equal-area projection of directions (..., 3), the rim of the half at radius 1."""
+    """Lambert's equal-area projection of directions (..., 3); the rim of the half sphere has radius 1."""
     x, y, z = np.moveaxis(directions / np.linalg.norm(directions, axis=-1, keepdims=True) @ frame().T, -1, 0)
-    return np.stack([x, y], axis=-1) / np.sqrt(1 + z)[..., None]
+    return np.asarray(np.stack([x, y], axis=-1) / np.sqrt(1 + z)[..., None])
 
 
 def from_disc(points: Array) -> Array:
@@ -56,7 +57,7 @@ def grid(size: int) -> tuple[Array, Array]:
 
 def maneuvers(directions: Array) -> Maneuver:
     """From rest at zero to the state whose moments are in these directions, T = 1."""
-    return Maneuver(np.zeros(3), directions / SCALES, np.asarray(1.0))
+    return Maneuver([0, 0, 0], directions / SCALES, 1.0)
 
 
 def arc(first: Array, last: Array, count: int = 200) -> Array:
@@ -64,10 +65,10 @@ def arc(first: Array, last: Array, count: int = 200) -> Array:
     share = np.linspace(0, 1, count)[:, None]
     a, b = first / np.linalg.norm(first), last / np.linalg.norm(last)
     chord = a * (1 - share) + b * share
-    return chord / np.linalg.norm(chord, axis=1, keepdims=True)
+    return np.asarray(chord / np.linalg.norm(chord, axis=1, keepdims=True))
 
 
-def draw(ax: Axes, directions: Array, **style) -> None:
+def draw(ax: Axes, directions: Array, **style: Any) -> None:
     """A curve of directions (k, 3), and its mirror image, where they lie in the disc."""
     for curve in (directions, -directions):
         visible = curve @ frame()[2] >= -1e-9

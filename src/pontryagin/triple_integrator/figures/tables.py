@@ -7,21 +7,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.triple_integrator.attitude import turn
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.figures import duration, labels, overpayment, sphere
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.impulse import REGIMES, ImpulseSolution, minimum_impulse
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.peak import minimum_peak
-from pontryagin.triple_integrator.rigid_body import RigidBody
-from pontryagin.triple_integrator.time import minimum_time
+from pontryagin.triple_integrator.least_time.time import minimum_time
+from pontryagin.triple_integrator.norms.impulse import REGIMES, ImpulseSolution, minimum_impulse
+from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 Columns = dict[str, list[Any]]
 
 
 def examples(angle: float, T: float) -> Columns:
-    """What the paper prints for the turn from rest to rest by an angle, in numbers, next to the solvers'."""
-    maneuver = Maneuver([0, 0, 0], [angle, 0, 0], tf=T)  # type: ignore[arg-type, list-item]
+    """The paper's printed numbers for the turn from rest to rest by an angle, beside those of the solvers."""
+    maneuver = Maneuver([0, 0, 0], [angle, 0, 0], tf=T)
     energy, peak, impulse = labels.three(maneuver)
     level = 32 * angle / T**3
     time = 2 * np.cbrt(4 * angle / level)
@@ -49,7 +50,7 @@ def examples(angle: float, T: float) -> Columns:
 
 
 def crossed_norms(maneuver: Maneuver) -> Columns:
-    """What each of the three programmes costs in each of the three norms."""
+    """The norms L2, L-infinity and L1 of each of the three programmes."""
     T = float(labels.single(maneuver).duration)
     energy, peak, impulse = labels.three(maneuver)
     t = np.linspace(float(maneuver.t0), float(maneuver.tf), 20001)
@@ -66,7 +67,7 @@ def crossed_norms(maneuver: Maneuver) -> Columns:
 
 
 def certificates(maneuver: Maneuver) -> Columns:
-    """Residual, value, bound from the other side, and gap, for each of the three problems."""
+    """Value, lower bound, gap and residual for each of the three problems."""
     solutions: list[Solution] = [*labels.three(maneuver)]
     proofs = [solution.certificate for solution in solutions]
     return {
@@ -79,12 +80,12 @@ def certificates(maneuver: Maneuver) -> Columns:
 
 
 def regime_shares(size: int = 800) -> Columns:
-    """Share of the directions of (6 c1, 2 c2, c3), T = 1, in each regime, and what (4.10) does there.
+    """Share of the directions of (6 c1, 2 c2, c3), T = 1, in each regime, and how (4.10) compares there.
 
     Parameters
     ----------
     size : int
-        Cells across the equal-area disc over which directions are counted.
+        Cells along each side of the equal-area map over which directions are counted.
     """
     directions, inside = sphere.grid(size)
     maneuvers = sphere.maneuvers(directions[inside])
@@ -101,9 +102,9 @@ def regime_shares(size: int = 800) -> Columns:
 
 
 def impulse_examples(moments: Sequence[ArrayLike]) -> Columns:
-    """Impulses, regime and certificate for moments (c1, c2, c3), T = 1, and what the printed formula pays."""
+    """Impulses, regime and bound for moments (c1, c2, c3), T = 1, beside the printed formula (4.10)."""
     c = np.asarray(moments, dtype=float)
-    solution = minimum_impulse(Maneuver(np.zeros(3), c, 1.0))  # type: ignore[arg-type]
+    solution = minimum_impulse(Maneuver([0, 0, 0], c, 1.0))
     value, total = overpayment.printed(c)
     return {
         "$c$": [f"({', '.join(str(Fraction(x).limit_denominator(1000)) for x in row)})" for row in c],
@@ -118,7 +119,7 @@ def impulse_examples(moments: Sequence[ArrayLike]) -> Columns:
 
 
 def times_of_one_bound(x0: ArrayLike, xf: ArrayLike, bound: float, durations: tuple[float, float]) -> Columns:
-    """All durations within limits whose least peak is the bound, and which of them is the least time."""
+    """All durations within limits whose least peak is the bound, with the least time marked."""
     sampled = np.geomspace(*durations, 4001)
     at = np.broadcast_to(np.asarray(x0, float), (4001, 3)), np.broadcast_to(np.asarray(xf, float), (4001, 3))
     times = duration.crossings(sampled, minimum_peak(Maneuver(*at, sampled)).norm, bound)
@@ -135,7 +136,7 @@ def times_of_one_bound(x0: ArrayLike, xf: ArrayLike, bound: float, durations: tu
 
 
 def turn_misses(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Columns:
-    """Where the body ends with the gyroscopic torque fed forward, and without it."""
+    """Errors of the body's attitude and rate at the end, with the gyroscopic torque fed forward and not."""
     columns: Columns = {
         "programme": [],
         "gyroscopic torque": [],
@@ -159,8 +160,8 @@ def _impulses(solution: ImpulseSolution, i: int) -> str:
     return ", ".join(f"{size:.4g} at {time:.4g}" for time, size in present if size).replace("-", "−")
 
 
-def _rounded(ratio: np.ndarray, rows: Sequence[np.ndarray], of: Callable) -> list[float]:
-    """To three digits: what a count over cells can tell."""
+def _rounded(ratio: Array, rows: Sequence[Array], of: Callable[[Array], Any]) -> list[float]:
+    """A statistic of the ratio over each regime, to the three digits that a count of cells determines."""
     return [round(float(of(ratio[row])), 3) for row in rows]
 
 
@@ -168,6 +169,6 @@ def _refined(x0: ArrayLike, xf: ArrayLike, bound: float, near: float) -> float:
     from scipy.optimize import brentq
 
     def excess(T: float) -> float:
-        return float(minimum_peak(Maneuver(x0, xf, T)).norm) - bound  # type: ignore[arg-type]
+        return float(minimum_peak(Maneuver(x0, xf, T)).norm) - bound
 
     return float(brentq(excess, 0.998 * near, 1.002 * near, xtol=1e-14, rtol=1e-15))

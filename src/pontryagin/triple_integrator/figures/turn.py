@@ -1,29 +1,23 @@
-"""The real turn: the torque no channel knows, and what leaving it out costs."""
+"""The turn of a rigid body: the gyroscopic torque, and the error of the attitude without it."""
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from pontryagin.display.plotting import (
-    INK,
-    RED,
-    SKY,
-    styled,
-    subplots,
-)
+from pontryagin.display.plotting import INK, RED, SKY, styled, subplots
 from pontryagin.triple_integrator.attitude import turn
+from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.figures import labels
 from pontryagin.triple_integrator.figures.labels import Solution
-from pontryagin.triple_integrator.maneuver import Maneuver
-from pontryagin.triple_integrator.rigid_body import RigidBody
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 
 @styled
 def real_turn(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Figure:
-    """A rigid body turned about an axis by each of the three programmes, from Euler's equations.
+    """A rigid body turned about an axis by each of the three programmes, by Euler's equations.
 
-    Above: the torque along J e that the channel commands, and the gyroscopic torque across the axis. Below:
-    the angle between the planned and the true attitude, with that torque fed forward and without it.
+    The upper panels show the torque along J e that the channel commands and the gyroscopic torque across the
+    axis; the lower ones the angle between planned and true attitude, with that torque fed forward and not.
 
     Parameters
     ----------

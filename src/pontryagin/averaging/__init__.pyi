@@ -1,0 +1,16 @@
+from . import derivation as derivation
+from . import figures as figures
+from . import playback as playback
+from .averaged.solution import AveragedSolution as AveragedSolution
+from .averaged.solution import solve_averaged as solve_averaged
+from .examples.kepler import kepler as kepler
+from .examples.rotor import rotor as rotor
+from .examples.smooth import smooth_example as smooth_example
+from .examples.spin_down import spin_down as spin_down
+from .system.control_sets import Ball as Ball
+from .system.control_sets import BoundedQuadratic as BoundedQuadratic
+from .system.control_sets import Box as Box
+from .system.control_sets import Custom as Custom
+from .system.control_sets import Ellipsoid as Ellipsoid
+from .system.control_sets import Quadratic as Quadratic
+from .system.phase_system import PhaseSystem as PhaseSystem

@@ -1,0 +1,13 @@
+from . import attitude as attitude
+from . import coupling as coupling
+from . import derivation as derivation
+from . import figures as figures
+from . import playback as playback
+from . import search as search
+from .least_time.time import minimum_time as minimum_time
+from .norms.energy import minimum_energy as minimum_energy
+from .norms.entropy import maximum_entropy as maximum_entropy
+from .norms.impulse import minimum_impulse as minimum_impulse
+from .norms.norm import minimum_norm as minimum_norm
+from .norms.peak import minimum_peak as minimum_peak
+from .problem.maneuver import Maneuver as Maneuver

@@ -1,0 +1,226 @@
+"""Least total impulse (L1), (1.20), in every regime; (4.10) is one of them.
+
+The least total impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], a maximum of a few
+closed forms; the impulses act where the best p touches its bounds. Here mu = (c3, c2/T, 2 c1/T^2) are the
+control's moments of 1, sigma and sigma^2 in sigma = s/T.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import fabs
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.arrays import Array
+from pontryagin.certificate import Certificate
+from pontryagin.numerics.jit import batched
+from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, reversed_moments, two_impulses
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import (
+    Programme,
+    breakpoints,
+    normalise,
+    over_stack,
+    response,
+)
+from pontryagin.value import value_class
+
+REGIMES = ("zero", "moment", "chebyshev", "end", "start")
+"""Where the impulses act: nowhere; anywhere with one sign; at both ends and in the middle with alternating
+signs, (4.10); at the end and inside; at the start and inside."""
+
+ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0
+
+ROUNDING = 4e-15
+"""Relative size below which an impulse, or the distance to the boundary of a regime, is rounding."""
+
+
+def touching_bound(m0: float, m1: float, m2: float) -> float:
+    """The bound of 2 (1 - x sigma)^2 - 1 at its stationary x = mu1/mu2, or 0 if that is not in [1, 2]."""
+    square, mixed = m2 * m2, m1 * m2
+    if square == 0.0 or mixed < square * (1.0 - ROUNDING) or mixed > 2.0 * square:
+        return 0.0
+    return fabs(m0 - 2.0 * m1 * (m1 / m2))
+
+
+def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
+    """Impulse at the end, impulse inside and its place, for moments on the boundary of the moment cone."""
+    if m0 * m1 <= 0.0:
+        return m0, 0.0, 0.5
+    return 0.0, m0, min(1.0, m1 / m0)
+
+
+def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
+    """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
+    share = 1.0 / T
+    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
+    scale = max(fabs(m0), fabs(m1), fabs(m2))
+    if scale == 0.0:
+        return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
+    m0, m1, m2 = m0 / scale, m1 / scale, m2 / scale
+    n0, n1, n2 = reversed_moments(m0, m1, m2)
+    bound, regime = fabs(m0), MOMENT
+    for candidate, name in (
+        (fabs(pairing(2.0, m0, m1, m2)), CHEBYSHEV),
+        (touching_bound(m0, m1, m2), END),
+        (touching_bound(n0, n1, n2), START),
+    ):
+        if candidate > bound:
+            bound, regime = candidate, name
+    place, unique, at_end, middle, at_start = 0.5, 1.0, 0.0, 0.0, 0.0
+    smallest = ROUNDING * bound
+    if regime == CHEBYSHEV:
+        at_end, middle, at_start = chebyshev_amplitudes(m0, m1, m2)
+        if at_end * middle > 0.0 and fabs(at_end) > smallest:
+            regime = START
+        elif at_start * middle > 0.0 and fabs(at_start) > smallest:
+            regime = END
+    if regime == START:
+        at_start, middle = two_impulses(n0, n1, n2)
+        at_end, place = 0.0, max(0.0, 1.0 - n2 / n1)
+    elif regime == END or (regime == MOMENT and m0 * m1 > 0.0 and m0 * m2 > 0.0 and m0 * m2 >= m1 * m1):
+        at_end, middle = two_impulses(m0, m1, m2)
+        at_start, place = 0.0, min(1.0, m2 / m1)
+    elif regime == MOMENT:
+        at_end, middle, place = one_impulse(m0, m1)
+    if regime == MOMENT and fabs(m1 - m2) > smallest and m0 * m2 - m1 * m1 > smallest * fabs(m0):
+        unique = 0.0
+    at_end = at_end if fabs(at_end) > smallest else 0.0
+    middle = middle if fabs(middle) > smallest else 0.0
+    at_start = at_start if fabs(at_start) > smallest else 0.0
+    residual = max(
+        fabs(at_end + middle + at_start - m0),
+        fabs(middle * place + at_start - m1),
+        fabs(middle * place * place + at_start - m2),
+    )
+    return (
+        place,
+        at_start * scale,
+        middle * scale,
+        at_end * scale,
+        regime,
+        unique,
+        residual / bound,
+        bound * scale,
+    )
+
+
+solve_stack = batched(solve_impulse, outputs=8)
+
+
+@value_class
+@dataclass(frozen=True, eq=False)
+class ImpulseSolution(Programme):
+    """Control of least total impulse: at most three impulses.
+
+    Attributes
+    ----------
+    maneuver : Maneuver
+        The problem that is solved.
+    inner : (...) array
+        Place of the inner impulse, as a share of T to go.
+    amplitudes : (..., 3) array
+        Impulses at the start, inside and at the end; 0 where there is none.
+    regime_index : (...) int array
+        Index into ``REGIMES``.
+    unique : (...) bool array
+        Whether this is the only optimum. In the interior of the moment cone every u of one sign with the
+        right moments is optimal; the solution holds the one with an impulse at the end and one before it.
+    certificate : Certificate
+        Residual of the moments, relative to the largest; the total impulse; and the largest p.mu found.
+    """
+
+    maneuver: Maneuver
+    inner: Array
+    amplitudes: Array
+    regime_index: NDArray[np.int8]
+    unique: NDArray[np.bool_]
+    certificate: Certificate
+
+    @cached_property
+    def regime(self) -> NDArray[np.str_] | str:
+        """Where the impulses are, (...): "zero", "moment", "chebyshev", "end" or "start"."""
+        names = np.array(REGIMES)[self.regime_index]
+        return names if self.maneuver.shape else str(names)
+
+    @cached_property
+    def _order(self) -> NDArray[np.intp]:
+        return np.argsort(self.amplitudes == 0, axis=-1, kind="stable")
+
+    @cached_property
+    def impulse_times(self) -> Array:
+        """Times of the impulses in order, then nan for absent ones, (..., 3)."""
+        m = self.maneuver
+        times = np.stack([m.t0, m.tf - self.inner * m.duration, m.tf], axis=-1)
+        times = np.where(self.amplitudes == 0, np.nan, times)
+        return np.take_along_axis(times, self._order, axis=-1)
+
+    @cached_property
+    def impulses(self) -> Array:
+        """Amplitudes at `impulse_times`, 0 for absent ones, (..., 3)."""
+        return np.take_along_axis(self.amplitudes, self._order, axis=-1)
+
+    @property
+    def breakpoints(self) -> Array:
+        """Times strictly within one manoeuvre at which an impulse acts, (j,)."""
+        inside = np.where(
+            (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
+        )
+        return breakpoints(self.impulse_times * inside)
+
+    @cached_property
+    def multipliers(self) -> Array:
+        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+        T, regime = self.maneuver.duration, self.regime_index
+        inside = np.where(regime == START, 1.0 - self.inner, self.inner)
+        x = np.where(regime == CHEBYSHEV, 2.0, np.where(regime <= MOMENT, 0.0, 1.0 / inside))
+        p0, p1, p2 = np.ones_like(x), -4 * x, 2 * x**2
+        start = regime == START
+        p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
+        shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
+        return normalise(shape, self.maneuver.moments)
+
+    def control(self, t: ArrayLike) -> Array:
+        """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""
+        hits = self.maneuver.times(t)[..., :, None] == self.impulse_times[..., None, :]
+        signs = (hits * np.sign(self.impulses[..., None, :])).sum(axis=-1)
+        return np.where(signs == 0, 0.0, np.inf * np.where(signs == 0, 1.0, signs))
+
+    def state(self, t: ArrayLike) -> Array:
+        """x at the times t, (k,) -> (..., k, 3).
+
+        At the instant of an impulse x3 is the value after it, except at the start, where x(t0) = x0.
+        """
+        m = self.maneuver
+        time = m.times(t)
+        driven = response(time, self.impulse_times, self.impulses, order=0)
+        return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
+
+
+def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
+    """Control of least total impulse (integral of |u|) that performs the manoeuvre, problem 3, (1.20).
+
+    Parameters
+    ----------
+    maneuver : Maneuver
+        One manoeuvre or a stack of them.
+
+    Returns
+    -------
+    ImpulseSolution
+        Exact to rounding in every regime; the printed solution (4.10) is that of the regime "chebyshev".
+
+    Examples
+    --------
+    >>> s = minimum_impulse(Maneuver([0, 0, 0], [1, 0, 0], tf=2.0))
+    >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
+    (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
+    """
+    result = over_stack(solve_stack, maneuver)
+    amplitudes = result[..., 1:4]
+    total = np.abs(result[..., 1]) + np.abs(result[..., 2]) + np.abs(result[..., 3])
+    certificate = Certificate(result[..., 6], total, result[..., 7])
+    return ImpulseSolution(
+        maneuver, result[..., 0], amplitudes, result[..., 4].astype(np.int8), result[..., 5] != 0, certificate
+    )

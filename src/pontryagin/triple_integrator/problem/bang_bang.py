@@ -1,0 +1,142 @@
+"""Controls of constant modulus with at most two switches, given by their level and the switches."""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.arrays import Array
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.programme import (
+    Programme,
+    breakpoints,
+    normalise,
+    response,
+    truncated_power,
+)
+
+
+class BangBang(Programme):
+    """A control that is v outside [b, a] and -v inside, in the time to go as a share of T.
+
+    Attributes
+    ----------
+    levels : (...) array
+        The signed level v.
+    shares : (..., 2) array
+        Both switches a >= b; 1 and 0 where they do not happen, equal if neither does.
+    """
+
+    levels: Array
+    shares: Array
+
+    @property
+    def norm(self) -> Array:
+        """The peak of |u|, (...)."""
+        return np.abs(self.levels)
+
+    @cached_property
+    def switch_times(self) -> Array:
+        """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
+        start, end = self._interval
+        return switch_times(end, end - start, self.shares)
+
+    @cached_property
+    def first_sign(self) -> Array:
+        """Sign of u at the start, (...); 0 where u is 0."""
+        return first_sign(self.levels, self.shares)
+
+    @property
+    def breakpoints(self) -> Array:
+        """Times within one manoeuvre at which the control switches, (j,)."""
+        return breakpoints(self.switch_times)
+
+    @cached_property
+    def multipliers(self) -> Array:
+        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+        start, end = self._interval
+        return normalise(switching_quadratic(self.shares, end - start), self._moments)
+
+    @cached_property
+    def switch_condition(self) -> Array:
+        """Condition of the switches, (..., 2): how far one moves (share of T) for a relative change of c.
+
+        Large where the control is constant but for a narrow flip: the data then do not determine the
+        place of the flip. Infinite where a switch does not happen.
+        """
+        return switch_condition(self.shares)
+
+    def control(self, t: ArrayLike) -> Array:
+        """u at the times t, (k,) -> (..., k)."""
+        return bang_bang(self._times(t), self.switch_times, self.first_sign * self.norm)
+
+    def state(self, t: ArrayLike) -> Array:
+        """x at the times t, (k,) -> (..., k, 3)."""
+        time, start = self._times(t), self._interval[0]
+        forced = bang_bang_response(time, start, self.switch_times, self.first_sign * self.norm)
+        return self._motion.drift(time) + forced
+
+    @property
+    def _motion(self) -> Maneuver:
+        """The manoeuvre whose motion without control is added to the control's."""
+        return self.maneuver
+
+    @property
+    def _moments(self) -> Array:
+        return self.maneuver.moments
+
+
+def bang_bang(t: Array, switches: Array, first: Array) -> Array:
+    """u = first, changing sign at each switch; at a switch the later value."""
+    count = truncated_power(t, switches, 0).sum(axis=-1)
+    return first[..., None] * np.where(count % 2 == 0, 1.0, -1.0)
+
+
+def bang_bang_response(t: Array, t0: Array, switches: Array, first: Array) -> Array:
+    """State reached from rest under `bang_bang`."""
+    start = np.broadcast_to(t0[..., None], (*switches.shape[:-1], 1))
+    knots = np.concatenate([start, switches], axis=-1)
+    return response(t, knots, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
+
+
+def _happen(shares: Array) -> NDArray[np.bool_]:
+    """Whether the switch at a happens, and the one at b, (..., 2)."""
+    a, b = shares[..., 0], shares[..., 1]
+    return np.stack([(a < 1) & (a > b), (b > 0) & (a > b)], axis=-1)
+
+
+def switch_times(tf: Array, duration: Array, shares: Array) -> Array:
+    """Times of the switches that happen, in order, then nan, (..., 2)."""
+    times = np.where(_happen(shares), tf[..., None] - duration[..., None] * shares, np.nan)
+    return np.where(np.isnan(times[..., :1]), times[..., ::-1], times)
+
+
+def first_sign(levels: Array, shares: Array) -> Array:
+    """Sign of the control at the start: that of the level unless the inner piece reaches the start."""
+    a, b = shares[..., 0], shares[..., 1]
+    return np.where((a == 1) & (a > b), -1.0, 1.0) * np.sign(levels)
+
+
+def switching_quadratic(shares: Array, duration: Array) -> Array:
+    """Multipliers of (s - aT)(s - bT), whose sign the control has, (..., 3)."""
+    a, b = shares[..., 0], shares[..., 1]
+    return np.stack([np.full(a.shape, 2.0), -duration * (a + b), duration * duration * a * b], axis=-1)
+
+
+def switch_condition(shares: Array) -> Array:
+    """Displacement of each switch of `switch_times` per relative change of the scaled moments, (..., 2).
+
+    From the derivative of the moments by (v, a, b): 1 outside and -1 inside, -2 v (3a^2, 2a, 1) and
+    2 v (3b^2, 2b, 1).
+    """
+    a, b = shares[..., 0], shares[..., 1]
+    happens = _happen(shares)
+    level = np.stack([1 - 2 * (a**i - b**i) for i in (3, 2, 1)], axis=-1)
+    at_a, at_b = (np.stack([3 * x**2, 2 * x, np.ones_like(x)], axis=-1) for x in (a, b))
+    jacobian = np.stack([level, -2 * at_a, 2 * at_b], axis=-1)
+    narrow = np.abs(np.linalg.det(jacobian)) < 1e-290
+    inverse = np.linalg.inv(np.where(narrow[..., None, None], np.eye(3), jacobian))
+    reaction = np.abs(inverse[..., 1:, :]).sum(axis=-1)
+    result = np.where(happens & ~narrow[..., None], reaction, np.inf)
+    alone = happens[..., 1:] & ~happens[..., :1]
+    return np.where(alone, result[..., ::-1], result)

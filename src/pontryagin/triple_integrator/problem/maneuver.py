@@ -1,0 +1,154 @@
+"""The manoeuvre, (0.6) to (0.9): both ends, the time, the disturbance, and the moments c of (1.10)."""
+
+from copy import copy
+from dataclasses import dataclass, fields
+from functools import cached_property
+from types import FunctionType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.jit import batched
+from pontryagin.triple_integrator import kernels
+from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals, named_after
+from pontryagin.validation import common_shape, finite, times, vectors
+from pontryagin.value import freeze, value_class
+
+moments_of_stack = batched(kernels.moments, outputs=3)
+
+NUMBERS = "a number or an array (...)"
+"""What the times, and a disturbance given as numbers, take."""
+
+
+@value_class
+@dataclass(frozen=True, eq=False, init=False)
+class Maneuver:
+    """A manoeuvre of x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
+
+    Units are the user's own and consistent: with angle in rad and time in s the control is in rad/s^3.
+
+    Parameters
+    ----------
+    x0, xf : (..., 3) array_like
+        State at the start and at the end: angle, rate, control acceleration.
+    tf, t0 : (...) array_like
+        Time of the end and of the start, ``tf > t0``.
+    disturbance : None, number or (...) array, callable f(t), or SymPy expression in ``t``
+        Acceleration f in addition to the control acceleration. A callable is integrated to 1e-13.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong kind or shape, is not finite, or ``tf <= t0``.
+
+    Examples
+    --------
+    >>> Maneuver([0, 0, 0], [1, 0, 0], tf=2.0).moments
+    array([1., 0., 0.])
+    >>> import sympy as sp
+    >>> t = sp.Symbol("t")
+    >>> Maneuver([0, 0, 0], [1, 0, 0], tf=2.0, disturbance=6 * t).moments
+    array([ -7., -12.,   0.])
+    """
+
+    x0: Array
+    xf: Array
+    tf: Array
+    t0: Array
+    disturbance: Disturbance
+
+    def __init__(
+        self,
+        x0: ArrayLike,
+        xf: ArrayLike,
+        tf: ArrayLike,
+        t0: ArrayLike = 0.0,
+        disturbance: Disturbance = None,
+    ) -> None:
+        start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
+        first, last = (finite(name, time, NUMBERS) for name, time in (("t0", t0), ("tf", tf)))
+        force: tuple[int, ...] = ()
+        if isinstance(disturbance, np.ndarray | list | tuple):
+            numbers = finite("disturbance", disturbance, NUMBERS)
+            disturbance, force = numbers, numbers.shape
+        if not first.ndim == last.ndim == 0 or not start.ndim == end.ndim == 1 or force:
+            shape = common_shape(
+                x0=start.shape[:-1], xf=end.shape[:-1], tf=last.shape, t0=first.shape, disturbance=force
+            )
+            start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
+            first, last = (np.broadcast_to(time, shape) for time in (first, last))
+            disturbance = np.broadcast_to(numbers, shape) if force else disturbance
+        late = ~(last > first)
+        if late.any():
+            wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
+            raise ArgumentValueError(f"tf must be later than t0, got {wrong}", "tf")
+        fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
+        freeze(fields)
+        self.__dict__.update(fields)
+        _ = self._integrals  # A disturbance of the wrong kind is refused here.
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields, with a function that pickle cannot find by its name named after its argument."""
+        force = self.disturbance
+        named = named_after("disturbance", force) if isinstance(force, FunctionType) else force
+        return {**self._fields(), "disturbance": named, "name": getattr(force, "__qualname__", None)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        name, force = state.pop("name"), state["disturbance"]
+        if isinstance(force, FunctionType) and force.__qualname__ != name:
+            force.__qualname__, force.__name__ = name, name.rpartition(".")[2]
+        freeze(state)
+        self.__dict__.update(state)
+
+    def __copy__(self) -> Self:
+        copied = object.__new__(type(self))
+        copied.__dict__.update(self._fields())
+        return copied
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return copy(self)  # The arrays are read-only, and functions are not copied.
+
+    def _fields(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the stack; ``()`` for one manoeuvre."""
+        return self.x0.shape[:-1]
+
+    @property
+    def duration(self) -> Array:
+        """T = tf - t0, (...)."""
+        return self.tf - self.t0
+
+    @cached_property
+    def _integrals(self) -> Integrals:
+        return integrals(self.disturbance, self.t0, self.tf)
+
+    @cached_property
+    def moments(self) -> Array:
+        """c of (1.10), the required integrals of (s^2/2, s, 1) u with s = tf - t, (..., 3)."""
+        if not self.shape and self.disturbance is None:
+            numbers = [*self.x0.tolist(), *self.xf.tolist()]
+            return np.array(kernels.moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
+        g = self._integrals(self.tf, self.t0)
+        ends = [x[..., i].ravel() for x in (self.x0, self.xf) for i in range(3)]
+        rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g[..., 0], g[..., 1])]
+        return moments_of_stack(*ends, *rest).reshape(*self.shape, 3)
+
+    def times(self, t: ArrayLike) -> Array:
+        """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""
+        return times("t", t, self.t0, self.tf)
+
+    def drift(self, t: ArrayLike) -> Array:
+        """The motion without control, Phi(t, t0) x0 + g(t) of (1.3), (k,) -> (..., k, 3)."""
+        time = self.times(t)
+        start = self.t0[..., None]
+        elapsed = time - start
+        x1, x2, x3 = (self.x0[..., None, i] for i in range(3))
+        g = self._integrals(time, start)
+        free = kernels.coast(x1, x2, x3, elapsed)
+        return np.stack(np.broadcast_arrays(free[0] + g[..., 0], free[1] + g[..., 1], free[2]), axis=-1)

@@ -1,0 +1,128 @@
+"""What every solution has: a control with its norm, state and costate at any times, and a certificate."""
+
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pontryagin.arrays import Array
+from pontryagin.certificate import Certificate
+from pontryagin.numerics.jit import Batched
+from pontryagin.triple_integrator import kernels
+from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.validation import times
+
+
+class Programme:
+    """The control that solves a problem, or a stack (...) of them, with the motion it causes.
+
+    A subclass is a frozen dataclass that holds `maneuver`, `certificate` and the numbers that define its
+    control, and implements `control` and `state`.
+    """
+
+    if TYPE_CHECKING:  # Read-only for the type checker; at run time dataclass fields or properties.
+
+        @property
+        def maneuver(self) -> Maneuver:
+            """The problem that is solved."""
+            raise NotImplementedError
+
+        @property
+        def certificate(self) -> Certificate:
+            """Residual of the moments, primal value and dual value, each (...)."""
+            raise NotImplementedError
+
+        @property
+        def multipliers(self) -> Array:
+            """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+            raise NotImplementedError
+
+    @property
+    def norm(self) -> Array:
+        """The least norm of u, (...)."""
+        return self.certificate.primal_value
+
+    @property
+    def breakpoints(self) -> Array:
+        """Times within one manoeuvre at which the control is not smooth, (j,)."""
+        return breakpoints(np.empty((*self.maneuver.shape, 0)))
+
+    def control(self, t: ArrayLike) -> Array:
+        """u at the times t, (k,) -> (..., k)."""
+        raise NotImplementedError
+
+    def state(self, t: ArrayLike) -> Array:
+        """x at the times t, (k,) -> (..., k, 3)."""
+        raise NotImplementedError
+
+    def costate(self, t: ArrayLike) -> Array:
+        """psi = Phi(tf, t)' l0 at the times t, the solution of (1.15), (k,) -> (..., k, 3)."""
+        s = self._interval[1][..., None] - self._times(t)
+        l1, l2, l3 = (self.multipliers[..., None, i] for i in range(3))
+        third = kernels.dual_function(l1, l2, l3, s)
+        return np.stack(np.broadcast_arrays(l1, l1 * s + l2, third), axis=-1)
+
+    @property
+    def _interval(self) -> tuple[Array, Array]:
+        """Start and end of the motion, each (...)."""
+        return self.maneuver.t0, self.maneuver.tf
+
+    def _times(self, t: ArrayLike) -> Array:
+        """The times t (k,) or (..., k) checked to lie within the interval, as (..., k)."""
+        return times("t", t, *self._interval)
+
+
+def breakpoints(events: Array) -> Array:
+    """The events of one problem that happen, sorted; a time of nan stands for an event that does not."""
+    if events.ndim != 1:
+        raise ValueError(f"breakpoints are those of one manoeuvre, got a stack of shape {events.shape[:-1]}")
+    return np.sort(events[np.isfinite(events)])
+
+
+def normalise(multipliers: Array, moments: Array) -> Array:
+    """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0 and no factor can do it."""
+    pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
+    scaled = np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
+    return np.asarray(scaled)
+
+
+def truncated_power(t: Array, knots: Array, order: int) -> Array:
+    """(t - knot)_+^n / n! for times (..., k) and knots (..., j), as (..., k, j); a knot of nan gives 0."""
+    elapsed = t[..., :, None] - knots[..., None, :]
+    if order == 0:
+        return np.where(elapsed >= 0, 1.0, 0.0)
+    past = np.where(elapsed > 0, elapsed, 0.0)
+    return past**order / (1, 1, 2, 6, 24, 120)[order]
+
+
+def response(t: Array, knots: Array, amplitudes: Array, order: int) -> Array:
+    """State reached from rest under sums of amplitude (t - knot)_+^n / n! in u, (..., k, 3).
+
+    ``order`` is n + 1, the order of the truncated power in x3: 0 for impulses, 1 for steps, 2 for ramps.
+    """
+    weights = amplitudes[..., :, None]
+    parts = [(truncated_power(t, knots, order + i) @ weights)[..., 0] for i in (2, 1, 0)]
+    return np.stack(parts, axis=-1)
+
+
+def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
+    """Run a scalar solver (c1, c2, c3, T) -> numbers over a manoeuvre or a stack, as (..., numbers)."""
+    c = _within_range(maneuver.moments)
+    if c.ndim == 1:
+        result = solver.one(*c.tolist(), float(maneuver.duration))
+    else:
+        flat = c.reshape(-1, 3)
+        result = solver(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
+        result = result.reshape(*maneuver.shape, result.shape[-1])
+    return _within_range(result)
+
+
+def _within_range(numbers: NDArray[Any]) -> Array:
+    if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
+        lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
+        where = f"; not so at index {lost}" if lost else ""
+        raise ValueError(
+            f"xf must give, with x0 and tf - t0, a control within the range of floating point{where}"
+        )
+    return numbers

@@ -1,0 +1,164 @@
+"""The disturbance's integrals against closed forms and SciPy's quadrature, for every kind it may be of."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+from pontryagin import NotConverged
+from pontryagin.triple_integrator import Maneuver
+from pontryagin.triple_integrator.problem.disturbance import integrals
+
+t = sp.Symbol("t")
+START, END = np.array(-0.5), np.array(2.0)
+
+SMOOTH = {
+    "polynomial": 3 * t**2 - t + 1,
+    "oscillating": sp.sin(5 * t) * sp.exp(-t / 3),
+    "rational": 1 / (1 + t**2),
+    "Gaussian": sp.exp(-(t**2) * 4),
+    "sharp": 1 / (1 + 400 * (t - 1) ** 2),
+    "no antiderivative": sp.exp(sp.sin(3 * t)),
+    "no NumPy antiderivative": sp.cos(t**2 + 1) / (t + 3),
+}
+ROUGH = {
+    "kink": (sp.Abs(t - sp.Rational(1, 3)), [1 / 3]),
+    "step": (sp.Piecewise((1, t < sp.Rational(7, 10)), (-2, True)), [0.7]),
+    "three pieces": (sp.Piecewise((t, t < 0), (1 - t, t < 1), (t**2, True)), [0.0, 1.0]),
+    "Heaviside": (sp.Heaviside(t - sp.Rational(1, 3)) * t, [1 / 3]),
+}
+
+
+def by_quad(f, low, high, points=None):
+    """g1 = int (high - tau) f and g2 = int f by SciPy."""
+    kwargs = {"epsabs": 1e-13, "epsrel": 1e-12, "limit": 400}
+    inner = [p for p in points or [] if low < p < high] or None
+    g1, _ = quad(lambda tau: (high - tau) * f(tau), low, high, points=inner, **kwargs)
+    g2, _ = quad(f, low, high, points=inner, **kwargs)
+    return [g1, g2]
+
+
+def numeric(expression):
+    f = sp.lambdify(t, expression, "numpy")
+    return lambda tau: float(f(tau))
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("kind", ["expression", "callable", "scalar callable"])
+def test_smooth_forces_to_1e_12(name, kind):
+    expression = SMOOTH[name]
+    given_as = {
+        "expression": expression,
+        "callable": sp.lambdify(t, expression, "numpy"),
+        "scalar callable": lambda tau: numeric(expression)(float(tau)),
+    }[kind]
+    exact = by_quad(numeric(expression), -0.5, 2.0)
+    assert_allclose(integrals(given_as, START, END)(END, START), exact, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ROUGH)
+@pytest.mark.parametrize("kind", ["expression", "callable"])
+def test_rough_forces_to_1e_12(name, kind):
+    expression, points = ROUGH[name]
+    given_as = expression if kind == "expression" else numeric(expression)
+    for end in (0.2, 2.0):
+        exact = by_quad(numeric(expression), -0.5, end, points)
+        assert_allclose(integrals(given_as, START, END)(np.array(end), START), exact, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("force", "exact"), [(sp.sqrt(t), [4 / 15, 2 / 3]), (np.sqrt, [4 / 15, 2 / 3]), (np.log, [-3 / 4, -1.0])]
+)
+def test_integrable_singularities_of_the_slope_and_of_the_value(force, exact):
+    assert_allclose(integrals(force, np.array(0.0), np.array(1.0))(1.0, 0.0), exact, rtol=1e-12)
+
+
+def test_a_narrow_pulse_is_found():
+    width, at = 1e-3, 0.4
+    g1, g2 = integrals(lambda s: np.exp(-(((s - at) / width) ** 2)), np.array(0.0), np.array(1.0))(1.0, 0.0)
+    assert_allclose([g1, g2], np.array([1 - at, 1]) * width * np.sqrt(np.pi), rtol=1e-12)
+
+
+@given(st.floats(-0.5, 2.0), st.floats(-0.5, 2.0))
+def test_the_integrals_add_up(first, second):
+    """g2(t, r) + g2(r, s) = g2(t, s) and g1(t, s) = g1(t, r) + (t - r) g2(r, s) + g1(r, s)."""
+    low, high = sorted((first, second))
+    g = integrals(lambda s: np.cos(3 * s) + np.abs(s - 0.3), START, END)
+    part, rest = g(np.array(low), START), g(np.array(high), np.array(low))
+    whole = g(np.array(high), START)
+    assert_allclose(whole[1], part[1] + rest[1], atol=1e-13)
+    assert_allclose(whole[0], part[0] + (high - low) * part[1] + rest[0], atol=1e-13)
+
+
+@pytest.mark.parametrize("force", [None, 2, 2.0, np.float32(2), np.array(2.0), sp.Integer(2), lambda s: 2.0])
+def test_every_way_to_give_a_constant(force):
+    level = 0.0 if force is None else 2.0
+    result = integrals(force, START, END)(END, START)
+    assert_allclose(result, [level * 2.5**2 / 2, level * 2.5], rtol=1e-14)
+
+
+def test_constants_of_a_stack():
+    m = Maneuver(np.zeros((2, 3)), np.zeros(3), 2.0, disturbance=[1.0, -3.0])
+    assert_allclose(m.moments, [[-2.0, -2.0, 0.0], [6.0, 6.0, 0.0]])
+    assert m.drift([1.0]).shape == (2, 1, 3)
+
+
+def test_a_stack_of_intervals_shares_one_force():
+    starts, ends = np.array([0.0, 1.0]), np.array([1.0, 3.0])
+    stacked = integrals(np.cos, starts, ends)(ends, starts)
+    for row, low, high in zip(stacked, starts, ends, strict=True):
+        assert_allclose(row, by_quad(np.cos, low, high), rtol=1e-12)
+
+
+def test_a_symbol_called_t_may_carry_any_assumption():
+    positive = sp.Symbol("t", positive=True)
+    assert_allclose(integrals(positive**2, START, END)(END, START)[1], (8 + 0.125) / 3, rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("force", "error", "message"),
+    [
+        ("strong", TypeError, "'strong'"),
+        ({}, TypeError, "{}"),
+        (True, TypeError, "True"),
+        (object(), TypeError, "object"),
+        (np.nan, ValueError, "finite, got nan"),
+        ([1.0, np.inf], ValueError, "finite, got inf"),
+        ([[1.0], [1.0, 2.0]], ValueError, "ragged"),
+        (lambda s: np.nan, ValueError, r"finite: f\(.*\) = nan"),
+        (lambda s: np.where(np.asarray(s) > 0.5, np.inf, 1.0), ValueError, r"finite: f\(.*\) = inf"),
+        (lambda s: np.zeros((3, 3)), ValueError, r"one number for each time: got shape \(3, 3\)"),
+        (lambda s: np.zeros((np.size(s), 1)), ValueError, r"one number for each time: got shape \(25, 1\)"),
+        (lambda s: np.array([1.0]), ValueError, r"one number for each time: got shape \(1,\)"),
+        (lambda s: "much", TypeError, "returns a number: got 'much'"),
+        (lambda s: 1j, TypeError, "returns a number: got 1j"),
+        (lambda s: 1j * np.asarray(s), TypeError, "returns a number"),
+        (lambda: 1.0, TypeError, "takes a time"),
+        (lambda s, r: s, TypeError, "takes a time"),
+        (sp.Symbol("a") * t, ValueError, "in t alone, got symbols a"),
+        (sp.I * t, TypeError, "complex"),
+        (sp.Matrix([t, t]), TypeError, "real expression"),
+        (t > 0, TypeError, "real expression"),
+        (sp.zoo, TypeError, "real expression"),
+        (sp.Function("g")(t), ValueError, "NumPy evaluates, got g"),
+        (1 / (t - sp.Rational(1, 2)), ValueError, "finite"),
+        (sp.Piecewise((1, t < sp.Rational(1, 2))), ValueError, "finite"),
+    ],
+)
+def test_what_is_no_force_is_refused_when_the_manoeuvre_is_made(force, error, message):
+    with pytest.raises(error, match=f"^disturbance.*{message}"):
+        Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=force)
+
+
+@pytest.mark.parametrize("force", [lambda s: 1 / (s - 0.3), 1 / t, lambda s: np.sign(np.sin(1e9 * s))])
+def test_what_cannot_be_integrated_says_so(force):
+    with pytest.raises(NotConverged, match=r"^disturbance is not integrable to 1e-13 near t = "):
+        Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=force)
+
+
+def test_an_error_inside_the_users_function_is_not_hidden():
+    with pytest.raises(ZeroDivisionError):
+        Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=lambda s: 1 / 0)
