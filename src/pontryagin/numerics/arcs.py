@@ -143,14 +143,15 @@ def follow(
             raise NotConverged("the right-hand side switches too often", abs(end - reached.time))
 
 
-def follow_on_grid(flow: SwitchedFlow[Mode], state: Array, mode: Mode, times: Array) -> Array:
+def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Array) -> Array:
     """The states at ascending times of the trajectory that begins at the first of them, (k, n).
 
     It is integrated once, where `follow` and `sample` would do so twice.
     """
-    rows = np.empty((len(times), len(state)))
-    rows[0] = state
-    piece, done, switches = Piece(float(times[0]), mode, state), 1, 0
+    n = len(flow.arc(mode).integrator.equations.identity)
+    rows = np.empty((len(times), n))
+    rows[0] = whole[:n]
+    piece, done, switches = Piece(float(times[0]), mode, whole), 1, 0
     last: Integrator | None = None
     while done < len(times):
         integrator, parameters, longest = flow.arc(piece.mode)
@@ -162,7 +163,7 @@ def follow_on_grid(flow: SwitchedFlow[Mode], state: Array, mode: Mode, times: Ar
             break
         piece, last, switches = flow.crossed(piece.mode, reached), integrator, switches + 1
         while done < len(times) and times[done] <= piece.begin:  # the grid meets the switch
-            rows[done] = piece.whole
+            rows[done] = piece.whole[:n]
             done += 1
         if switches > flow.most:
             raise NotConverged("the right-hand side switches too often", float(times[-1]) - piece.begin)

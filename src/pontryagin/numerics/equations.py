@@ -43,10 +43,6 @@ class Equations(Protocol):
         """Number of event functions."""
 
     @property
-    def both_ways(self) -> bool:
-        """Whether arcs may run backwards in time."""
-
-    @property
     def large(self) -> bool:
         """Whether heyoka should compile loops, since unrolled code would take many seconds to compile."""
 
@@ -120,8 +116,6 @@ class Symbolic:
     def events(self) -> int:
         """Number of event functions."""
         return len(self.event_functions)
-
-    both_ways = True
 
     @property
     def large(self) -> bool:
@@ -300,13 +294,13 @@ class Kernel:
         """Number of event functions."""
         return len(self.event_functions)
 
-    both_ways, large = False, True
+    large = True
 
     def in_heyoka(self) -> HeyokaSystem:
         """See `Equations`."""
         import heyoka as hy
 
-        of, x = on_heyoka(), hy.make_vars(*self.names)
+        of, x = on_heyoka(), [hy.expression(name) for name in self.names]
         p = [hy.par[i] for i in range(self.parameters)]
         rates = self.right_hand_side(of, hy.time, x, p)
         events = [g(of, hy.time, x, p) - self.slack for g in self.event_functions]

@@ -170,19 +170,19 @@ def integrator(
     return _RungeKutta(equations, tolerance)
 
 
-def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0) -> Any:
+def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
     """heyoka's integrator of some equations, with their derivatives and events; of one lane if 0 is given."""
     import heyoka as hy
 
     pairs, wrt, functions = equations.in_heyoka()
     event = hy.t_event_batch if lanes else hy.t_event
-    direction = hy.event_direction.any if equations.both_ways else hy.event_direction.positive
+    growing = hy.event_direction.negative if backwards else hy.event_direction.positive
     return (hy.taylor_adaptive_batch if lanes else hy.taylor_adaptive)(
         hy.var_ode_sys(pairs, wrt, order=1) if wrt else pairs,
         np.zeros((len(pairs), lanes) if lanes else len(pairs)),
         tol=tolerance,
         compact_mode=equations.large,
-        t_events=[event(function, direction=direction) for function in functions],
+        t_events=[event(function, direction=growing) for function in functions],
     )
 
 
@@ -197,11 +197,13 @@ class _Taylor:
         self.equations, self._tolerance, self._per_unit = equations, tolerance, steps_per_unit
         self._own = threading.local()  # heyoka's object holds the trajectory that is being followed
 
-    def _begin(self, whole: Array, time: float, parameters: Values, resume: bool) -> Any:
-        try:
-            taylor = self._own.integrator
-        except AttributeError:
-            taylor = self._own.integrator = compiled_taylor(self.equations, self._tolerance)
+    def _begin(self, whole: Array, time: float, end: float, parameters: Values, resume: bool) -> Any:
+        backwards = end < time and self.equations.events > 0
+        compiled = self._own.__dict__
+        key = "backwards" if backwards else "forwards"
+        if key not in compiled:
+            compiled[key] = compiled_taylor(self.equations, self._tolerance, backwards=backwards)
+        taylor = compiled[key]
         if self.equations.events and not resume:
             taylor.reset_cooldowns()
         taylor.time = time
@@ -230,7 +232,7 @@ class _Taylor:
         longest: float = math.inf,
         resume: bool = False,
     ) -> Reached:
-        taylor = self._begin(whole, begin, parameters, resume)
+        taylor = self._begin(whole, begin, end, parameters, resume)
         outcome = taylor.propagate_until(end, **self._limits(abs(end - begin), longest))[0]
         return self._reached(taylor, outcome, end)
 
@@ -242,7 +244,7 @@ class _Taylor:
         longest: float = math.inf,
         resume: bool = False,
     ) -> tuple[Array, Reached]:
-        taylor = self._begin(whole, times[0], parameters, resume)
+        taylor = self._begin(whole, times[0], times[-1], parameters, resume)
         limits = self._limits(float(times[-1] - times[0]), longest)
         outcome, *_, found = taylor.propagate_grid(times, **limits)
         states = found[:, : len(self.equations.identity)]
