@@ -8,9 +8,8 @@ from collections.abc import Callable, Sequence
 
 import sympy as sp
 
+Rewriting = Callable[[sp.Expr], sp.Expr]
 Modes = tuple[tuple[sp.Symbol, sp.Expr], ...]
-"""Modes and the functions whose signs they are."""
-Rewrite = Callable[[sp.Expr], sp.Expr]
 
 
 def modal(expressions: Sequence[sp.Expr]) -> tuple[tuple[sp.Expr, ...], Modes]:
@@ -57,7 +56,7 @@ def modal(expressions: Sequence[sp.Expr]) -> tuple[tuple[sp.Expr, ...], Modes]:
     return rewritten, tuple((mode, switching) for switching, mode in found.items())
 
 
-def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of: Rewrite) -> sp.Expr:
+def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of: Rewriting) -> sp.Expr:
     first, *rest = parts
     for second in rest:
         half = sign_of(first - second) * (first - second) / 2
@@ -65,7 +64,7 @@ def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of: Rewrite) -> sp.Ex
     return first
 
 
-def _alternative(e: sp.Piecewise, rewrite: Rewrite, sign_of: Rewrite) -> sp.Expr:
+def _alternative(e: sp.Piecewise, rewrite: Rewriting, sign_of: Rewriting) -> sp.Expr:
     if len(e.args) != 2 or not isinstance(e.args[0].cond, sp.StrictLessThan | sp.LessThan):
         if len(e.args) == 2 and isinstance(e.args[0].cond, sp.StrictGreaterThan | sp.GreaterThan):
             (inside, cond), (outside, _) = e.args

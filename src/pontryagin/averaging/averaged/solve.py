@@ -1,4 +1,4 @@
-"""The optimal averaged extremal: a guess, Newton's method, continuation where it fails, a mesh as needed."""
+"""Averaged extremals by collocation: Newton's method, other guesses where it fails, refined meshes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certificate import certify
 from pontryagin.averaging.averaged.collocation import (
     CLOSE,
-    Path,
     Problem,
+    Trajectories,
     newton,
 )
 from pontryagin.averaging.averaged.guess import (
@@ -19,24 +19,25 @@ from pontryagin.averaging.averaged.guess import (
     shot,
     straight,
 )
-from pontryagin.averaging.averaged.mesh import Mesh
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
+from pontryagin.numerics.collocation import Mesh
 
 COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
 GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
-"""What the last coefficients may be, in shares of the variable."""
+"""Largest last coefficients on a panel, relative to the variable, at which it is not halved."""
 LAST_TAIL, MOST_PANELS = 1e-9, 40
-"""What they may be where the mesh is not refined any more."""
+"""Largest last coefficients that are accepted, and the number of panels from which none is halved."""
 LEAST_SHARE = 1e-3
+"""Shortest step of the continuation, as a share of the distance to the target."""
 AT_ONCE = 64
-"""Problems solved side by side; more take memory and no less time each."""
+"""Problems solved side by side; more would take more memory and no less time each."""
 
 
 @dataclass(frozen=True, eq=False)
-class Extremals:
+class AveragedExtremals:
     """Averaged extremals of a stack (s).
 
     Attributes
@@ -61,7 +62,7 @@ class Extremals:
 
 def extremals(
     model: Model, names: Sequence[str], start: Array, numbers: tuple[Array, ...], kappa: Array
-) -> Extremals:
+) -> AveragedExtremals:
     """Solve a stack of problems: start (s, n), numbers and kappa (s).
 
     Raises
@@ -71,7 +72,7 @@ def extremals(
     Infeasible, NotConverged
         See `solve_averaged`.
     """
-    groups: list[tuple[NDArray[np.intp], Extremals]] = []
+    groups: list[tuple[NDArray[np.intp], AveragedExtremals]] = []
     level = np.zeros((len(start), model.target))
     problem = Problem(model, start, level, kappa, numbers)
     for first in range(0, len(start), AT_ONCE):
@@ -80,9 +81,9 @@ def extremals(
     return _joined(len(start), groups)
 
 
-def _joined(stack: int, groups: list[tuple[NDArray[np.intp], Extremals]]) -> Extremals:
+def _joined(stack: int, groups: list[tuple[NDArray[np.intp], AveragedExtremals]]) -> AveragedExtremals:
     if not groups:
-        raise ValueError("start must hold at least one problem, got an empty stack")
+        raise ArgumentValueError("start must hold at least one problem, got an empty stack", "start")
     panels = max(found.series.shape[1] for _, found in groups)
     degree = max(found.series.shape[2] for _, found in groups)
     edges = np.ones((stack, panels + 1))
@@ -97,10 +98,12 @@ def _joined(stack: int, groups: list[tuple[NDArray[np.intp], Extremals]]) -> Ext
         multipliers[members] = found.multipliers
         of = found.certificate
         residuals[:, members] = [of.boundary, of.transversality, of.hamiltonian, of.maximality]
-    return Extremals(edges, series, duration, cost, multipliers, MaximumPrinciple(*residuals))
+    return AveragedExtremals(edges, series, duration, cost, multipliers, MaximumPrinciple(*residuals))
 
 
-def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDArray[np.intp], Extremals]]:
+def _stack(
+    problem: Problem, names: Sequence[str], first: int
+) -> list[tuple[NDArray[np.intp], AveragedExtremals]]:
     """Solve problems side by side; those that end on one mesh make a group."""
     guess = straight(problem, COARSE)
     there = _already_there(problem)
@@ -108,7 +111,9 @@ def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDA
     paths = []
     if there.any():
         still = guess.path[there]
-        paths.append((np.nonzero(there)[0], Path(COARSE, still.z, 0 * still.duration, still.multipliers)))
+        paths.append(
+            (np.nonzero(there)[0], Trajectories(COARSE, still.z, 0 * still.duration, still.multipliers))
+        )
     if not there.all():
         moving = np.nonzero(~there)[0]
         path, closeness = newton(problem[moving], guess.path[moving])
@@ -117,13 +122,13 @@ def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDA
         paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
         for member in moving[failed]:
             one = problem[[member]]
-            again = _tried_harder(one, names, first + int(member))
+            again = _from_other_guesses(one, names, first + int(member))
             paths += [(np.array([member]), p) for _, p in _resolved(one, again, np.array([first + member]))]
     return [(members, _extremals(problem[members], path, names, first + members)) for members, path in paths]
 
 
-def _tried_harder(problem: Problem, names: Sequence[str], member: int) -> Path:
-    """Solve one problem (1) that Newton's method did not solve from the first guess."""
+def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
+    """Solve one problem (1) that Newton's method did not solve from the first guess, by better ones."""
     for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
         if guess is not None:
             path, closeness = newton(problem, guess)
@@ -132,7 +137,9 @@ def _tried_harder(problem: Problem, names: Sequence[str], member: int) -> Path:
     return _continued(problem, names, member)
 
 
-def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]) -> Extremals:
+def _extremals(
+    problem: Problem, path: Trajectories, names: Sequence[str], members: NDArray[np.intp]
+) -> AveragedExtremals:
     """The extremals of paths on one mesh, certified."""
     n, mesh = problem.model.slow, path.mesh
     certificate = certify(problem, path, names, members)
@@ -146,7 +153,7 @@ def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDAr
     running = np.einsum("ski,ski->sk", path.z[..., n:], h.gradient[..., n:]) - h.value
     _, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
     turned = (omega.value @ mesh.integrals.T)[..., None]
-    return Extremals(
+    return AveragedExtremals(
         edges=np.broadcast_to(np.array(mesh.edges), (len(path.z), mesh.panels + 1)),
         series=mesh.series(np.concatenate([path.z, turned], axis=-1)),
         duration=path.duration,
@@ -156,14 +163,16 @@ def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDAr
     )
 
 
-def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[tuple[NDArray[np.intp], Path]]:
+def _resolved(
+    problem: Problem, path: Trajectories, members: NDArray[np.intp]
+) -> list[tuple[NDArray[np.intp], Trajectories]]:
     """Refine the mesh of the members that need it until their series end in rounding."""
     groups = []
     active = np.arange(len(path.duration))
     while len(active):
         tails = path.tails()
         last = path.mesh.panels >= MOST_PANELS
-        settled = (tails <= (LAST_TAIL if last else TAIL)).all(axis=1)
+        settled = np.asarray((tails <= (LAST_TAIL if last else TAIL)).all(axis=1))
         if settled.any():
             groups.append((active[settled], path[settled]))
         active, path, tails = active[~settled], path[~settled], tails[~settled]
@@ -193,9 +202,9 @@ def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[t
 
 
 def _already_there(problem: Problem) -> NDArray[np.bool_]:
-    """Whether the start meets the target, which is then kept where g does not say otherwise."""
+    """Whether the start meets the target and g is stationary there, so that the duration is zero."""
     target, terminal = problem.model.ends(problem.start, problem.numbers)
-    return (target.value == problem.level).all(axis=1) & (terminal.gradient == 0).all(axis=1)
+    return np.asarray((target.value == problem.level).all(axis=1) & (terminal.gradient == 0).all(axis=1))
 
 
 def _require_sound(
@@ -203,9 +212,9 @@ def _require_sound(
 ) -> None:
     single = problem.model.slow == 1
     seen = slice(None) if single else slice(0, 1)
-    dead = ~(guess.frequency[:, seen] > 0)
-    if dead.any():
-        member, place = (int(i[0]) for i in np.nonzero(dead))
+    stopped = ~(guess.frequency[:, seen] > 0)
+    if stopped.any():
+        member, place = (int(i[0]) for i in np.nonzero(stopped))
         raise ValueError(
             f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
             f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}"
@@ -239,13 +248,13 @@ def _which(problem: Problem, member: int) -> str:
     return f" (problem {member} of the stack)" if len(problem.start) > 1 else ""
 
 
-def _continued(problem: Problem, names: Sequence[str], member: int) -> Path:
-    """Solve one problem (1) by bringing its target from the start's level to the given one in steps."""
+def _continued(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
+    """Solve one problem (1) by continuation of the target's level from that of the start."""
     model = problem.model
     target, _ = model.ends(problem.start, problem.numbers)
     far = target.value - problem.level
     done, share = 0.0, 0.25
-    known: list[tuple[float, Path]] = []
+    known: list[tuple[float, Trajectories]] = []
     while done < 1:
         at = min(1.0, done + share)
         nearer = Problem(model, problem.start, problem.level + (1 - at) * far, problem.kappa, problem.numbers)
@@ -265,7 +274,7 @@ def _continued(problem: Problem, names: Sequence[str], member: int) -> Path:
     return known[-1][1]
 
 
-def _predicted(problem: Problem, known: list[tuple[float, Path]], at: float) -> Path:
+def _predicted(problem: Problem, known: list[tuple[float, Trajectories]], at: float) -> Trajectories:
     if not known:
         return straight(problem, FINE).path
     if len(known) == 1:
@@ -273,7 +282,7 @@ def _predicted(problem: Problem, known: list[tuple[float, Path]], at: float) -> 
     (earlier, first), (later, second) = known
     more = (at - later) / (later - earlier)
     duration = second.duration + more * (second.duration - first.duration)
-    return Path(
+    return Trajectories(
         second.mesh,
         second.z + more * (second.z - first.z),
         np.where(duration > 0, duration, second.duration),
