@@ -215,9 +215,10 @@ def _require_sound(
     stopped = ~(guess.frequency[:, seen] > 0)
     if stopped.any():
         member, place = (int(i[0]) for i in np.nonzero(stopped))
-        raise ValueError(
+        raise ArgumentValueError(
             f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
-            f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}"
+            f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}",
+            "omega",
         )
     idle = ~(guess.idle < 0)
     if idle.any():
@@ -227,9 +228,10 @@ def _require_sound(
             if problem.kappa[member]
             else ("running_cost must be positive on average")
         )
-        raise ValueError(
+        raise ArgumentValueError(
             f"{name}, at the start the cost rate is {-guess.idle[member]:.6g}"
-            f"{_which(problem, first + member)}"
+            f"{_which(problem, first + member)}",
+            name.split(" ")[0],
         )
     stuck = guess.stuck & ~there[:, None]
     if single and stuck.any():
