@@ -1,13 +1,12 @@
-"""The solvers side by side with the peers a reader would otherwise use: ``python -m benchmarks [PAPER ...]``.
+"""Benchmarks of the solvers beside other packages: ``python -m benchmarks [PAPER ...]``.
 
-papers             which papers are measured, and what measuring one gives
-triple_integrator  the first paper
-orbit_correction   the second
-averaging          the third
-clock              processor time of contestants who take turns
-contest            contestants on the same problems, and the rows that come of it
-peers              which peers are installed
-table              rows to CSV, Markdown and terminal
-figures            the plot that every paper has
-run                measure, print, write
+papers             the papers that are measured, and the result of measuring one
+triple_integrator, orbit_correction, averaging, rendezvous
+                   the benchmarks of each paper
+clock              processor time of contestants that run in turns
+contest            contestants on the same problems, and a row of results for each
+peers              which of the other packages are installed
+table              rows as CSV, Markdown and terminal tables
+figures            the plot of accuracy against time
+run                measuring, printing and writing
 """

@@ -7,7 +7,7 @@ from benchmarks.clock import SINGLE_THREAD
 
 
 def main() -> None:
-    os.environ.update(SINGLE_THREAD)  # read when NumPy is loaded, which the next lines do
+    os.environ.update(SINGLE_THREAD)  # before the next lines load NumPy, which reads it
     from benchmarks.papers import PAPERS
     from benchmarks.run import run
 

@@ -1,4 +1,4 @@
-"""Processor time of contestants who take turns, so that what slows the machine slows all of them."""
+"""Processor time of contestants that run in turns, so that a busy machine slows all of them alike."""
 
 import gc
 from collections.abc import Callable, Mapping
@@ -13,7 +13,7 @@ SINGLE_THREAD = dict.fromkeys(LIMITS, "1")
 
 @dataclass(frozen=True)
 class Timing:
-    """Processor seconds per problem: the median and the least of the rounds; problems a round."""
+    """Processor seconds per problem, median and least of all rounds, and the problems in each round."""
 
     typical: float
     least: float
@@ -21,19 +21,19 @@ class Timing:
 
 
 def repeated(run: Callable[[], int], times: int) -> Callable[[], int]:
-    """A contestant that runs several times over, so that what only its first run pays does not count."""
+    """A contestant that runs `times` times in each round, so that the cost of a first run hardly counts."""
     return lambda: sum(run() for _ in range(times))
 
 
 def take_turns(contestants: Mapping[str, Callable[[], int]], rounds: int = 5) -> dict[str, Timing]:
-    """Time each contestant once a round, after one round that does not count.
+    """Time each contestant once in each round, after an untimed round that warms up.
 
     Parameters
     ----------
     contestants : mapping of str to callable
-        Each solves some problems and returns how many.
+        Each solves some problems and returns their number.
     rounds : int
-        Rounds that count.
+        Number of timed rounds.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Contestants on the same problems, and the rows that come of it."""
+"""Contestants on the same problems, and a row of results for each."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ class Contestant:
     Attributes
     ----------
     run : callable
-        Solves the problems, input set-up included, and returns how many they are.
+        Solves the problems, input set-up included, and returns their number.
     error : float
         Worst relative difference of its costs from the exact optimum; for ours, the worst relative gap
-        between its cost and its dual bound. nan where nothing was solved.
+        between its cost and its dual bound. nan if nothing was solved.
     solved : float
         Share of the problems solved.
     """
@@ -33,7 +33,7 @@ class Contestant:
 
 @dataclass(frozen=True)
 class Row:
-    """What a contestant took and returned."""
+    """The times and results of a contestant on a set of problems."""
 
     problem: str
     method: str
@@ -44,7 +44,7 @@ class Row:
 
 
 def contest(problem: str, contestants: Mapping[str, Contestant], rounds: int) -> list[Row]:
-    """Time all contestants in turns."""
+    """Time all contestants in turns; one row for each."""
     timings = take_turns({method: entrant.run for method, entrant in contestants.items()}, rounds)
     return [
         Row(problem, method, timing.count, timing, contestants[method].error, contestants[method].solved)
@@ -53,5 +53,5 @@ def contest(problem: str, contestants: Mapping[str, Contestant], rounds: int) ->
 
 
 def worst(values: NDArray) -> float:
-    """The largest modulus, nan if there are no values."""
+    """The largest modulus; nan if there are no values."""
     return float(np.abs(values).max()) if values.size else float("nan")

@@ -1,4 +1,4 @@
-"""The plot that every paper has: accuracy against time."""
+"""The plot of accuracy against time that several papers use."""
 
 from collections.abc import Sequence
 
@@ -29,15 +29,15 @@ MARKS = {
 """Marker and colour of each contestant."""
 
 OURS = {CALL: ("one call", 5, "bottom"), STACK: ("stack", -5, "top")}
-"""Label of our points, how far above they stand, and which side of the label that is."""
+"""Label of our points, its vertical offset in points, and its vertical alignment."""
 
 FLOOR = 1e-16
-"""Errors below this are drawn here."""
+"""Smaller errors are drawn at this value."""
 
 
 @styled
 def accuracy_and_time(rows: Sequence[Row]) -> Figure:
-    """Worst relative error against time per problem, one panel a problem; the legend fills what is left."""
+    """Worst relative error against time per problem, a panel for each; a free panel holds the legend."""
     problems = list(dict.fromkeys(row.problem for row in rows))
     lines = (len(problems) + 1) // 2
     figure, axes = subplots(lines, 2, height=2.1 * lines, sharex=True, sharey=True, squeeze=False)

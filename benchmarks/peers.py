@@ -1,4 +1,4 @@
-"""Which peers are installed; an absent one costs its rows and one line, never the run."""
+"""Which peers are installed; the rows of an absent one are left out, and a line says so."""
 
 from importlib.metadata import PackageNotFoundError, version
 
@@ -6,7 +6,7 @@ PEERS = ("scipy", "ruckig", "clarabel", "casadi", "cvxpy", "highspy")
 
 
 def absent(peer: str) -> str | None:
-    """One line that says which rows are missing and how to get them, or None where the peer is installed."""
+    """A line that says which rows are left out and how to get them; None if the peer is installed."""
     try:
         version(peer)
     except PackageNotFoundError:

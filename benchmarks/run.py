@@ -1,4 +1,4 @@
-"""Measure papers, print, write; the sections of papers that are not measured stay as they are."""
+"""Measuring papers, printing and writing the results; sections of other papers stay as they are."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,13 +10,13 @@ from pontryagin.display import plotting
 from pontryagin.io import files
 
 FOLDER = "benchmarks"
-"""Folder of the committed tables and plots below figures/."""
+"""Folder of the committed tables and plots in figures/."""
 
 PAGE = "benchmarks.md"
 
 
 def run(names: Sequence[str], quick: bool) -> None:
-    """Measure the papers, print their tables, and write tables and plots."""
+    """Measure the named papers, print their tables, and write tables and plots."""
     for peer in peers.PEERS:
         if line := peers.absent(peer):
             print(line)
@@ -32,13 +32,13 @@ def run(names: Sequence[str], quick: bool) -> None:
 
 
 def folders(quick: bool) -> list[Path]:
-    """Where results go: a full run is committed too."""
+    """The folders that results are written to; those of a full run go to figures/ too."""
     built = files.repository() / "build" / "bench"
     return [built] if quick else [built, files.figures_folder() / FOLDER]
 
 
 def write(folder: Path, name: str, facts: dict[str, str], measured: Measured) -> None:
-    """Write a paper's tables as CSV and its plots to a folder of its own, and its section of the page."""
+    """Write a paper's tables as CSV and its plots to its folder, and its section of the page."""
     page = folder / PAGE
     section = table.section(PAPERS[name], facts, measured.notes, measured.tables)
     written = page.read_text(encoding="utf-8") if page.is_file() else ""

@@ -1,4 +1,4 @@
-"""Rows of results to CSV, Markdown and the terminal."""
+"""Rows of results as CSV, Markdown and tables of the terminal."""
 
 import csv
 import io
@@ -18,11 +18,11 @@ NOTES = (
     "same problem: above 1, the factor by which a method is slower than ours; below 1, it is faster.",
     "The error of a peer is its cost against the exact optimum; ours is 1 - dual bound / cost.",
 )
-"""What all tables have in common."""
+"""Explanations that hold for all tables."""
 
 
 def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """The rows as columns, each time also as a multiple of our own for the same problem."""
+    """The rows as columns; each time also as a multiple of our own times for the same problem."""
     ours = {(row.problem, row.method): row.timing.typical for row in rows}
 
     def ratio(row: Row, method: str) -> float:
@@ -42,7 +42,7 @@ def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 
 def machine() -> dict[str, str]:
-    """What the numbers depend on: processor, interpreter and versions."""
+    """The processor, interpreter and package versions that the numbers depend on."""
     packages = ("numpy", "numba", "heyoka", *PEERS)
     return {
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
@@ -68,7 +68,7 @@ def _version(package: str) -> str:
 
 
 def text(value: Any) -> str:
-    """A cell for readers: three digits."""
+    """The text of a cell; numbers have three digits."""
     if value is None:
         return ""
     if isinstance(value, float):
@@ -86,7 +86,7 @@ def section(
     notes: Sequence[str],
     tables: Mapping[str, tuple[str, Mapping[str, Sequence[Any]]]],
 ) -> str:
-    """The tables of one paper as a section of the Markdown page, under the machine's facts."""
+    """The tables of one paper as a section of the Markdown page, after the facts about the machine."""
     head = "; ".join(f"{name} {value}" for name, value in facts.items())
     lines = [f"## {title}", "", head + ".", "", *notes, ""]
     for heading, columns in tables.values():
@@ -99,7 +99,7 @@ def section(
 
 
 def page(written: str, new: str, order: Sequence[str]) -> str:
-    """The Markdown page with one section made new; the other sections that were written stay."""
+    """The Markdown page with a new section; the other sections already written stay."""
     found = [*re.split(r"^(?=## )", written, flags=re.MULTILINE)[1:], new]
     titled = {part.split("\n", 1)[0].removeprefix("## "): part.strip() for part in found}
     kept = [titled[title] for title in order if title in titled]
@@ -107,7 +107,7 @@ def page(written: str, new: str, order: Sequence[str]) -> str:
 
 
 def printed(title: str, table: Mapping[str, Sequence[Any]]) -> None:
-    """The same in the terminal."""
+    """Print a table in the terminal."""
     from rich.console import Console
     from rich.table import Table
 
@@ -121,7 +121,7 @@ def printed(title: str, table: Mapping[str, Sequence[Any]]) -> None:
 
 
 def as_csv(facts: Mapping[str, str], table: Mapping[str, Sequence[Any]]) -> str:
-    """CSV under comment lines that hold the machine's facts."""
+    """A table as CSV, after comment lines with the facts about the machine."""
     stream = io.StringIO()
     stream.writelines(f"# {name}: {value}\n" for name, value in facts.items())
     writer = csv.writer(stream, lineterminator="\n")

@@ -35,6 +35,7 @@ print(ledger.counts(claim)["supported"], VERDICTS["supported"], "1 supported" in
 """
 
 
+@pytest.mark.slow
 def test_a_seventh_verdict_is_one_row(tmp_path):
     shutil.copytree(ROOT / "src", tmp_path / "src", ignore=shutil.ignore_patterns("__pycache__"))
     table = tmp_path / "src" / "pontryagin" / "ledger" / "verdict.py"

@@ -5,7 +5,7 @@ Exit codes: 0 done; 1 a problem without an answer, or a package that is not inst
 
 import sys
 import warnings
-from typing import Any
+from typing import Any, TextIO
 
 import typer
 from typer.core import TyperGroup
@@ -19,7 +19,7 @@ class OneLine(TyperGroup):
     def main(self, *args: Any, **options: Any) -> Any:
         """Run the command line and exit with its status."""
         with warnings.catch_warnings():
-            warnings.showwarning = _warning
+            warnings.showwarning = _show_warning
             try:
                 status = super().main(*args, **(options | {"standalone_mode": False}))
             except typer.TyperException as refused:
@@ -38,7 +38,14 @@ def _failure(message: str, status: int) -> int:
     return status
 
 
-def _warning(message: Warning | str, *_: Any) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     _line("Warning", str(message))
 
 

@@ -23,7 +23,7 @@ def ledger(
       pontryagin ledger --verdict misprint
       pontryagin ledger --paper gorelov --csv ledger.csv
     """
-    with console.blaming({"paper": "--paper", "verdict": "--verdict"}):
+    with console.refusing({"paper": "--paper", "verdict": "--verdict"}):
         entries = book.entries(paper, verdict)
     if csv:
         console.emit("--csv", csv, book.to_csv(entries))

@@ -1,1 +1,1 @@
-"""Figures, tables, recordings and what a notebook shows."""
+"""Figures, tables, recordings, and what notebooks display."""

@@ -167,4 +167,4 @@ def _publish(data: dict[str, str]) -> None:
     from IPython.display import display
 
     plain = next(iter(data.values()))
-    display({**data, "text/plain": plain}, raw=True)
+    display({**data, "text/plain": plain}, raw=True)  # type: ignore[no-untyped-call]

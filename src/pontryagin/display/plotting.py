@@ -1,8 +1,8 @@
-"""The house style of figures, and how a notebook keeps what it draws and tabulates.
+"""The style of all figures, and saving the figures and tables of a notebook.
 
-A figure function lives with its paper, is decorated with `styled`, and returns a Matplotlib figure; the
-notebook hands it to `show`, which writes ``figures/<notebook>/<name>.svg`` and displays the same picture.
-`show_table` does so for a table, as ``figures/<notebook>/<name>.csv``.
+A figure function belongs to a paper, is decorated with `styled`, and returns a Matplotlib figure. The
+notebook passes it to `show`, which writes ``figures/<notebook>/<name>.svg`` and displays the same picture.
+`show_table` does the same for a table, as ``figures/<notebook>/<name>.csv``.
 """
 
 import functools
@@ -73,20 +73,20 @@ STYLE: dict[Any, Any] = {
     "legend.frameon": False,
     "image.cmap": SEQUENTIAL,
 }
-"""What the figures of all papers have in common."""
+"""Matplotlib's settings for the figures of all papers."""
 
 _NAME = re.compile(r"[a-z0-9]+([-_.][a-z0-9]+)*")
 
 
 def apply_style() -> None:
-    """Set the house style for everything drawn from here on in this process."""
+    """Set `STYLE` for everything that this process draws from now on."""
     mpl.rcParams.update(STYLE)
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Decorate a figure function: it draws in the house style, whatever the caller's settings are.
+    """Decorate a figure function: it draws with `STYLE`, whatever the caller's settings are.
 
-    The figure is labelled with the function's name, which is what `show` and `save` call the file.
+    The figure's label is the function's name; `show` and `save` name the file after it.
 
     Examples
     --------
@@ -111,7 +111,7 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
 
 def subplots(rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any) -> tuple[Figure, Any]:
-    """A figure as wide as the report's column, and its axes; unknown to pyplot, so nothing has to be closed.
+    """A figure as wide as the report's column, and its axes; pyplot does not keep it open.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def subplots(rows: int = 1, columns: int = 1, height: float = 3.4, **options: An
 
 
 def svg_of(figure: Figure) -> str:
-    """The figure as SVG, the same bytes every time it is drawn."""
+    """The figure as SVG; the same figure gives the same bytes."""
     drawn = io.StringIO()
     with mpl.rc_context(STYLE):
         figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": None})
@@ -160,7 +160,7 @@ def save(figure: Figure, notebook: str, name: str | None = None) -> Path:
     Raises
     ------
     ValueError
-        When `name` or `notebook` cannot be a file name.
+        When `name` or `notebook` is no valid file name.
     """
     path = _place(notebook, _name_of(figure, name), ".svg")
     files.write(path, svg_of(figure))
@@ -180,7 +180,7 @@ def save_table(columns: Columns, notebook: str, name: str) -> Path:
     Raises
     ------
     ValueError
-        When the columns differ in length or a name cannot be a file name.
+        When the columns differ in length or a name is no valid file name.
     """
     path = _place(notebook, name, ".csv")
     files.write(path, csv_table(columns))
@@ -190,8 +190,8 @@ def save_table(columns: Columns, notebook: str, name: str) -> Path:
 def show(figure: Figure, name: str | None = None, caption: str | None = None) -> None:
     """Save a notebook's figure and display it.
 
-    The file is written when the notebook is known: inside ``make report``, ``make figures`` and
-    JupyterLab. Elsewhere the figure is only displayed.
+    The file is written if the notebook is known, as in ``make report``, ``make figures`` and JupyterLab.
+    Otherwise the figure is only displayed.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def show(figure: Figure, name: str | None = None, caption: str | None = None) ->
     name : str, optional
         Name of the file, unique in the notebook; by default the figure's label.
     caption : str, optional
-        A sentence for under the figure; Markdown with ``$...$``.
+        Caption of the figure; Markdown with formulas ``$...$``.
     """
     name, drawn, notebook = _name_of(figure, name), svg_of(figure), current_notebook()
     if notebook:
@@ -209,7 +209,7 @@ def show(figure: Figure, name: str | None = None, caption: str | None = None) ->
 
 
 def show_table(columns: Columns, name: str, caption: str | None = None) -> None:
-    """Save a notebook's table and display it; headings and text entries are Markdown with ``$...$``.
+    """Save a notebook's table and display it; headings and texts are Markdown with formulas ``$...$``.
 
     Parameters
     ----------
@@ -225,7 +225,7 @@ def show_table(columns: Columns, name: str, caption: str | None = None) -> None:
 
 
 def current_notebook() -> str | None:
-    """Name of the notebook that this kernel runs, where its front end says so."""
+    """Name of the notebook that this kernel executes, or None if its environment does not tell."""
     path = os.environ.get("PONTRYAGIN_NOTEBOOK") or os.environ.get("JPY_SESSION_NAME")
     return Path(path).stem if path else None
 
@@ -235,7 +235,7 @@ def _display(data: dict[str, str], kind: str, notebook: str | None, name: str, c
 
     caption = caption or name.replace("-", " ").replace("_", " ").capitalize() + "."
     kept = {"kind": kind, "notebook": notebook, "name": name, "caption": caption}
-    display({**data, "text/plain": caption}, metadata={"pontryagin": kept}, raw=True)
+    display({**data, "text/plain": caption}, metadata={"pontryagin": kept}, raw=True)  # type: ignore[no-untyped-call]
 
 
 def _name_of(figure: Figure, name: str | None) -> str:

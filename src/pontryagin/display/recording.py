@@ -1,8 +1,8 @@
-"""From arrays to recordings that replay in 3-D: a small layer over rerun.
+"""Recordings that replay in 3-D, written from arrays: a small layer over rerun.
 
 A recording holds curves, bodies, arrows, ellipsoids and paths on one timeline, and its own layout. Times are
-in the problem's units (dimensionless unless the paper says otherwise) and shown as seconds. Attitudes are
-unit quaternions, scalar first, that turn body axes into the axes of the scene.
+in the problem's units (dimensionless unless the paper says otherwise) and are shown as seconds. Attitudes are
+unit quaternions, scalar part first, that rotate body axes into the axes of the scene.
 
     with record(path, "turn", [[Scene("the turn", "turn")], [Plot("angle", "angle")]]) as recording:
         recording.body("turn/craft", t, attitude, size=(2.0, 1.2, 0.6))
@@ -36,9 +36,10 @@ _SHADES = (0.55, 1.0, 0.65, 0.9, 0.5, 0.8)
 
 
 class Recording:
-    """What `record` hands out: each method writes one entity for all times at once.
+    """An open recording, from `record`; each method writes one entity for all times at once.
 
-    Times are (k,) in increasing order; arrays of another shape or not finite raise `ValueError`.
+    Times are (k,) in increasing order. Arrays of another shape, or with entries that are not finite, raise
+    `ValueError`.
     """
 
     def __init__(self, stream: Any) -> None:
@@ -46,7 +47,7 @@ class Recording:
         self._stream = stream
 
     def curve(self, entity: str, t: ArrayLike, values: ArrayLike, name: str, colour: str) -> None:
-        """A curve: `values` (k,) against `t` (k,), `name` in the legend, a Matplotlib `colour`."""
+        """A curve of `values` (k,) over `t` (k,) with a `name` for the legend and a Matplotlib `colour`."""
         style = self._rr.SeriesLines(colors=[_rgb(colour)], names=[name], widths=[2.0])
         self._stream.log(entity, style, static=True)
         times = _times(t)
@@ -62,10 +63,10 @@ class Recording:
         position: ArrayLike | None = None,
         colour: str = "#8fa3b8",
     ) -> None:
-        """A box with edges `size` (3,), `attitude` (k, 4) scalar first and centre `position` (k, 3)."""
+        """A box with edges `size` (3,), `attitude` (k, 4) with the scalar first, centre `position` (k, 3)."""
         times = _times(t)
-        turned = _array("attitude", attitude, (times.size, 4))
-        moves = {"quaternion": np.roll(turned, -1, axis=-1)}
+        quaternions = _array("attitude", attitude, (times.size, 4))
+        moves = {"quaternion": np.roll(quaternions, -1, axis=-1)}
         if position is not None:
             moves["translation"] = _array("position", position, (times.size, 3))
         self._send(entity, times, self._rr.Transform3D.columns(**moves))
@@ -80,7 +81,7 @@ class Recording:
         origin: ArrayLike | None = None,
         label: str = "",
     ) -> None:
-        """An arrow `vector` (k, 3) drawn from `origin` (k, 3), by default the origin of its parent entity."""
+        """An arrow `vector` (k, 3) from `origin` (k, 3), by default the origin of its parent entity."""
         times = _times(t)
         vectors = _array("vector", vector, (times.size, 3))
         origins = np.zeros_like(vectors) if origin is None else _array("origin", origin, (times.size, 3))
@@ -97,7 +98,7 @@ class Recording:
         attitude: ArrayLike,
         colour: str,
     ) -> None:
-        """An ellipsoid with `semiaxes` (k, 3), `centre` (k, 3) and `attitude` (k, 4) of its axes."""
+        """An ellipsoid with `semiaxes` (k, 3), `centre` (k, 3) and the `attitude` (k, 4) of its axes."""
         times = _times(t)
         look = self._rr.Ellipsoids3D.from_fields(
             colors=[_rgb(colour)], fill_mode=self._rr.components.FillMode.MajorWireframe
@@ -111,7 +112,7 @@ class Recording:
         self._send(entity, times, columns)
 
     def path(self, entity: str, points: ArrayLike, colour: str, radius: float = 0.0) -> None:
-        """A line through `points` (k, 3), there at all times; `radius` 0 draws it 1.5 pixels wide."""
+        """A line through `points` (k, 3), shown at all times; with `radius` 0 it is 1.5 pixels wide."""
         strip = _array("points", points, (len(np.asarray(points)), 3))
         width = radius if radius > 0 else self._rr.Radius.ui_points(1.5)
         self._stream.log(
@@ -119,15 +120,15 @@ class Recording:
         )
 
     def trail(self, entity: str, t: ArrayLike, points: ArrayLike, colour: str, width: float = 2.0) -> None:
-        """The way through `points` (k, 3) up to the present, in a `Scene` that names it among its trails."""
+        """A line through `points` (k, 3) up to the present; the `Scene` must list `entity` in its trails."""
         times = _times(t)
-        way = _array("points", points, (times.size, 3))
-        pieces = np.stack([way[:-1], way[1:]], axis=1)
+        vertices = _array("points", points, (times.size, 3))
+        pieces = np.stack([vertices[:-1], vertices[1:]], axis=1)
         self._lines(entity, colour, width)
         self._send(entity, times[1:], self._rr.LineStrips3D.columns(strips=pieces))
 
     def net(self, entity: str, t: ArrayLike, strips: ArrayLike, colour: str, width: float = 0.7) -> None:
-        """Lines that move: `strips` (k, lines, points, 3), `width` in pixels."""
+        """Moving lines: `strips` (k, lines, points, 3), `width` in pixels."""
         times = _times(t)
         shape = np.asarray(strips).shape
         moving = _array("strips", strips, (times.size, *shape[1:3], 3))
@@ -136,7 +137,7 @@ class Recording:
         self._send(entity, times, columns.partition([shape[1]] * times.size))
 
     def event(self, entity: str, t: float, text: str) -> None:
-        """Something that happens at the instant `t`, in words."""
+        """A line of text at the instant `t`."""
         self._stream.set_time(TIMELINE, duration=float(t))
         self._stream.log(entity, self._rr.TextLog(text))
 
@@ -168,20 +169,20 @@ def record(
     speed: float = 1.0,
     shares: Sequence[float] | None = None,
 ) -> Iterator[Recording]:
-    """Write a recording to `path`; the file appears when the block ends, whole, and not when it raises.
+    """Write a recording to `path`; the file appears when the block ends without an error.
 
     Parameters
     ----------
     path : Path
         File to write, ending in ``.rrd``.
     name : str
-        What the viewer calls the recording.
+        Name of the recording in the viewer.
     columns : sequence of sequences of View
-        The layout: columns from left to right, in each its panels from top to bottom.
+        The layout: columns from left to right, each with its panels from top to bottom.
     speed : float
-        Units of time that a second of the replay shows.
+        Units of time that pass in each second of the replay.
     shares : sequence of float, optional
-        Widths of the columns beside each other; equal by default.
+        Relative widths of the columns; equal by default.
 
     Yields
     ------
@@ -203,7 +204,7 @@ def record(
     """
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
-        Path(draft).touch()  # rerun tells of a place that cannot be written by no error of its own
+        Path(draft).touch()  # raises OSError where nothing can be written, which rerun does not
         with rr.RecordingStream("pontryagin", recording_id=name) as stream:
             stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
             yield Recording(stream)
@@ -211,11 +212,11 @@ def record(
 
 
 def read_back(path: Path) -> dict[str, dict[str, NDArray[Any]]]:
-    """What a recording holds: entity -> {"time": (k,), component: (k, ...)}, components in rerun's names.
+    """The arrays in a recording: entity -> {"time": (k,), component: (k, ...)}.
 
-    Components are ``scalars``, ``quaternion`` (scalar first), ``translation``, ``vectors``, ``text`` and so
-    on; lengths and attitudes are kept in single precision, curves in double. What is there at all times
-    has length 1, or no ``time``.
+    Components have rerun's names: ``scalars``, ``quaternion`` (scalar first), ``translation``, ``vectors``,
+    ``text`` and so on. Lengths and attitudes are in single precision, curves in double. Components that
+    are shown at all times have length 1, or their entity has no ``time``.
 
     Parameters
     ----------
@@ -268,11 +269,11 @@ def _rgb(colour: str) -> list[int]:
 
 
 def _joined(parts: dict[str, list[NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-    whole = {component: np.concatenate(pieces) for component, pieces in parts.items()}
-    if "time" not in whole:
-        return whole
-    order = np.argsort(whole["time"], kind="stable")
-    return {c: values[order] if len(values) == order.size else values for c, values in whole.items()}
+    arrays = {component: np.concatenate(pieces) for component, pieces in parts.items()}
+    if "time" not in arrays:
+        return arrays
+    order = np.argsort(arrays["time"], kind="stable")
+    return {c: values[order] if len(values) == order.size else values for c, values in arrays.items()}
 
 
 def _seconds(column: Any) -> Array:

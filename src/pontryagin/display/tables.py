@@ -1,4 +1,4 @@
-"""Tables given by columns: as CSV for files, as Markdown for notebooks and the report."""
+"""Tables given by their columns, written as CSV for files and as Markdown for notebooks and the report."""
 
 import csv
 import io
@@ -15,7 +15,7 @@ Columns: TypeAlias = Mapping[str, Sequence[Any] | np.ndarray]
 
 
 def csv_table(columns: Columns) -> str:
-    """The table as CSV, numbers with twelve digits.
+    """The table as CSV; numbers have twelve digits.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ def csv_table(columns: Columns) -> str:
 
 
 def markdown_table(columns: Columns) -> str:
-    r"""The table as Markdown, numbers with six digits, numeric columns set right.
+    r"""The table as Markdown; numbers have six digits, numeric columns are aligned to the right.
 
-    Headings and text entries are Markdown themselves, with ``$...$`` for formulas.
+    Headings and texts are Markdown themselves, with formulas ``$...$``.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def markdown_table(columns: Columns) -> str:
 
 
 def rows_of(columns: Columns) -> list[tuple[Any, ...]]:
-    """The rows of a table given by columns; raises `ValueError` when there are none or they do not match."""
+    """The rows of a table; raises `ValueError` if there is no column or the columns differ in length."""
     if not columns:
         raise ValueError("columns: got an empty mapping; takes at least one column")
     lengths = {heading: len(entries) for heading, entries in columns.items()}

@@ -1,4 +1,4 @@
-"""The layout of a recording: its panels, and how they look when it is opened."""
+"""The layout of a recording: its panels and their settings when it is opened."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,10 +16,11 @@ class View:
     Attributes
     ----------
     title : str
+        Title of the panel.
     entity : str
-        Whose branch it shows.
+        The entity that it shows, with all entities below it.
     share : float
-        Its height beside the others of its column.
+        Height relative to the other panels of the column.
     """
 
     title: str
@@ -36,11 +37,11 @@ class Scene(View):
     title, entity, share
         As in `View`.
     eye : (Point, Point), optional
-        Where one looks from at first, and at what; by default rerun chooses.
+        Initial position of the eye and the point it looks at; by default rerun chooses.
     trails : tuple of str
-        Entities of which everything up to the present is shown, as `Recording.trail` writes them.
+        Entities that are shown for all times up to the present, as `Recording.trail` writes them.
     grid : bool
-        Whether the floor is ruled.
+        Whether a grid is drawn on the floor.
     """
 
     eye: tuple[Point, Point] | None = None
@@ -57,11 +58,11 @@ class Plot(View):
     title, entity, share
         As in `View`.
     span : (lowest, highest), optional
-        Of the values shown; by default rerun chooses, and shows the noise of what is constant.
+        Limits of the vertical axis; by default rerun chooses them, and magnifies the noise of a constant.
     whole : bool
-        Whether all times are shown, and not the present with what is about it.
+        Whether all times are shown, instead of a window around the present.
     legend : str
-        Corner of the legend, in rerun's names.
+        Corner of the legend, as rerun names it.
     """
 
     span: tuple[float, float] | None = None
@@ -71,11 +72,11 @@ class Plot(View):
 
 @dataclass(frozen=True)
 class Events(View):
-    """Events in words, in the order of time."""
+    """A list of events, described in words, in the order of time."""
 
 
 def blueprint(columns: Sequence[Sequence[View]], speed: float, shares: Sequence[float] | None = None) -> Any:
-    """Columns of panels as rerun's blueprint, which plays at once, so many units of time a second."""
+    """Columns of panels as rerun's blueprint; it plays when opened, `speed` units of time in each second."""
     import rerun.blueprint as rrb
 
     stacks = [

@@ -43,7 +43,8 @@ def ledger_entries(workspace: Workspace) -> list[dict[str, str]]:
         if done.returncode:
             raise RuntimeError(f"the ledger: {done.stderr.strip().splitlines()[-1]}")
         files.write(kept, done.stdout)
-    return json.loads(kept.read_text(encoding="utf-8"))
+    entries: list[dict[str, str]] = json.loads(kept.read_text(encoding="utf-8"))
+    return entries
 
 
 def front_page(entries: Sequence[Entry], papers: Sequence[Paper] = PAPERS) -> str:

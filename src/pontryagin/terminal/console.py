@@ -1,11 +1,10 @@
-"""What the papers' command lines share: values from text, files, tables, and one word for each mistake.
+"""What the papers' commands share: values of options, files, tables of answers, and errors about options.
 
-Every `Refusal` names the option as it was typed; `pontryagin.cli` prints it in one line and exits with 2.
+Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in one line and exits with 2.
 """
 
 import csv
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 import typer
 
 from pontryagin.certificate import ACCEPTED, Certificate
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
 from pontryagin.io import files
 from pontryagin.io import formula as formulas
 from pontryagin.io.json_io import Report
@@ -25,7 +24,7 @@ RECORDINGS = (".rrd",)
 
 
 class Refusal(typer.TyperException):
-    """What is wrong with an option, in a line that begins with its name."""
+    """An error about an option; its message begins with the option's name."""
 
     exit_code = 2
 
@@ -34,7 +33,7 @@ class Refusal(typer.TyperException):
 
 
 def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:
-    """A finite number such as ``0.5``, ``1e-3`` or ``pi/4``."""
+    """The finite number that an option's text stands for, such as ``0.5``, ``1e-3`` or ``pi/4``."""
     value = _number(text)
     if not value >= at_least:
         raise Refusal(option, f"takes {takes}, got {text!r}")
@@ -42,12 +41,12 @@ def number(option: str, text: str, takes: str = "a number", at_least: float = -m
 
 
 def positive(option: str, text: str) -> float:
-    """A finite number greater than 0."""
+    """The finite number greater than 0 that an option's text stands for."""
     return number(option, text, "a positive number", at_least=math.nextafter(0.0, 1.0))
 
 
 def vector(option: str, text: str, length: int) -> list[float]:
-    """Numbers between commas."""
+    """The numbers that an option's text holds, separated by commas."""
     values = [_number(part) for part in text.split(",")]
     if len(values) != length or not np.isfinite(values).all():
         raise Refusal(option, f"takes {length} numbers with commas between, got {text!r}")
@@ -55,7 +54,7 @@ def vector(option: str, text: str, length: int) -> list[float]:
 
 
 def formula(option: str, text: str, variable: str) -> float | formulas.Formula:
-    """A number, or a function of one variable."""
+    """The number, or the function of one variable, that an option's text stands for."""
     try:
         return formulas.read(text, variable)
     except ValueError as reason:
@@ -63,7 +62,7 @@ def formula(option: str, text: str, variable: str) -> float | formulas.Formula:
 
 
 def _number(text: str) -> float:
-    """The number that a text stands for, nan if it stands for none."""
+    """The number that a text stands for; nan if it is no number."""
     try:
         return formulas.number(text)
     except ValueError:
@@ -78,37 +77,43 @@ def required(given: Mapping[str, object]) -> None:
 
 
 def excluded(by: str, given: Mapping[str, object]) -> None:
-    """Refuse the first option that was given beside the one it does not go with."""
+    """Refuse the first given option, which cannot be combined with `by`."""
     for option, value in given.items():
         if value:
             raise Refusal(option, f"does not go with {by}")
 
 
 def together(given: Mapping[str, object], other: str, there: bool) -> None:
-    """Refuse the first option that was given without the one it needs."""
+    """Refuse the first given option unless the option `other`, which it needs, is `there`."""
     for option, value in given.items():
         if value and not there:
             raise Refusal(option, f"goes with {other} only")
 
 
 @contextmanager
-def blaming(options: Mapping[str, str]) -> Iterator[None]:
-    """Give errors that begin with an argument's name to the option that it came from."""
+def refusing(options: Mapping[str, str]) -> Iterator[None]:
+    """Turn an error about an argument into a refusal of the option that the argument came from.
+
+    Parameters
+    ----------
+    options : mapping of str to str
+        Option by argument; errors about other arguments, and problems without a solution, pass.
+    """
     try:
         yield
     except Infeasible:
         raise
-    except (TypeError, ValueError) as reason:
-        name = re.split(r"[ :]", str(reason), maxsplit=1)[0]
-        if name not in options:
+    except (ArgumentTypeError, ArgumentValueError) as reason:
+        name = reason.argument
+        if name is None or name not in options:
             raise
         raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
 
 
 @contextmanager
 def solving(options: Mapping[str, str]) -> Iterator[None]:
-    """Blame options for what a solver refuses, and call an overflow what it is."""
-    with np.errstate(all="ignore"), blaming(options):
+    """Turn a solver's errors about arguments into refusals, and an overflow into `NotConverged`."""
+    with np.errstate(all="ignore"), refusing(options):
         try:
             yield
         except (ArithmeticError, np.linalg.LinAlgError) as reason:
@@ -116,21 +121,21 @@ def solving(options: Mapping[str, str]) -> Iterator[None]:
 
 
 def file_names(plot: Path | None, record: Path | None, out: str) -> None:
-    """Refuse files of one answer whose endings are not known, and a batch's file without a batch."""
+    """Refuse files of a single answer with unknown endings, and ``--out`` without ``--batch``."""
     together({"--out": out != "-"}, "--batch", False)
     ending("--plot", plot, FIGURES)
     ending("--record", record, RECORDINGS)
 
 
 def ending(option: str, path: Path | None, takes: tuple[str, ...]) -> None:
-    """Refuse a file name whose ending is none of `takes`."""
+    """Refuse a file name that has none of the endings `takes`."""
     if path is not None and path.suffix.lower() not in takes:
         raise Refusal(option, f"takes a file name ending in {' or '.join(takes)}, got {path}")
 
 
 @contextmanager
 def reading(option: str, path: Path) -> Iterator[None]:
-    """Name the file that cannot be read, or whose content is refused."""
+    """Refuse an option whose file cannot be read, or whose content raises `ValueError`."""
     try:
         yield
     except OSError as reason:
@@ -141,7 +146,7 @@ def reading(option: str, path: Path) -> Iterator[None]:
 
 @contextmanager
 def writing(option: str, path: Path) -> Iterator[None]:
-    """Name the option where a file cannot be written, and the file where it can."""
+    """Refuse an option whose file cannot be written; otherwise say on standard error that it was."""
     try:
         yield
     except OSError as reason:
@@ -154,7 +159,7 @@ def _cause(reason: OSError) -> str:
 
 
 def emit(option: str, target: str, text: str) -> None:
-    """Write a text to a file, or for ``-`` to standard output."""
+    """Write a text to a file, or to standard output if the file's name is ``-``."""
     if target == "-":
         typer.echo(text.removesuffix("\n"))
         return
@@ -163,7 +168,7 @@ def emit(option: str, target: str, text: str) -> None:
 
 
 def save_figure(option: str, path: Path, figure: Any) -> None:
-    """Write a Matplotlib figure as SVG, PDF or PNG by the ending of its name."""
+    """Write a Matplotlib figure as SVG, PDF or PNG, as the file's ending says."""
     from pontryagin.display.plotting import svg_of
 
     with writing(option, path):
@@ -175,7 +180,7 @@ def save_figure(option: str, path: Path, figure: Any) -> None:
 
 
 def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> None:
-    """Write a recording by the function that makes it; what is not installed for it is said in one line."""
+    """Write a recording with the function `save`; one line says if rerun is not installed."""
     try:
         with writing(option, path):
             save(path)
@@ -195,18 +200,18 @@ def require_proof(proof: Certificate) -> None:
         raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
 
 
-def words(value: Any) -> str:
-    """A value for a table's cell, numbers to twelve digits.
+def as_text(value: Any) -> str:
+    """A value as the text of a table's cell; numbers have twelve digits.
 
     Examples
     --------
-    >>> words([0.5, float("nan"), -0.0]), words(True), words(None)
+    >>> as_text([0.5, float("nan"), -0.0]), as_text(True), as_text(None)
     ('0.5, none, 0', 'yes', 'none')
     """
     value = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
     match value:
         case list() | tuple():
-            return ", ".join(words(item) for item in value) or "none"
+            return ", ".join(as_text(item) for item in value) or "none"
         case bool():
             return "yes" if value else "no"
         case None:
@@ -217,7 +222,7 @@ def words(value: Any) -> str:
 
 
 def show(title: str, report: Report, conclusion: str = "") -> None:
-    """Print a table, quantities under their headings, and a sentence below it."""
+    """Print a report as a table under its title, and a concluding sentence below it."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -230,6 +235,6 @@ def show(title: str, report: Report, conclusion: str = "") -> None:
         table.add_section()
         table.add_row(Text(heading, style="bold"), "")
         for name, value in quantities.items():
-            table.add_row(Text(f"  {name.replace('_', ' ')}"), Text(words(value)))
+            table.add_row(Text(f"  {name.replace('_', ' ')}"), Text(as_text(value)))
     console = Console(highlight=False)
     console.print(Text(title, style="bold"), table, Text(conclusion), sep="\n")
