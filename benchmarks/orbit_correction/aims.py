@@ -1,4 +1,4 @@
-"""Our solvers against the aims, with what their certificates say."""
+"""Times of our solvers beside the aims, with the gaps and residuals of their certificates."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,13 +17,15 @@ AIMS = {"plans of 1000 states": 0.1, "gauge in 10000 steps": 0.02, "plan of 1000
 """Seconds on one core."""
 
 MANY = 10_000
+"""Steps of the longest plans."""
+
 FAR = 5
-"""States whose gauges in `MANY` steps are measured one by one."""
+"""Number of states whose gauges in `MANY` steps are measured one by one."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A task: what runs, how many states make it up, its worst gap and the worst that remains."""
+    """A task: the function to time, the number of its states, its worst gap and its worst residual."""
 
     run: Callable[[], int]
     states: int
@@ -32,7 +34,7 @@ class Entry:
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Seconds of each task beside its aim: the median of the rounds; of single states the slowest one's."""
+    """Seconds of each task beside its aim: the median over the rounds, and of single states the slowest."""
     large = 5_000 if quick else 100_000
     rows: list[tuple] = []
     for name in THRUSTS:
@@ -70,7 +72,7 @@ def table(quick: bool) -> dict[str, list]:
 
 
 def far_states(name: str) -> Array:
-    """States (FAR, 3) for which N_min is `MANY`: halfway between the gauges of `MANY` and one step fewer."""
+    """States (FAR, 3) whose N_min is `MANY`: alpha(MANY - 1) and alpha(MANY) lie evenly about 1."""
     directions, counts = states(FAR), np.full(FAR, MANY)
     enough, too_few = (thrust(name).gauges(directions, counts - fewer).upper for fewer in (0, 1))
     return directions * (2 / (enough + too_few))[:, None]

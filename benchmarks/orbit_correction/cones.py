@@ -3,7 +3,7 @@
 impulses  min t over |w_k| <= t with sum of G_k w_k = -z0; for the square |w_kj| <= t
 costate   max (-z0, psi) over sum of s_k <= 1 with |G_k'psi| <= s_k
 
-A solver is set up once for a number of steps; a state changes one vector of it.
+A solver is set up once for each number of steps; a new state changes one of its vectors.
 """
 
 import numpy as np
@@ -24,8 +24,8 @@ def impulses(name: str, steps: int) -> Solver:
     if name == "box":
         within = sparse.vstack([sparse.hstack([identity, -one]), sparse.hstack([-identity, -one])])
     else:
-        level = sparse.kron(np.ones((steps, 1)), _first(width))
-        parts = sparse.kron(sparse.identity(steps), _rest(width))
+        level = sparse.kron(np.ones((steps, 1)), _size_entry(width))
+        parts = sparse.kron(sparse.identity(steps), _vector_entries(width))
         within = -sparse.hstack([parts, level])
     constraints = sparse.csc_matrix(sparse.vstack([balance, within]))
     cost = np.append(np.zeros(components), 1.0)
@@ -50,8 +50,8 @@ def costate(name: str, steps: int) -> Solver:
         identity = sparse.identity(count)
         within = sparse.vstack([sparse.hstack([along, -identity]), sparse.hstack([-along, -identity])])
     else:
-        sizes = sparse.kron(sparse.identity(steps), _first(width))
-        psi = sparse.kron(sparse.identity(steps), _rest(width)) @ sparse.csc_matrix(along)
+        sizes = sparse.kron(sparse.identity(steps), _size_entry(width))
+        psi = sparse.kron(sparse.identity(steps), _vector_entries(width)) @ sparse.csc_matrix(along)
         within = -sparse.hstack([psi, sizes])
     total = np.concatenate([np.zeros(3), np.ones(count)])[None]
     constraints = sparse.csc_matrix(sparse.vstack([total, within]))
@@ -67,12 +67,13 @@ def costate(name: str, steps: int) -> Solver:
     return solve
 
 
-def _first(width: int) -> NDArray:
-    """The place of a cone's size before the rest of it."""
+def _size_entry(width: int) -> NDArray:
+    """The first entry of a cone, its size, as a column (width + 1, 1)."""
     return np.eye(width + 1)[:, :1]
 
 
-def _rest(width: int) -> NDArray:
+def _vector_entries(width: int) -> NDArray:
+    """The other entries of a cone, the vector that the size bounds, as columns (width + 1, width)."""
     return np.eye(width + 1)[:, 1:]
 
 

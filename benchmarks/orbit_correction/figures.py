@@ -1,4 +1,4 @@
-"""Plots of its own: growth with the number of steps, and where root finders end."""
+"""Plots: time against the number of steps, and the roots at which root finders end."""
 
 from collections.abc import Mapping, Sequence
 
@@ -15,12 +15,12 @@ from pontryagin.display.plotting import (
 )
 
 LINES = {"costate": ":", "linprog": ":"}
-"""Second forms of one solver are dotted."""
+"""The second form of a solver is drawn dotted."""
 
 
 @styled
 def growth(table: Mapping[str, Sequence], aim: tuple[int, float]) -> Figure:
-    """Time of one gauge against the number of steps, a panel a set of impulses; the aim is a cross."""
+    """Time of one gauge against the number of steps, a panel for each set; a cross marks the aim."""
     names = list(dict.fromkeys(table["impulses"]))
     figure, axes = subplots(1, len(names), height=3.9, sharex=True, sharey=True, squeeze=False)
     rows = list(zip(*(table[key] for key in ("impulses", "steps", "method", "microseconds")), strict=True))

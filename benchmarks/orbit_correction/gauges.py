@@ -1,4 +1,4 @@
-"""The gauge for a given number of steps, and the fewest steps with their plan: ours, certified, and peers."""
+"""The gauge for a given number of steps, and the fewest steps with their plan: our solvers and peers."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -15,13 +15,13 @@ from benchmarks.peers import absent
 from pontryagin.orbit_correction import Plan, correct
 
 STEPS = 8
-"""Steps for which gauges are compared: about what the states need."""
+"""Steps for which gauges are compared: about as many as the states need."""
 
 STACK_SIZE = 1000
-"""States solved together, the aim's number."""
+"""States that are solved together, as many as in the aim."""
 
 REACHED = 1 + 1e-7
-"""A gauge that a peer finds is enough up to this, which covers its tolerance."""
+"""A peer's gauge up to this counts as at most 1, since the peer has a tolerance."""
 
 
 def peers(name: str, quick: bool) -> dict[str, Peer]:
@@ -76,7 +76,7 @@ def _gauge_entrant(solver: Solver, some: NDArray, exact: NDArray) -> Contestant:
 
 
 def fewest_steps(name: str, opponents: Mapping[str, Peer], count: int, rounds: int) -> list[Row]:
-    """N_min and the gauge there, one by one and in a stack of `STACK_SIZE`; peers search as we do."""
+    """N_min and alpha(N_min), one by one and in a stack of `STACK_SIZE`; peers search as `search` does."""
     stack = states(STACK_SIZE)
     exact = correct(stack, INTERVAL, PEAK, name)
 
@@ -116,7 +116,7 @@ def _search_entrant(name: str, peer: Peer, exact: Plan) -> Contestant:
 
 
 def search(made: Callable[[int], Solver], state: NDArray, least: int) -> tuple[int, float]:
-    """N_min and the gauge there by a peer's gauges, searched as we search; (0, nan) where it fails."""
+    """N_min and alpha(N_min) by a peer's gauges, in the manner of our own search; (0, nan) if it fails."""
     too_few, enough, best, guess = least - 1, None, float("nan"), least
     while enough is None or enough - too_few > 1:
         alpha = made(guess)(state)

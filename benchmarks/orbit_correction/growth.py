@@ -1,4 +1,4 @@
-"""Time of one gauge against the number of steps, ours and the peers'."""
+"""Time of one gauge against the number of steps, for our solver and the peers."""
 
 from collections.abc import Callable
 
@@ -12,9 +12,16 @@ from benchmarks.orbit_correction.states import PEAK, Solver, states, thrust
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 SIZES = (10, 32, 100, 316, 1000, 3162, 10_000)
+"""Numbers of steps that every method is timed with."""
+
 QUICK = (10, 100)
+"""Numbers of steps of a quick run."""
+
 OURS_ALONE = (31_623, 100_000)
+"""Further numbers of steps, for our solver only."""
+
 STATES = 3
+"""States of each measurement."""
 
 
 def table(quick: bool) -> dict[str, list]:

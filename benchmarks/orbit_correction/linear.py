@@ -26,7 +26,7 @@ def by_linprog(name: str, steps: int) -> Solver:
 
 
 def by_highspy(name: str, steps: int) -> Solver:
-    """Through its own interface: a state changes three coefficients, the last basis is the start."""
+    """Through its own interface: a state changes three coefficients, and the last basis is the start."""
     import highspy
 
     segments = _segments(name, steps)
@@ -52,7 +52,7 @@ def by_highspy(name: str, steps: int) -> Solver:
 
 
 def _segments(name: str, steps: int) -> Array:
-    """What each impulse component does to the state, (3, components)."""
+    """The effects of the impulse components on the initial state, (3, components)."""
     if name != "box":
         raise ValueError(f"only the box is a linear programme, got {name!r}")
     return np.moveaxis(unit_factors(name, steps), 1, 0).reshape(3, -1)

@@ -1,4 +1,4 @@
-"""Everything that is measured about the second paper's solvers."""
+"""All measurements of the solvers of this paper."""
 
 from benchmarks import table
 from benchmarks.contest import Row

@@ -1,4 +1,4 @@
-"""The gauge through CVXPY with Clarabel beneath, the state a parameter so that it compiles the model once."""
+"""The gauge through CVXPY with Clarabel; the state is a parameter, so that the model is compiled once."""
 
 import numpy as np
 from numpy.typing import NDArray

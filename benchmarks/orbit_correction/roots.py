@@ -28,13 +28,13 @@ FINDERS: dict[str, dict] = {
     "krylov": {"options": {"maxiter": 100}},
     "df-sane": {},
 }
-"""Methods of `scipy.optimize.root` and what they are given; tolerances are their own.
+"""Methods of `scipy.optimize.root` and their options; tolerances are the methods' own.
 
-Those that would go on for thousands of iterations get 100; ten times as many let few more starts end.
+Methods that would take thousands of iterations get 100; with ten times as many, few more starts reach a root.
 """
 
 SAME = 1e-4
-"""A root counts as right, or spurious, within this of plus, or minus, the gauge."""
+"""Largest relative difference of a root's alpha from the gauge (right) or from minus the gauge (spurious)."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Task:
     starts: Array
 
     def equations(self, unknowns: NDArray) -> Array:
-        """What is zero at a root (psi, alpha)."""
+        """The left-hand sides of (11), which vanish at a root (psi, alpha)."""
         psi, alpha = unknowns[:3], unknowns[3]
         along = np.einsum("kij,i->kj", self.factors, psi)
         unit = along / np.linalg.norm(along, axis=1)[:, None]
@@ -70,7 +70,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Ends:
-    """Where a method ended: numbers of starts, and the worst relative error of alpha at right roots."""
+    """Numbers of starts by the root at which a method ended, and the worst relative error of alpha."""
 
     right: int
     spurious: int
@@ -79,7 +79,7 @@ class Ends:
 
 
 def tasks(count: int, starts: int) -> list[Task]:
-    """States with N_min of more than one step, each with random starts; with 0 starts, the one along -z0."""
+    """States whose N_min exceeds 1, each with random starts, or for 0 starts with the one along -z0."""
     stack = states(2 * count)
     plan = correct(stack, INTERVAL, PEAK)
     chosen = np.flatnonzero(plan.steps > 1)[:count]
@@ -95,7 +95,7 @@ def tasks(count: int, starts: int) -> list[Task]:
 
 
 def attempt(task: Task, start: NDArray, method: str) -> float:
-    """alpha where the finder claims a root, else nan."""
+    """alpha of the root that the finder reports, nan if it reports none."""
     function = task.with_jacobian if "jac" in FINDERS[method] else task.equations
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -108,14 +108,14 @@ def attempt(task: Task, start: NDArray, method: str) -> float:
 
 
 def ends(work: Sequence[Task], method: str) -> Ends:
-    """All starts of all tasks."""
+    """Where a method ends from all starts of all tasks."""
     shares = np.array([attempt(task, x, method) / task.gauge for task in work for x in task.starts])
     right, spurious = np.abs(shares - 1) < SAME, np.abs(shares + 1) < SAME
     return Ends(int(right.sum()), int(spurious.sum()), len(shares), worst(shares[right] - 1))
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Every method: from random starts, and from -z0; times beside our own call for the same states."""
+    """Every method from random starts and from -z0, with times beside our own call for the same states."""
     states_, starts, rounds = (4, 2, 1) if quick else (40, 10, 2)
     rows = []
     for label, work in (("random", tasks(states_, starts)), ("along -z0", tasks(2 * states_, 0))):

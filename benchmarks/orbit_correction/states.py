@@ -1,4 +1,4 @@
-"""Seeded random states, the sets of impulses, and what a peer is asked for."""
+"""Seeded random states, the sets of impulses, and the interface of a peer's solver."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,27 +6,27 @@ from dataclasses import dataclass
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.orbit_correction import random_states
+from pontryagin.orbit_correction import printed, random_states
 from pontryagin.orbit_correction.plan.thrust import Thrust
 
 SEED = 2017
-INTERVAL, PEAK = 0.25, 0.0035
-"""The paper's example: time between impulses, rad, and bound on them, orbital speeds."""
+INTERVAL, PEAK = float(printed.INTERVAL), float(printed.PEAK)
+"""The paper's example: time between impulses in rad, and the bound on them in orbital speeds."""
 
 Solver = Callable[[NDArray], float]
-"""A state (3,), orbital units over the peak -> gauge, nan where the solver gives up."""
+"""From a state (3,), in orbital units over the peak, to its gauge, or nan where the solver finds none."""
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A method, made for a set of impulses and a number of steps, and how many states it gets.
+    """A peer's method and the number of states it is timed on.
 
     Attributes
     ----------
     make : callable
-        Name of the set and number of steps -> solver. Matrices are built here, once, and not timed.
+        From the name of a set and a number of steps to a solver. It builds the matrices and is not timed.
     count : int
-        Fewer states where it is slow.
+        Number of states, smaller for slow methods.
     """
 
     make: Callable[[str, int], Solver]
@@ -39,10 +39,10 @@ def states(count: int) -> Array:
 
 
 def thrust(name: str) -> Thrust:
-    """The paper's engine with one of the three sets."""
+    """One of the three sets of impulses with the paper's interval and peak."""
     return Thrust(name, INTERVAL, PEAK)
 
 
 def unit_factors(name: str, steps: int) -> Array:
-    """G_k for a peak of 1, (steps, 3, components): numbers of order one, as suits every peer best."""
+    """G_k for a peak of 1, (steps, 3, components), whose numbers of order one suit every peer best."""
     return Thrust(name, INTERVAL, 1.0).factors(steps)

@@ -7,26 +7,27 @@ from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Rendezvous, solve
+from pontryagin.rendezvous.families import bounded, loose_ratios
 from pontryagin.rendezvous.problem.cases import (
     Case,
     cases,
 )
-from pontryagin.rendezvous.reduced.bound import bounded
-from pontryagin.rendezvous.reduced.first_extremal import first
-from pontryagin.rendezvous.reduced.homotopy import Root
-from pontryagin.rendezvous.reduced.search import END_SHARES
+from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
+from pontryagin.rendezvous.reduced.start import unbounded
+from pontryagin.rendezvous.root import Root
 
 WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
 """Seconds on one core."""
 MESH = 60
 
 
-def homotopy(problem: Rendezvous) -> Root:
+def homotopy(problem: Rendezvous) -> Root[Flight]:
     """One curve: coasting, energy at a fixed time, the mixed problem, the bound, least time."""
     setting = problems.setting(problem)
-    loose = setting.but(peak=float("inf"), ratio=(END_SHARES[0] * setting.peak) ** 2)
-    return bounded(setting, loose, first(loose, Search()))
+    loose = setting.replace(peak=float("inf"), ratio=loose_ratios(setting.ratio, setting.peak)[0])
+    return bounded(SHOOTING, setting, loose, unbounded(loose, Search()))
 
 
 def warm(quick: bool) -> dict[str, list]:

@@ -6,8 +6,8 @@ from scipy.integrate import solve_bvp
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import derivative, jacobian
 from pontryagin.rendezvous import Extremal, Rendezvous, kernels
+from pontryagin.rendezvous.reduced.conditions import SEEN
 from pontryagin.rendezvous.reduced.flight import chart_of
-from pontryagin.rendezvous.reduced.shooting import SEEN
 
 NODES, MOST = 60, 20_000
 

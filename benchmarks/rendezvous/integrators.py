@@ -6,10 +6,7 @@ import numpy as np
 
 from benchmarks.clock import take_turns
 from benchmarks.rendezvous import problems
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
 
 CASES = (*problems.FIXED, "inclined-10", "inclined-60", "glonass")
 

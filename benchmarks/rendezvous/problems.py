@@ -9,7 +9,7 @@ import numpy as np
 
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.problem.cases import cases
-from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.conditions import Setting
 
 SEED = 2014
 NEIGHBOUR = 1.02

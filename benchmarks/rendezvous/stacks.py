@@ -8,14 +8,13 @@ from benchmarks.clock import take_turns
 from benchmarks.contest import worst
 from benchmarks.rendezvous import problems
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.reduced.bound import largest_thrust
 from pontryagin.rendezvous.reduced.flight import fly
-from pontryagin.rendezvous.reduced.homotopy import newton
 from pontryagin.rendezvous.reduced.lanes import fly_all
 from pontryagin.rendezvous.reduced.multistart import (
     NEAR,
     newton_from_all,
 )
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 
 COUNT, NEARBY = 512, 0.02
 DEGREES, SPREAD, STARTS = 20, 0.05, 64
@@ -31,7 +30,7 @@ def flights(quick: bool) -> dict[str, list]:
     scaled, duration = best.problem.scaled, best.flight.duration
     costates = best.flight.costates + problems.draws(count, NEARBY)
     rows = []
-    peaks = dict.fromkeys(ARCS, BOUND * largest_thrust(best.flight)) | {"unsaturated": np.inf}
+    peaks = dict.fromkeys(ARCS, BOUND * float(SHOOTING.thrust(best.flight).max())) | {"unsaturated": np.inf}
     for arcs, peak in peaks.items():
         bang = arcs == "saturated"
 
@@ -101,7 +100,7 @@ def multistarts(quick: bool) -> dict[str, list]:
 
 def _newton(setting, start: np.ndarray) -> bool:
     try:
-        newton(setting, start)
+        meet(setting, start)
     except (NotConverged, np.linalg.LinAlgError):
         return False
     return True

@@ -15,11 +15,8 @@ from benchmarks.rendezvous.systems import PROBLEMS, Problem
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import Extremal
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.reduced.conditions import goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import fly
-from pontryagin.rendezvous.reduced.shooting import (
-    goal_of,
-    mismatch,
-)
 
 ITERATIONS, HALVINGS = 30, 6
 EXACT, TRUE = 1e-9, 1e-7

@@ -125,16 +125,23 @@ def on_the_circle(parameter, guess):
     found = newton(lambda x: circle(x, parameter)[0], guess)
     if found.outcome == "singular" or found.residual > 1e-12:
         raise NotConverged("off the circle", found.residual)
-    return found.unknowns
+    return Point(found.unknowns, parameter, found.equations)
 
 
 def test_a_march_over_the_parameter_ends_at_its_value_or_before_a_fold():
-    *_, (parameter, unknowns) = march(on_the_circle, np.array([1.0]), 0.0, 0.9)
-    assert parameter == 0.9 and unknowns[0] == pytest.approx(np.sqrt(0.19))
-    *_, (parameter, unknowns) = march(on_the_circle, np.array([1.0]), 0.0, 2.0)
-    assert 0.9 < parameter <= 1
-    ((parameter, unknowns),) = march(on_the_circle, np.array([1.0]), 0.0, 0.0)
-    assert parameter == 0
+    start = Point(np.array([1.0]), 0.0, circle(np.array([1.0]), 0.0)[0])
+    *_, last = march(on_the_circle, start, 0.9, first=0.2)
+    assert last.parameter == 0.9 and last.unknowns[0] == pytest.approx(np.sqrt(0.19))
+    *_, last = march(on_the_circle, start, -2.0, first=0.5, least=1e-3)
+    assert -1 <= last.parameter < -0.9
+    assert list(march(on_the_circle, start, 0.0, first=0.5)) == [start]
+
+
+def test_a_march_makes_no_step_larger_than_the_largest():
+    start = Point(np.array([1.0]), 0.0, None)
+    points = list(march(on_the_circle, start, 0.9, first=0.01, largest=0.1, growth=2.0))
+    assert np.diff([p.parameter for p in points]).max() <= 0.1 * 1.001
+    assert len(list(march(on_the_circle, start, 0.9, first=0.01, tries=3))) == 4
 
 
 def test_slopes_by_differences():

@@ -1,4 +1,4 @@
-"""The ledger of Ibragimov 2017, entry by entry, and proof that each of its checks can fail."""
+"""The ledger of Ibragimov 2017: altered examples fail, and all numbered statements are there."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The command line: what it prints is what the solver found, and every mistake is one line."""
+"""The command line prints what the solver found, and reports every mistake in one line."""
 
 import csv
 import io
@@ -34,31 +34,31 @@ def assert_refused(result, begins, status=2):
 @pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
 def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(thrust):
     result = solve("--z0", Z0, "--interval", "pi/8", "--peak", "4e-3", "--thrust", thrust, "--json")
-    told = json.loads(result.stdout)
+    report = json.loads(result.stdout)
     plan = correct(STATE, np.pi / 8, 4e-3, thrust)
-    assert told["problem"] == {"z0": STATE, "interval": np.pi / 8, "peak": 4e-3, "thrust": thrust}
-    for name, value in told["solution"].items():
+    assert report["problem"] == {"z0": STATE, "interval": np.pi / 8, "peak": 4e-3, "thrust": thrust}
+    for name, value in report["solution"].items():
         assert value == np.asarray(getattr(plan, name)).tolist(), name
-    for name, value in told["certificate"].items():
+    for name, value in report["certificate"].items():
         assert value == float(getattr(plan.certificate, name)), name
-    assert_allclose(told["states"]["end"], 0, atol=1e-15)
+    assert_allclose(report["states"]["end"], 0, atol=1e-15)
 
 
 @pytest.mark.parametrize("thrust", ["ball", "box"])
 def test_samples_are_the_linear_motion_and_its_costate(thrust):
-    told = json.loads(solve("--z0", Z0, "--thrust", thrust, "--json", "--samples", 31).stdout)["samples"]
+    report = json.loads(solve("--z0", Z0, "--thrust", thrust, "--json", "--samples", 31).stdout)["samples"]
     plan = correct(STATE, thrust=thrust)
-    assert told["t"] == np.linspace(0, 0.25 * float(plan.impulse_count), 31).tolist()
+    assert report["t"] == np.linspace(0, 0.25 * float(plan.impulse_count), 31).tolist()
     state, fired = np.array(STATE), 0
-    for before, after, expected in zip(told["t"], told["t"][1:], told["state"][1:], strict=False):
+    for before, after, expected in zip(report["t"], report["t"][1:], report["state"][1:], strict=False):
         while fired < plan.impulse_count and 0.25 * fired <= before + 1e-12:
             state = expm(-LINEAR * (0.25 * fired - before)) @ np.append(0, plan.impulses[fired]) + state
             fired += 1
         state = expm(LINEAR * (after - before)) @ state
         if fired == plan.impulse_count or 0.25 * fired > after + 1e-12:
             assert_allclose(expected, state, atol=1e-15)
-    costate = [expm(-LINEAR.T * t) @ plan.initial_costate for t in told["t"]]
-    assert_allclose(told["costate"], costate, atol=1e-14)
+    costate = [expm(-LINEAR.T * t) @ plan.initial_costate for t in report["t"]]
+    assert_allclose(report["costate"], costate, atol=1e-14)
     assert_refused(solve("--z0", Z0, "--samples", 3), "--samples goes with --json only")
 
 

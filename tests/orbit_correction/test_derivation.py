@@ -1,4 +1,4 @@
-"""From the equations of motion to the summands: conserved quantities, SciPy's exponential, flights."""
+"""The derivation against conserved quantities, SciPy's matrix exponential and impulses applied one by one."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ INTERVALS = (sp.Rational(1, 4), sp.Integer(1), sp.pi / 2, sp.Integer(4))
 
 
 def numbers(matrix, at=None):
-    """A SymPy matrix as numbers, at an interval."""
+    """A SymPy matrix as numbers, with a value for the interval."""
     return np.array(
         sp.Matrix(matrix).subs({} if at is None else {interval: at}).evalf().tolist(), dtype=float
     )
@@ -88,7 +88,7 @@ def test_determinants_of_the_inputs():
 
 
 def matrices(seed, n, steps):
-    """Numbers for the symbols of `summands`: A_k, its transpose, H_k and u_k."""
+    """Random numbers for the symbols of `summands`: A_k, its transpose, H_k and u_k."""
     generator = np.random.default_rng(seed)
     known = {}
     for k in range(steps):
@@ -99,7 +99,7 @@ def matrices(seed, n, steps):
 
 
 def evaluated(expression, known):
-    """A noncommutative expression in numbers."""
+    """The value of a noncommutative expression, given those of its symbols."""
     if expression in known:
         return known[expression]
     if expression.is_Number:
@@ -117,6 +117,7 @@ def evaluated(expression, known):
 
 @given(st.integers(0, 1000), st.integers(2, 6), st.integers(1, 4))
 def test_the_algebra_of_lemma_1_in_numbers(seed, n, steps):
+    """Lemma 1 and the system (1), derived with symbols, for random matrices."""
     known = matrices(seed, n, steps)
     state = evaluated(summands.state_brought_to_zero(steps), known)
     assert_allclose(evaluated(summands.final_state(steps), known | {summands.x: state}), 0, atol=1e-9)
@@ -127,6 +128,7 @@ def test_the_algebra_of_lemma_1_in_numbers(seed, n, steps):
 
 @given(st.integers(0, 1000), st.integers(2, 6), st.integers(1, 4))
 def test_costates_and_carried_ellipsoids_in_numbers(seed, n, steps):
+    """The costates of Theorem 2 and the ellipsoids of Lemma 8, derived with symbols, for random matrices."""
     known = matrices(seed, n, steps)
     free, costate = np.eye(n), np.ones((n, 1))
     for k in range(steps):

@@ -1,4 +1,4 @@
-"""The ergodic limit: against the gauge at many steps, closed means, and symmetry."""
+"""The limit of N alpha(N): against the gauge of many steps, means in closed form, and symmetry."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,7 @@ def test_the_means_of_the_square_are_in_closed_form(rho, c):
         transverse = abs(c)
     else:
         transverse = 2 / np.pi * (c * np.arcsin(c / (2 * rho)) + np.sqrt(4 * rho**2 - c**2))
-    # In the dual of the modes the constant part enters the transverse impulse doubled.
+    # In the dual of the modes the constant part counts twice in the transverse impulse.
     found = mean_support(rho, c / 2, 0.25, 1.0, "box")
     assert_allclose(found, 2 * rho / np.pi + transverse, rtol=1e-6)
 

@@ -1,4 +1,4 @@
-"""What the figures and tables show is what the mathematics says: lines are read back and checked."""
+"""Figures and tables: their lines and entries are read back and compared with the mathematics."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The true flight: against an integrator of its own, its quadratic residual, and the closed loop."""
+"""Flights on the nonlinear equations: against Cartesian coordinates, quadratic residuals, the closed loop."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ Z0 = np.array(printed.Z0)
 
 
 def cartesian_flight(z0, impulses, interval):
-    """The same in Cartesian coordinates, x'' = -x/|x|^3, by SciPy: deviations at the end."""
+    """The flight in Cartesian coordinates, x'' = -x/|x|^3, by SciPy: deviation and angle at the end."""
     position, speed = np.array([1 + z0[0], 0.0]), np.array([z0[1], 1 + z0[2]])
     for radial, transverse in impulses:
         along = position / np.linalg.norm(position)
@@ -89,7 +89,7 @@ def test_a_loop_that_does_not_close_ends_with_what_is_left(monkeypatch):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: fly(np.zeros((2, 3)), np.zeros((1, 2)), 0.25), "z0 and impulses"),
+        (lambda: fly(np.zeros((2, 3)), np.zeros((1, 2)), 0.25), "z0 must be"),
         (lambda: fly(Z0, [[0.0, np.nan]], 0.25), "impulses must be"),
         (lambda: fly(Z0, [[0.0, 0.0]], -1.0), "interval must be positive"),
         (lambda: fly_plan(correct([Z0, Z0])), "plan must be that of one state"),

@@ -1,4 +1,4 @@
-"""The three exact gauges against linear programmes, and their own bounds from both sides."""
+"""The gauges of ball, disc and box (Lemma 7, Lemma 9): their two bounds, and linear programmes."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ INTERVALS = (0.25, 1.0, np.pi / 2, np.pi, 4.0)
 
 
 def least_peak_by_linear_programme(factors, z0, normals):
-    """Least scale of polygons {w: normals w <= 1} whose impulses bring z0 to rest, by HiGHS."""
+    """Least scale at which impulses in the polygons {w: normals w <= 1} bring z0 to 0, by HiGHS."""
     steps, _, width = factors.shape
     sides = len(normals)
     within = np.zeros((steps * sides, steps * width + 1))
@@ -100,17 +100,17 @@ def test_compiled_and_plain_kernels_agree(name, monkeypatch):
     st.lists(st.tuples(st.integers(0, 6), st.integers(1, 5)), min_size=1, max_size=40), st.integers(-120, 0)
 )
 def test_the_selection_stops_where_the_sorted_slopes_turn(pieces, slope):
-    """Whole numbers: many ties, and sums that are exact in any order."""
+    """With whole numbers there are many ties, and sums are exact in any order."""
     times, rates = (np.array(column, float) for column in zip(*pieces, strict=True))
     order = np.argsort(times, kind="stable")
-    turned = np.flatnonzero(slope + 2 * np.cumsum(rates[order]) >= 0)
+    stops = np.flatnonzero(slope + 2 * np.cumsum(rates[order]) >= 0)
     crossed = np.arange(len(pieces))
     place = turning_place(times, rates, crossed, len(pieces), float(slope))
     assert sorted(crossed) == list(range(len(pieces)))
-    if not turned.size:
+    if not stops.size:
         assert place == -1
         return
-    assert times[crossed[place]] == times[order[turned[0]]]
+    assert times[crossed[place]] == times[order[stops[0]]]
     before = slope + 2 * rates[crossed[:place]].sum()
     assert before < 0 or place == 0
     assert before + 2 * rates[crossed[place]] >= 0

@@ -1,4 +1,4 @@
-"""Intervals between impulses: spans against SciPy's exponential, and the two special ones."""
+"""Intervals between impulses: controllability against SciPy's exponential; half and whole revolutions."""
 
 import numpy as np
 import pytest

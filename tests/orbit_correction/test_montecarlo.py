@@ -1,4 +1,4 @@
-"""Injection errors: their moments, the counts behind the distribution, seeds, and the progress bar."""
+"""Injection errors: moments, numbers of impulses, seeds, and the progress bar."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""p-balls: the paper's ball at p = 2, the cube in the limit, and proofs from both sides in between."""
+"""p-balls: the paper's ball at p = 2, the cube in the limit, and two bounds that agree in between."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def states():
 
 
 def cube_gauge(z0, steps):
-    """The least peak when every component is free up to it, by HiGHS."""
+    """The least bound on the moduli of all components that bring z0 to 0, by HiGHS."""
     columns = np.hstack(list(0.0035 * step_factors(steps, 0.25)))
     width = columns.shape[1]
     cost = np.append(np.zeros(width), 1.0)

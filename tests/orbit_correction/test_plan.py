@@ -1,4 +1,4 @@
-"""Plans: the paper's worked example to its printed digits, and what every plan must satisfy."""
+"""Plans: the worked example of (12) to its printed digits, and the conditions that every plan satisfies."""
 
 import numpy as np
 import pytest
@@ -25,6 +25,8 @@ def test_the_printed_tables_to_one_unit_of_the_last_digit():
 
 
 def test_the_satellite_as_a_general_system_of_ellipsoids():
+    """The system (12) in the form of section 6, whose gauge is that of Lemma 9 and Theorem 4."""
+
     def shape(k):
         inverse = np.linalg.inv(step_input(k, 0.25))
         return inverse.T @ inverse / 0.0035**2
@@ -34,7 +36,7 @@ def test_the_satellite_as_a_general_system_of_ellipsoids():
 
 
 def fly(plan):
-    """The linear flow with a jump of the speeds at the start of each interval, by SciPy."""
+    """The state at the end of the linear flow with a jump of the speeds before each interval, by SciPy."""
     z = plan.z0
     for impulse in plan.impulses:
         kicked = z + np.array([0, *impulse])
@@ -81,7 +83,7 @@ def test_intervals_next_to_whole_revolutions_and_beyond_all_measure_are_solved(i
 
 
 def test_the_steps_on_both_sides_of_whole_revolutions_are_those_of_a_short_interval():
-    """An impulse acts where the orbit is: 2 pi + d is d, and 2 pi - d is d with time reversed."""
+    """Whole revolutions change nothing: 2 pi + d acts like d, and 2 pi - d like d with time reversed."""
     near = [int(correct(Z0, interval=h).steps) for h in (1e-6, 2 * np.pi + 1e-6, 4 * np.pi + 1e-6)]
     assert len(set(near)) == 1 and near[0] > 1000
 
@@ -143,7 +145,7 @@ def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
         ({"z0": [np.nan, 0, 0]}, ValueError, "z0 must be .* finite"),
         ({"z0": None}, TypeError, "z0 must be"),
         ({"peak": -1.0}, ValueError, "peak must be positive, got -1.0"),
-        ({"peak": [0.1]}, ValueError, "single numbers"),
+        ({"peak": [0.1]}, ValueError, "peak must be a single number"),
         ({"interval": 0.0}, ValueError, "interval must be positive"),
         ({"interval": np.inf}, ValueError, "interval must be .* finite"),
         ({"thrust": "cone"}, ValueError, "thrust must be one of ball, disc, box, got 'cone'"),

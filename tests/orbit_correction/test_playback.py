@@ -1,4 +1,4 @@
-"""Recordings hold the solver's arrays, and their sets are those of what is still to come."""
+"""Recordings hold the solver's arrays, and their sets are those of the impulses still to come."""
 
 import subprocess
 import sys
@@ -38,59 +38,59 @@ def test_every_recording_has_a_title_and_a_description():
 
 
 def test_the_flight_is_the_true_one(played):
-    plan, held = played
+    plan, recorded = played
     flight = fly_plan(plan)
     times, states, angles = flight.path(scene.SAMPLES)
     for name, values in zip(("dr", "dvR", "dvT"), states.T, strict=True):
-        shown = held[f"/state/{name}"]["time"]
+        shown = recorded[f"/state/{name}"]["time"]
         assert np.all(np.diff(shown) > 0.9 * scene.BLINK)
         after_a_jump = np.append(False, np.diff(times) == 0)
         assert_allclose(shown, scene.PACE * times + scene.BLINK * after_a_jump, atol=1e-8)
-        assert_allclose(held[f"/state/{name}"]["scalars"], 1e3 * values, atol=1e-12)
+        assert_allclose(recorded[f"/state/{name}"]["scalars"], 1e3 * values, atol=1e-12)
     radii = scene.RADIUS * (1 + scene.magnification(plan) * states[:, 0])
     places = radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
-    assert_allclose(held["/orbit/satellite"]["translation"], places, atol=1e-5)
+    assert_allclose(recorded["/orbit/satellite"]["translation"], places, atol=1e-5)
 
 
 def test_impulses_are_curves_arrows_and_events(played):
-    plan, held = played
+    plan, recorded = played
     for side, name in enumerate(("radial", "transverse")):
-        curve = held[f"/impulse/{name}"]
+        curve = recorded[f"/impulse/{name}"]
         for shift, share in ((0.0, 0.0), (scene.HOLD, 1.0), (scene.HOLD + 2 * scene.BLINK, 0.0)):
             drawn = np.interp(2.5 * np.arange(plan.impulse_count) + shift, curve["time"], curve["scalars"])
             assert_allclose(drawn, share * plan.impulses[:, side] / 0.0035, atol=1e-7)
-    arrows = held["/orbit/impulse"]["vectors"][1 :: scene.SAMPLES]
+    arrows = recorded["/orbit/impulse"]["vectors"][1 :: scene.SAMPLES]
     assert_allclose(
         np.linalg.norm(arrows, axis=1),
         scene.LENGTH * np.linalg.norm(plan.impulses, axis=1) / 0.0035,
         rtol=1e-5,
     )
-    events = held["/events"]
+    events = recorded["/events"]
     assert len(events["text"]) == plan.impulse_count + 1
     assert_allclose(events["time"], 2.5 * np.arange(plan.impulse_count + 1), atol=1e-8)
     assert f"{fly_plan(plan).residual:.2e}" in events["text"][-1]
 
 
 def test_the_gauge_stays(played):
-    plan, held = played
-    alpha = held["/gauge/alpha"]["scalars"]
+    plan, recorded = played
+    alpha = recorded["/gauge/alpha"]["scalars"]
     assert len(alpha) == 3 + scene.SAMPLES * (int(plan.impulse_count) - 1)
     assert_allclose(alpha[:-2], plan.gauge, rtol=1e-9)
     assert alpha[-2:].tolist() == [0, 0]
-    assert held["/gauge/alpha"]["time"][-1] == pytest.approx(2.5 * float(plan.impulse_count))
+    assert recorded["/gauge/alpha"]["time"][-1] == pytest.approx(2.5 * float(plan.impulse_count))
 
 
 def test_the_nets_and_the_state_are_those_of_the_linear_motion(played):
-    plan, held = played
+    plan, recorded = played
     square = plan.thrust.name == "box"
     frame = sets.frame_of(plan.thrust.factors(int(plan.steps)), square)
-    times = held["/sets/state"]["time"]
+    times = recorded["/sets/state"]["time"]
     state = np.array(Z0)
     for j, impulse in enumerate(plan.impulses):
         row = 0 if j == 0 else 1 + (j - 1) * scene.SAMPLES + scene.SAMPLES - 1
         assert times[row] == pytest.approx(2.5 * j, abs=1e-8)
-        assert_allclose(held["/sets/state"]["vectors"][row], frame.points(state), atol=1e-5)
-        net = held["/sets/meridians"]["strips"][row]
+        assert_allclose(recorded["/sets/state"]["vectors"][row], frame.points(state), atol=1e-5)
+        net = recorded["/sets/meridians"]["strips"][row]
         inside = frame.points(state) / plan.gauge
         assert _within_hull(0.9 * inside, net.reshape(-1, 3))
         assert not _within_hull(1.01 * inside, net.reshape(-1, 3))
@@ -112,11 +112,11 @@ def test_what_remains_has_the_state_on_its_boundary(fired):
     """From each instant the rest of the controls, and no smaller ones, bring the state back."""
     plan = PLANS["orbit-correction"]
     left = remaining(plan, fired)
-    held = np.array(Z0)
+    recorded = np.array(Z0)
     for j in range(fired):
-        held = held + expm(-LINEAR * 0.25 * j) @ [0, *plan.impulses[j]]
+        recorded = recorded + expm(-LINEAR * 0.25 * j) @ [0, *plan.impulses[j]]
     reached = plan.gauge * left.boundary(-plan.initial_costate, square=False)
-    assert_allclose(reached, held, atol=1e-15)
+    assert_allclose(reached, recorded, atol=1e-15)
 
 
 def test_a_net_is_held_line_by_line(tmp_path):

@@ -1,6 +1,7 @@
-"""Lemmas 1 to 10 and Theorems 1 to 4 on random systems in dimension 2 to 6 with random ellipsoids.
+"""The lemmas and theorems of sections 2 to 6 on random systems in dimension 2 to 6 with random ellipsoids.
 
-Sets are known by their points, flights and support functions; the gauge is the solver's, between its bounds.
+Sets are described by points, trajectories and support functions; gauges come from the solver with its
+bounds.
 """
 
 from dataclasses import dataclass
@@ -23,7 +24,7 @@ from pontryagin.orbit_correction.gauges.general import gauge_of_factors
 
 
 @dataclass(frozen=True)
-class Random:
+class RandomSystem:
     """A nonstationary system: A (N, n, n), factors L (N, n, n) of the ellipsoids L B, and a generator."""
 
     A: np.ndarray
@@ -77,7 +78,7 @@ def systems(draw):
         first, second = (np.linalg.qr(generator.normal(size=(steps, n, n)))[0] for _ in range(2))
         return first * generator.uniform(0.5, 2.0, size=(steps, 1, n)) @ second
 
-    return Random(matrices(), matrices(), generator)
+    return RandomSystem(matrices(), matrices(), generator)
 
 
 def support(factors, p):
@@ -98,6 +99,7 @@ def level(L, x):
 
 @given(systems())
 def test_lemma_1_controls_that_end_at_zero_start_in_the_sum(case):
+    """Lemma 1: the states of (2) that controls of system (1) bring to 0 lie in the sum."""
     controls, x = case.controls(), np.zeros(case.n)
     for k in reversed(range(case.steps)):
         x = np.linalg.solve(case.A[k], x - controls[k])
@@ -110,6 +112,7 @@ def test_lemma_1_controls_that_end_at_zero_start_in_the_sum(case):
 
 @given(systems())
 def test_lemma_1_outside_the_sum_no_controls_end_at_zero(case):
+    """Lemma 1, the other inclusion."""
     p = case.direction()
     x = 1.01 * support_parts(case.reach(), p).sum(axis=0)
     assert gauge(case.system(), x, case.steps).alpha > 1.009
@@ -121,6 +124,7 @@ def test_lemma_1_outside_the_sum_no_controls_end_at_zero(case):
 
 @given(systems())
 def test_corollary_1_in_support_functions(case):
+    """Corollary 1: A(k) X(N, k) is X(N - 1, k + 1) - U(k)."""
     p = case.direction()
     left = support(case.A[0] @ case.reach(), p)
     assert_allclose(left, support(case.reach(1), p) + np.linalg.norm(case.L[0].T @ p), rtol=1e-11)
@@ -128,6 +132,7 @@ def test_corollary_1_in_support_functions(case):
 
 @given(systems())
 def test_lemma_2_and_corollary_2_one_support_point_and_disjoint_cones(case):
+    """Lemma 2: one support point for each p. Corollary 2: two boundary points share no normal."""
     L, p = case.L[0], case.direction()
     best = L @ L.T @ p / np.linalg.norm(L.T @ p)
     assert_allclose([level(L, best), p @ best], [1, np.linalg.norm(L.T @ p)], rtol=1e-11)
@@ -139,6 +144,8 @@ def test_lemma_2_and_corollary_2_one_support_point_and_disjoint_cones(case):
 
 @given(systems())
 def test_lemma_2_for_a_strictly_convex_set_that_is_no_ellipsoid(case):
+    """Lemma 2 for linear images of the 4-ball."""
+
     def ball_4(w):
         return (w**4).sum() ** 0.25
 
@@ -156,6 +163,7 @@ def test_lemma_2_for_a_strictly_convex_set_that_is_no_ellipsoid(case):
 
 @given(systems())
 def test_lemmas_3_and_8_images_of_ellipsoids(case):
+    """Lemma 8: the image is the ellipsoid of A^-T H A^-1. Lemma 3: A^-T carries its normals."""
     A, L, p = case.A[0], case.L[1], case.direction()
     H, inverse = np.linalg.inv(L @ L.T), np.linalg.inv(A)
     shape = inverse.T @ H @ inverse
@@ -169,6 +177,7 @@ def test_lemmas_3_and_8_images_of_ellipsoids(case):
 
 @given(systems())
 def test_lemma_4_the_middle_of_two_points_of_a_sum_is_inside(case):
+    """Lemma 4: a sum of strictly convex sets is strictly convex."""
     factors = case.reach()
     ends = [support_parts(factors, case.direction()).sum(axis=0) for _ in range(2)]
     sizes = gauge_of_factors(factors, np.array([*ends, (ends[0] + ends[1]) / 2])).certificate
@@ -179,6 +188,7 @@ def test_lemma_4_the_middle_of_two_points_of_a_sum_is_inside(case):
 
 @given(systems())
 def test_lemma_5_one_decomposition_with_one_common_normal(case):
+    """Lemma 5, and (8), (9) and (10): the parts of a boundary point are support points with its normal."""
     factors, p = case.reach(), case.direction()
     parts = support_parts(factors, p)
     found = gauge_of_factors(factors, parts.sum(axis=0))
@@ -193,6 +203,7 @@ def test_lemma_5_one_decomposition_with_one_common_normal(case):
 
 @given(systems())
 def test_theorems_1_to_3_from_the_boundary(case):
+    """Theorem 1 with the steps (3) and normals (4), Theorem 2 and Theorem 3 from a boundary point."""
     psi = case.direction()
     x = support_parts(case.reach(), -psi).sum(axis=0)
     costate, states, controls = psi, [x], []
@@ -214,6 +225,10 @@ def test_theorems_1_to_3_from_the_boundary(case):
 
 @given(systems())
 def test_lemmas_6_7_and_theorem_4_from_inside(case):
+    """From a state inside, as in (5): Lemma 7 on the system (7), Theorem 4, and Lemma 6.
+
+    By Lemma 6 the controls of (6), which leave out alpha, miss the origin.
+    """
     x = 0.7 * support_parts(case.reach(), case.direction()).sum(axis=0)
     found = gauge(case.system(), x, case.steps)
     alpha, psi = float(found.alpha), found.costate
@@ -234,6 +249,7 @@ def test_lemmas_6_7_and_theorem_4_from_inside(case):
 
 @given(systems())
 def test_lemmas_9_and_10_by_products_of_the_matrices(case):
+    """Lemma 9: the sum over psi_0 is -x0. Lemma 10: its controls bring x0 to the origin."""
     psi, product = case.direction(), np.eye(case.n)
     start, controls = np.zeros(case.n), []
     for A, L in zip(case.A, case.L, strict=True):
@@ -250,6 +266,7 @@ def test_lemmas_9_and_10_by_products_of_the_matrices(case):
 
 @given(systems())
 def test_system_11_has_one_solution_because_its_right_side_is_monotone(case):
+    """The system (11), whose right-hand side is also homogeneous of degree 0 and odd."""
     first, second = case.direction(), case.direction()
     sums = [support_parts(case.reach(), psi).sum(axis=0) for psi in (first, second)]
     assert (sums[0] - sums[1]) @ (first - second) > 0
@@ -280,6 +297,6 @@ def test_the_lens_and_the_cone_at_its_corner(angle, share):
         best = next(centre + p for centre in LENS_CENTRES if lens_level(centre + p) <= 1 + 1e-12)
         assert p.dot(best) > p.dot(LENS_CORNER) - 1e-12
     assert lens_level(best) <= 1 + 1e-12
-    turned = share * sp.Matrix([np.cos(7 * angle), np.sin(7 * angle)])
-    within = [centre + turned for centre in LENS_CENTRES] + [LENS_CORNER, -LENS_CORNER]
+    inside = share * sp.Matrix([np.cos(7 * angle), np.sin(7 * angle)])
+    within = [centre + inside for centre in LENS_CENTRES] + [LENS_CORNER, -LENS_CORNER]
     assert all(p.dot(x) <= p.dot(best) + 1e-12 for x in within if lens_level(x) <= 1)

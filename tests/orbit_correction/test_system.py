@@ -1,4 +1,4 @@
-"""Gauges of general systems: any dimension, any size, sets that are all but flat, and what is refused."""
+"""Gauges of general systems (Lemma 7, Lemma 9): dimensions, sizes, nearly flat sets, refused arguments."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ PLANE = np.eye(2)
 
 
 def drawn(seed, n, steps, decades):
-    """Matrices A with a moderate condition, factors L of ellipsoids with axes over so many decades."""
+    """Matrices A of moderate condition, matrices H of ellipsoids whose axes span the decades, and a state."""
     generator = np.random.default_rng(seed)
 
     def matrix(spread):
@@ -54,7 +54,7 @@ def test_needles_are_solved_where_newtons_method_alone_stalls(seed):
 
 @given(st.integers(0, 10_000), st.integers(2, 4))
 def test_the_gauge_in_boxes_drawn_round_the_ellipsoids_is_a_linear_programme(seed, n):
-    """Ellipsoids lie between the cross-polytopes and the boxes of their axes, whose gauges HiGHS finds."""
+    """An ellipsoid lies between the box and the cross-polytope of its axes, whose gauges HiGHS finds."""
     A, H, x0 = drawn(seed, n, 4, 1)
     system = DiscreteSystem(A, H)
     factors = system.factors(4)

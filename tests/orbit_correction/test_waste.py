@@ -1,4 +1,4 @@
-"""Impulses that the ball wastes: an inequality between sets, and the paper's own example."""
+"""Impulses that the ball wastes: the paper's example, and larger sets that never need more."""
 
 import numpy as np
 import pytest

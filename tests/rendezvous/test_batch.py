@@ -7,12 +7,12 @@ import pytest
 
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, carry, multistart
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
 from pontryagin.rendezvous.reduced.lanes import fly_all
-from pontryagin.rendezvous.reduced.shooting import Setting
 from pontryagin.rendezvous.reduced.start import cold_start
 
 ONE = [1, 0, 0, 0]

@@ -24,12 +24,9 @@ from pontryagin.rendezvous.problem.cases import (
     cases,
     chaser_on,
 )
-from pontryagin.rendezvous.reduced.homotopy import Root
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.root import Root
 
 CRAFT = {"r": 1, "v1": 0, "c": 1, "attitude": [1, 0, 0, 0]}
 TARGET = {"parameter": 1.5, "eccentricity": 0.1, "anomaly": 0.6, "attitude": [1, 0, 0, 0]}
@@ -135,7 +132,7 @@ class TestAnswers:
         assert transcript.table(output)["problem"]["duration"] == "free"
 
     def test_a_figure_and_a_recording_are_written(self, write, tmp_path, leap, monkeypatch):
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: leap)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: leap)
         files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
         result = run("--file", write(LEAP), *files)
         assert result.exit_code == 0, result.stderr
@@ -161,7 +158,7 @@ class TestAnswers:
         def reached(problem):
             raise Reached(problem)
 
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", reached)
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", reached)
         for name in ("mars", "mixed-bounded"):
             with pytest.raises(Reached) as reached_with:
                 run("--case", name)
@@ -365,8 +362,8 @@ class TestErrors:
         scaled = leap.problem.scaled
         setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
         moved = leap.root.unknowns + 1e-4
-        wrong = replace(leap, root=Root(moved, equations(setting, moved), 0.0), searched=Search())
-        monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", lambda problem: wrong)
+        wrong = replace(leap, root=Root(moved, equations(setting, moved)), searched=Search())
+        monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: wrong)
         assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
 
 
@@ -386,7 +383,7 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
         solved.append(given)
         return leap
 
-    monkeypatch.setattr("pontryagin.rendezvous.reduced.solution.solve", known)
+    monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", known)
     examples = re.findall(r"^ +pontryagin (.*)$", shown, re.MULTILINE)
     assert len(examples) == 4
     for example in examples:

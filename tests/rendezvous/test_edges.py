@@ -23,11 +23,12 @@ from pontryagin.rendezvous import (
     solve,
     solve_in_elements,
 )
+from pontryagin.rendezvous.families import stretched
 from pontryagin.rendezvous.problem.cases import cases
-from pontryagin.rendezvous.reduced import first_extremal as first_extremals
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.search import KEPT
-from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
+from pontryagin.rendezvous.reduced.solve import KEPT
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 LEAP = Rendezvous(CRAFT, Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6), 0, 1, math.inf, duration=6.0)
@@ -137,7 +138,7 @@ class TestWhatWasFound:
         scaled = LEAP.scaled
         setting = Setting(scaled, scaled.ratio, math.inf, duration=scaled.duration)
         short = solve(replace(LEAP, duration=3.0))
-        root = first_extremals._stretched(setting, short.root)
+        root = stretched(SHOOTING, setting, short.root)
         assert root.flight.duration == scaled.duration and root.residual < 1e-13
 
     def test_a_singular_step_is_not_converged(self, leap):

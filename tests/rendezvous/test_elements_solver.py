@@ -26,18 +26,15 @@ from pontryagin.rendezvous.derivation import sapunkov
 from pontryagin.rendezvous.derivation import sapunkov_principle as principle
 from pontryagin.rendezvous.elements import shooting as elements_shooting
 from pontryagin.rendezvous.elements.certificate import certify
+from pontryagin.rendezvous.elements.conditions import ElementsEquations, ElementsSetting, equations
 from pontryagin.rendezvous.elements.flight import (
     fly_elements,
     switching,
 )
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import (
-    Root,
-    Setting,
-    equations,
-)
 from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.start import cold_start
+from pontryagin.rendezvous.root import Root
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 COSTATES = np.array([1.5, -0.7, 2.2, -1.3, -2.1, -1.8])
@@ -155,7 +152,7 @@ def test_a_start_at_either_end_of_the_first_axis_has_elements():
 )
 def test_the_derivatives_are_those_of_the_equations(law, duration):
     """Also over the jumps, where the derivatives jump too."""
-    setting, h = Setting(problem(20).scaled, law, duration), 1e-6
+    setting, h = ElementsSetting(problem(20).scaled, law, duration), 1e-6
     point = np.append(COSTATES * (1.0 if law.kind == "fuel" else 0.1), 2.2)
     exact = equations(setting, point)
     columns = [
@@ -233,7 +230,7 @@ def test_costates_carried_over_are_a_solution_already():
 def test_a_wrong_costate_is_found_out():
     mine = solve_in_elements(problem(20, duration=6.0))
     moved = mine.root.unknowns + 1e-6 * np.eye(7)[2]
-    wrong = Root(moved, equations(Setting(mine.problem.scaled, mine.flight.law, 1.0), moved))
+    wrong = Root(moved, equations(ElementsSetting(mine.problem.scaled, mine.flight.law, 1.0), moved))
     assert mine.certificate.holds(1e-10) and not certify(wrong, free=False).holds(1e-8)
 
 
@@ -333,7 +330,7 @@ def bent(monkeypatch):
         def equations(setting, unknowns):
             residual = np.append(function(unknowns[0]) - setting.value, unknowns[1:] - 1)
             jacobian = np.diag([slope(unknowns[0]), *np.ones(6)])
-            return elements_shooting.Equations(None, residual, jacobian)
+            return ElementsEquations(None, residual, jacobian)
 
         monkeypatch.setattr(elements_shooting, "equations", equations)
 
@@ -342,27 +339,27 @@ def bent(monkeypatch):
 
 def lying_at(value, x):
     unknowns = np.append(x, np.ones(6))
-    return elements_shooting.Root(unknowns, elements_shooting.equations(Level(value), unknowns))
+    return Root(unknowns, elements_shooting.equations(Level(value), unknowns))
 
 
 def test_a_family_is_followed_round_its_folds(bent):
     """x^3 - x = value: from -1.5 to 1.5 the curve turns back at -1/sqrt(3) and at 1/sqrt(3)."""
     bent(lambda x: x**3 - x, lambda x: 3 * x**2 - 1)
-    root = elements_shooting.follow_round(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
+    root = elements_shooting.lead_round(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
     assert root.unknowns[0] == pytest.approx(1.5, abs=1e-12)
 
 
 def test_a_family_that_only_turns_back_is_not_converged(bent):
     bent(lambda x: -(x**2), lambda x: -2 * x)
     with pytest.raises(pontryagin.NotConverged, match="could not be followed"):
-        elements_shooting.follow_round(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
+        elements_shooting.lead_round(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
 
 
 def test_a_singular_end_is_no_meeting(bent):
     """However large the condition number, a residual above 1e-6 is none."""
     bent(lambda x: x**2 + 0.5, lambda x: 2 * x)
     with pytest.raises(pontryagin.NotConverged):
-        elements_shooting.newton(Level(0.0), np.append(1e-9, np.ones(6)))
+        elements_shooting.meet(Level(0.0), np.append(1e-9, np.ones(6)))
 
 
 def test_the_judge_agrees_and_its_error_shrinks(fuel):

@@ -16,14 +16,15 @@ from pontryagin.io.files import repository
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, playback
 from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
+from pontryagin.rendezvous.families import bounded
 from pontryagin.rendezvous.figures.profile import profile
 from pontryagin.rendezvous.playback.motion import (
     EVEN,
     TURN,
     motion_of,
 )
-from pontryagin.rendezvous.reduced.bound import bounded
-from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.reduced.conditions import Setting
+from pontryagin.rendezvous.reduced.shooting import SHOOTING
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.start import cold_start
 
@@ -51,7 +52,7 @@ def transfer(peak, duration, turns=0):
     scaled = problem.scaled
     loose = Setting(scaled, scaled.ratio, math.inf, duration=scaled.duration)
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    return Extremal(problem, bounded(setting, loose, cold_start(loose, turns)))
+    return Extremal(problem, bounded(SHOOTING, setting, loose, cold_start(loose, turns)))
 
 
 def recorded(extremal, path, true=None):

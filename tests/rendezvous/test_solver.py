@@ -10,20 +10,17 @@ import pytest
 
 import pontryagin
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, generate, kernels, solve
+from pontryagin.rendezvous.families import bounded
 from pontryagin.rendezvous.problem.cases import chaser_on
-from pontryagin.rendezvous.reduced.bound import bounded
 from pontryagin.rendezvous.reduced.certificate import certify
+from pontryagin.rendezvous.reduced.conditions import Setting, end_thrust, equations
 from pontryagin.rendezvous.reduced.flight import fly
-from pontryagin.rendezvous.reduced.homotopy import newton
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.search import extremals
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    end_thrust,
-    equations,
-)
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
+from pontryagin.rendezvous.reduced.solve import extremals
 from pontryagin.rendezvous.reduced.start import cold_start
+from pontryagin.rendezvous.root import Root
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
 COSTATES = np.array([0.01, 0.02, 0.05, 0.01, 0.02, 0.03])
@@ -63,13 +60,13 @@ def test_the_derivatives_are_those_of_the_equations(degrees, ratio, peak):
 
     columns = [slope(equations(setting, point + h * x), equations(setting, point - h * x)) for x in np.eye(7)]
     assert np.allclose(np.array(columns).T, exact.jacobian, rtol=1e-6, atol=1e-6)
-    turned = [equations(setting.but(lead=x), point) for x in (h, -h)]
+    turned = [equations(setting.replace(lead=x), point) for x in (h, -h)]
     assert np.allclose(slope(*turned), exact.by_lead, atol=1e-8)
     if peak < math.inf:
-        bounds = [equations(setting.but(peak=peak * math.exp(x)), point) for x in (h, -h)]
+        bounds = [equations(setting.replace(peak=peak * math.exp(x)), point) for x in (h, -h)]
         assert np.allclose(slope(*bounds), exact.by_peak, atol=1e-7)
     if ratio < math.inf:
-        ratios = [equations(setting.but(ratio=ratio * math.exp(x)), point) for x in (h, -h)]
+        ratios = [equations(setting.replace(ratio=ratio * math.exp(x)), point) for x in (h, -h)]
         assert np.allclose(slope(*ratios), exact.by_ratio, atol=1e-8)
 
 
@@ -108,10 +105,10 @@ def test_more_revolutions_are_other_extremals():
 @pytest.mark.parametrize("taylor", [True, False])
 def test_a_wrong_costate_is_found_out(taylor):
     setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0, taylor=taylor)
-    root = newton(setting, cold_start(setting).unknowns)
+    root = meet(setting, cold_start(setting).unknowns)
     moved = equations(setting, root.unknowns + 1e-6 * np.eye(6)[3])
     assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
-    wrong = type(root)(root.unknowns, moved, 0.0)
+    wrong = Root(root.unknowns, moved)
     assert not certify(wrong, (0.0, 1.0), free=False).holds(1e-8)
 
 
@@ -120,7 +117,7 @@ def test_a_meeting_ahead_of_the_target_fails_by_its_attitude_alone():
     free = Rendezvous(CRAFT, orbit(0, eccentricity=0.0), 0.002, 1.0, math.inf)
     best = solve(free)
     setting = Setting(free.scaled, free.scaled.ratio, math.inf)
-    ahead = newton(setting.but(lead=0.1), best.root.unknowns)
+    ahead = meet(setting.replace(lead=0.1), best.root.unknowns)
     false = certify(ahead, free.scaled.weights, free=True)
     others = (false.boundary, false.transversality, false.hamiltonian, false.maximality, false.agreement)
     assert max(others) < 1e-10
@@ -132,7 +129,7 @@ def test_the_cost_falls_with_the_duration_by_the_end_thrust():
     """dJ/dt_k = alpha1 - alpha2 p(t_k)^2 along the family of fixed times."""
     setting, h = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0), 1e-4
     here = cold_start(setting)
-    later, sooner = (energy(newton(setting.but(duration=3.0 + x), here.unknowns).flight) for x in (h, -h))
+    later, sooner = (energy(meet(setting.replace(duration=3.0 + x), here.unknowns).flight) for x in (h, -h))
     assert (later - sooner) / (2 * h) == pytest.approx(-(end_thrust(here.flight) ** 2), rel=1e-6)
 
 
@@ -153,7 +150,7 @@ def least_time(degrees: float):
     scaled = given.scaled
     loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
     (root, *_) = extremals(loose, Search())
-    return given, bounded(Setting(scaled, scaled.ratio, scaled.peak), loose, root)
+    return given, bounded(SHOOTING, Setting(scaled, scaled.ratio, scaled.peak), loose, root)
 
 
 @pytest.mark.parametrize("degrees", [0, 30])

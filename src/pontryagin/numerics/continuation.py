@@ -203,29 +203,28 @@ def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array]
 
 
 def march(
-    solve_at: Callable[[float, Array], Array],
-    unknowns: Array,
-    start: float,
+    solve_at: Callable[[float, Array], Point[E]],
+    start: Point[E],
     end: float,
     *,
-    first: float = 0.25,
-    largest: float = 1.0,
-    least: float = 1 / 128,
+    first: float,
+    largest: float = np.inf,
+    least: float = 0.0,
     growth: float = 1.6,
     tries: int = 60,
-) -> Iterator[tuple[float, Array]]:
-    """Solutions on the way from one value of the parameter to another, each guessed by the secant before it.
+) -> Iterator[Point[E]]:
+    """Solutions over the parameter up to a value, each guessed by the secant through the two before it.
 
     Parameters
     ----------
     solve_at : function of the parameter and a guess (n,)
-        The solution there, (n,); it raises `NotConverged` where the guess is too far, which halves the step.
-    unknowns : (n,) array
-        The solution at ``start``.
-    start, end : float
-        Values of the parameter.
+        The solution there; it raises `NotConverged` where the guess is too far, which halves the step.
+    start : Point
+        A solution.
+    end : float
+        The value.
     first, largest, least : float
-        The first step, the largest, and the one below which the march is given up, in shares of the way.
+        The first step of the parameter, the largest, and the one below which the march is given up.
     growth : float
         By what a step grows after each success.
     tries : int
@@ -233,35 +232,35 @@ def march(
 
     Yields
     ------
-    float, (n,) array
-        The parameter and the solution, the start included. The last is at ``end`` if that was reached.
+    Point
+        The first is the start itself, the last is at ``end`` if that was reached.
 
     Examples
     --------
-    >>> steps = march(lambda p, guess: np.sqrt([p]), np.array([1.0]), 1.0, 4.0)
-    >>> [(round(p, 3), x.round(3).tolist()) for p, x in steps]
-    [(1.0, [1.0]), (1.75, [1.323]), (2.95, [1.718]), (4.0, [2.0])]
+    >>> def root(p, guess):
+    ...     return Point(np.sqrt([p]), p, None)
+    >>> steps = march(root, Point(np.ones(1), 1.0, None), 4.0, first=1)
+    >>> [(round(point.parameter, 3), point.unknowns.round(3).tolist()) for point in steps]
+    [(1.0, [1.0]), (2.0, [1.414]), (3.6, [1.897]), (4.0, [2.0])]
     """
-    way = end - start
-    at, step = start, first
-    before: tuple[float, Array] | None = None
-    yield at, unknowns
+    step, here = first, start
+    before: Point[E] | None = None
+    yield here
     for _ in range(tries):
-        if at == end:
+        left = end - here.parameter
+        if left == 0:
             return
-        there = end if abs(end - at) <= step * abs(way) * 1.0001 else at + step * way
-        guess = unknowns.copy()
-        if before is not None:
-            guess += (there - at) / (at - before[0]) * (unknowns - before[1])
+        there = end if abs(left) <= step * 1.0001 else here.parameter + np.copysign(step, left)
+        guess = here.unknowns if before is None else between(before, here, there)
         try:
-            found = solve_at(there, guess)
+            found = solve_at(float(there), guess)
         except NotConverged:
             step /= 2
             if step < least:
                 return
             continue
-        before, at, unknowns = (at, unknowns), there, found
-        yield at, unknowns
+        before, here = here, found
+        yield here
         step = min(largest, growth * step)
 
 

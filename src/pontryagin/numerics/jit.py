@@ -194,7 +194,7 @@ def _closure_source(kernel: Callable) -> str:
             raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
 
     visit(kernel)
-    parts = ["from numba import njit, types"]
+    parts = ["from __future__ import annotations", "from numba import njit, types"]
     if arrays:
         parts.append("import numpy as np")
     if imported:

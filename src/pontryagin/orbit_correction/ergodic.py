@@ -1,13 +1,14 @@
-"""Many impulses: alpha N tends to a constant, an ergodic mean over the phase of the orbit.
+"""The limit of N alpha(N) for many steps, a mean over the phase of the orbit.
 
-alpha(N) = max (-z0, psi) / sum |G_k'psi|, and G_k depends on k through the phase of the orbit only. For an
-interval that is no rational share of a revolution the phases fill the circle evenly (Weyl), and the sum
-over k becomes N times the mean over the phase:
+alpha(N) = max (-z0, psi) / sum |G_k'psi|, and G_k depends on k through the phase of the orbit only. If the
+interval is an irrational share of a revolution the phases are equidistributed on the circle (Weyl), and the
+sum over k tends to N times the mean over the phase:
 
     alpha N  ->  max over psi of (-z0, psi) / mean of |G(phi)'psi|.
 
-The mean does not care where on the circle it begins, so it depends on psi through two numbers only: what
-psi pairs with the motion that stays, and the amplitude of what it pairs with the oscillation.
+The mean does not depend on the phase at which the circle begins. It therefore depends on psi through two
+numbers only: the component of psi along the constant part of the motion, and the length of its component
+along the oscillation.
 """
 
 from math import lcm
@@ -16,43 +17,49 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
-from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from pontryagin.orbit_correction.plan.thrust import thrust_of
 from pontryagin.orbit_correction.system import satellite
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import vectors
 
 PHASES = 1 << 14
+"""Phases at which the mean is taken."""
+
 LARGEST_PERIOD = 64
+"""Intervals that make whole revolutions are looked for up to this number."""
+
 MODES = np.array([[-1.0, 0.0, -2.0], [0.0, 1.0, 0.0], [2.0, 0.0, 2.0]])
-"""Rows: two components that turn under e^{At}, and one that stays."""
+"""The first two rows give the components that rotate under e^{At}, the third the one that is constant."""
 
 
 def modes(z0: ArrayLike) -> Array:
-    """Deviations (..., 3) as the amplitude of the oscillation and what stays, (..., 2).
+    """The amplitude of the oscillation and the constant part of deviations (..., 3), as (..., 2).
 
-    In the rows of `MODES` the motion is a rotation of the first two components; the third is twice the
-    deviation of the angular momentum and stays.
+    In the components of `MODES` the motion rotates the first two; the third, twice the deviation of the
+    angular momentum, is constant.
 
     Examples
     --------
     >>> modes([0.0, 0.001, 0.0]).tolist()
     [0.001, 0.0]
     """
-    turned = vectors("z0", z0, 3) @ MODES.T
-    return np.stack([np.hypot(turned[..., 0], turned[..., 1]), turned[..., 2]], axis=-1)
+    parts = vectors("z0", z0, 3) @ MODES.T
+    return np.stack([np.hypot(parts[..., 0], parts[..., 1]), parts[..., 2]], axis=-1)
 
 
 def mean_support(
     amplitude: ArrayLike, constant: ArrayLike, interval: float, peak: float, thrust: str
 ) -> Array:
-    """Mean of |G(phi)'psi| over the phase, for psi with given parts in the dual of `modes`, (...).
+    """Mean of |G(phi)'psi| over the phase, for psi with given components in the dual of `modes`, (...).
 
     Parameters
     ----------
     amplitude, constant : (...) array_like
-        Length of psi's part in the turning components, and its part in what stays.
+        Length of the component of psi along the oscillation, and its component along the constant part.
     interval, peak, thrust
-        As in `correct`; the interval matters to the ball only, whose steps hold neighbouring impulses.
+        As in `correct`. Only the mean of the ball depends on the interval, since its steps hold neighbouring
+        impulses.
 
     Examples
     --------
@@ -69,8 +76,8 @@ def mean_support(
         return np.asarray(each.mean(axis=-1))
     total = np.zeros(rho.shape)
     for step in peak * satellite.step_factors(2, interval):
-        turned = np.einsum("kij,jl->kil", satellite.transition(-phases), step)
-        total += np.linalg.norm(np.einsum("...i,kij->...kj", psi, turned), axis=-1).mean(axis=-1)
+        rotated = np.einsum("kij,jl->kil", satellite.transition(-phases), step)
+        total += np.linalg.norm(np.einsum("...i,kij->...kj", psi, rotated), axis=-1).mean(axis=-1)
     return total / 2
 
 
@@ -82,13 +89,13 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     z0 : (3,) array_like
         Deviation, dimensionless.
     interval, peak, thrust
-        As in `correct`. Where 64 intervals or fewer make whole revolutions the phases repeat, and the
-        mean is over those that occur.
+        As in `correct`. Where 64 intervals or fewer make whole revolutions the phases repeat, and the mean
+        is over the phases that occur.
 
     Returns
     -------
     float
-        In steps: three impulse components for the ball, else one impulse.
+        N counts steps: of three impulse components for the ball, else of one impulse.
 
     Raises
     ------
@@ -100,31 +107,25 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     Examples
     --------
     >>> z0 = [-0.0037787, -0.0039109, 0.0141512]
-    >>> thrust = Thrust("ball", 0.25, 0.0035)
+    >>> thrust = thrust_of("ball", 0.25, 0.0035)
     >>> many = float(thrust.gauges(np.array([z0]), np.array([20_000])).lower[0]) * 20_000
     >>> abs(many - limit(z0)) < 1e-3
     True
     """
-    state = vectors("z0", z0, 3)
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    if thrust not in THRUSTS:
-        raise ValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}")
-    spacing, bound = float(positive("interval", interval)), float(positive("peak", peak))
+    state, engine = arguments.state(z0), thrust_of(thrust, interval, peak)
     if not state.any():
         return 0.0
-    period = _period(spacing)
+    period = _period(engine.interval)
     if period:
         count = 2 * lcm(period, 3) // 3 if thrust == "ball" else period
-        engine = Thrust(thrust, spacing, bound)
         count *= -(-engine.fewest // count)
         return count * float(engine.gauges(state[None], np.array([count])).lower[0])
     oscillation, rest = modes(state)
 
     def proved(angle: float) -> float:
         across, along = np.cos(angle), np.sin(angle)
-        paired = oscillation * across + rest * along
-        return paired / float(mean_support(across, along, spacing, bound, thrust))
+        mean = mean_support(across, along, engine.interval, engine.peak, thrust)
+        return float((oscillation * across + rest * along) / mean)
 
     from scipy.optimize import minimize_scalar
 
@@ -148,5 +149,5 @@ def approach(
     steps = np.asarray(counts, dtype=np.int64)
     correct(z0, interval, peak, thrust)
     state = np.broadcast_to(vectors("z0", z0, 3), (len(steps), 3))
-    engine = Thrust(thrust, float(interval), float(peak))
+    engine = thrust_of(thrust, interval, peak)
     return np.array([engine.gauges(state[:1], steps[i : i + 1]).lower[0] for i in range(len(steps))]) * steps

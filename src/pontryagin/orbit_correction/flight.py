@@ -1,7 +1,7 @@
-"""The plan flown on the true equations of motion, and replanned on what it leaves.
+"""Plans flown on the nonlinear equations of motion, and new plans for the deviation that they leave.
 
-The plan is linear, the sky is not: what remains of a deviation z0 is quadratic in |z0|. A second plan for
-the remainder, and a third, bring it to rounding level.
+A plan is made for the linearised equations, so that the deviation it leaves is quadratic in |z0|. Two further
+plans, each for what the one before left, reduce it to rounding.
 """
 
 from dataclasses import dataclass
@@ -11,19 +11,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.flow import Flow, flow
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import Plan, correct, single
 from pontryagin.validation import positive, vectors
+from pontryagin.value import value_class
 
 CIRCLE = np.array([1.0, 0.0, 1.0])
+"""The circular orbit (r, v_R, v_T), from which deviations are measured."""
+
 ROUNDING = 1e-14
+"""A deviation of at most this length is due to rounding: radius and speed are numbers near 1."""
+
 ROUNDS = 12
+"""Most plans of a closed loop."""
 
 
 @cache
 def motion() -> Flow:
-    """Flow of (r, v_R, v_T, theta) in the field 1/r^2, from the derived equations of motion."""
+    """The flow of (r, v_R, v_T, theta) in the field 1/r^2, compiled from the derived equations of motion."""
     import sympy as sp
 
     from pontryagin.orbit_correction import derivation as d
@@ -32,9 +39,10 @@ def motion() -> Flow:
     return flow([d.r, d.v_radial, d.v_transverse, sp.Symbol("theta", real=True)], rates)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """A sequence of impulses flown on the true equations.
+    """A sequence of impulses flown on the nonlinear equations of motion.
 
     Attributes
     ----------
@@ -45,7 +53,7 @@ class Flight:
     states : (M + 1, 3) array
         Deviations (dr, dv_R, dv_T) before each impulse, and at the end; dimensionless.
     angles : (M + 1,) array
-        Place theta on the orbit at the same instants, rad.
+        Angle theta on the orbit at the same instants, rad.
     """
 
     impulses: Array
@@ -58,10 +66,10 @@ class Flight:
         """Length of the deviation at the end."""
         return float(np.linalg.norm(self.states[-1]))
 
-    def path(self, samples: int) -> tuple[NDArray, NDArray, NDArray]:
-        """Times, deviations and places with so many samples an interval, (k,), (k, 3), (k,).
+    def path(self, samples: int) -> tuple[Array, Array, Array]:
+        """Times (k,), deviations (k, 3) and angles (k,), with the given number of samples in each interval.
 
-        Every instant of an impulse appears twice, before and after it.
+        The instant of an impulse appears twice, with the deviation before it and after it.
         """
         grid = np.linspace(0.0, self.interval, samples)
         times, states = [np.zeros(1)], [np.append(self.states[0] + CIRCLE, self.angles[0])[None]]
@@ -69,12 +77,12 @@ class Flight:
             kicked = self.states[j] + CIRCLE + np.array([0.0, *impulse])
             times.append(j * self.interval + grid)
             states.append(motion()(np.append(kicked, self.angles[j]), grid))
-        whole = np.concatenate(states)
-        return np.concatenate(times), whole[:, :3] - CIRCLE, whole[:, 3]
+        flown = np.concatenate(states)
+        return np.concatenate(times), flown[:, :3] - CIRCLE, flown[:, 3]
 
 
 def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0) -> Flight:
-    """Fly impulses on the true equations of motion, integrated by Taylor series or DOP853.
+    """Fly impulses on the nonlinear equations of motion, integrated by Taylor series or DOP853.
 
     Parameters
     ----------
@@ -85,7 +93,12 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
     interval : float
         Time between them, rad of the orbit.
     angle : float
-        Place on the orbit at the start, rad.
+        Angle theta on the orbit at the start, rad.
+
+    Returns
+    -------
+    Flight
+        Deviations and angles at the impulses and at the end.
 
     Raises
     ------
@@ -98,10 +111,10 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
     >>> f"{fly(plan.z0, plan.impulses, 0.25).residual:.1e}"
     '1.1e-04'
     """
-    start, kicks = vectors("z0", z0, 3), vectors("impulses", impulses, 2)
-    if start.ndim != 1 or kicks.ndim != 2:
-        raise ValueError(f"z0 and impulses must be (3,) and (M, 2), got {start.shape} and {kicks.shape}")
-    step = float(positive("interval", interval))
+    start, kicks = arguments.state(z0), vectors("impulses", impulses, 2)
+    if kicks.ndim != 2:
+        raise ArgumentValueError(f"impulses must be (M, 2), got shape {kicks.shape}", "impulses")
+    step = arguments.positive_number("interval", interval)
     states, angles = [start], [float(angle)]
     for kick in kicks:
         kicked = np.append(states[-1] + CIRCLE + np.array([0.0, *kick]), angles[-1])
@@ -112,7 +125,7 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
 
 
 def fly_plan(plan: Plan) -> Flight:
-    """`fly` the impulses of one plan.
+    """Fly the impulses of one plan, see `fly`.
 
     Raises
     ------
@@ -123,14 +136,15 @@ def fly_plan(plan: Plan) -> Flight:
     return fly(plan.z0, plan.impulses, plan.thrust.interval)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ClosedLoop:
-    """Plans one after the other, each for what the flight before it left.
+    """A sequence of plans, each for the deviation that the flight of the one before left.
 
     Attributes
     ----------
     plans, flights : tuples
-        In their order.
+        In the order in which they are flown.
     """
 
     plans: tuple[Plan, ...]
@@ -155,7 +169,7 @@ def close_loop(
     thrust: str = "ball",
     tolerance: float = ROUNDING,
 ) -> ClosedLoop:
-    """Replan on the residual of the true flight until nothing is left but rounding.
+    """Plan and fly anew until only rounding is left of the deviation.
 
     Parameters
     ----------
@@ -164,14 +178,15 @@ def close_loop(
     interval, peak, thrust
         As in `correct`.
     tolerance : float
-        Length of the deviation that counts as none; speeds and radius are numbers near 1.
+        Length of the deviation at which the loop ends; the default is rounding, for radius and speed are
+        numbers near 1.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is invalid, with its name.
     pontryagin.NotConverged
-        If a dozen plans do not reach it.
+        If a dozen plans leave a longer deviation.
 
     Examples
     --------
@@ -179,10 +194,8 @@ def close_loop(
     >>> loop.impulse_counts.tolist()
     [6, 2, 2]
     """
-    state, angle = vectors("z0", z0, 3), 0.0
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    bound = float(positive("tolerance", tolerance))
+    state, angle = arguments.state(z0), 0.0
+    bound = arguments.positive_number("tolerance", tolerance)
     plans: list[Plan] = []
     flights: list[Flight] = []
     while np.linalg.norm(state) > bound:
@@ -200,12 +213,13 @@ def residuals(
     interval: float = 0.25,
     peak: float = 0.0035,
     thrust: str = "ball",
-) -> tuple[NDArray, NDArray]:
-    """Sizes |z0| and what the true flight leaves of them, when state and peak grow together, (k,) each.
+) -> tuple[Array, Array]:
+    """Sizes |z0| and lengths of what flights leave, (k,) each, for multiples of one state.
 
-    Scaled together, all of them have the same plan but for the scale, and only the sky's curvature differs.
+    State and peak are multiplied by the same factors, so that the plans are multiples of one plan and only
+    the nonlinear terms differ.
     """
-    start, factors = vectors("z0", z0, 3), np.atleast_1d(positive("scales", scales))
+    start, factors = arguments.state(z0), np.atleast_1d(positive("scales", scales))
     plan = single(correct(start, interval, peak, thrust))
     left = [fly(s * start, s * plan.impulses, interval).residual for s in factors]
     return factors * float(np.linalg.norm(start)), np.array(left)

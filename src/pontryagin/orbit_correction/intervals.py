@@ -1,7 +1,8 @@
-"""What the interval between impulses does: controllability, the gauge, and the number of impulses.
+"""How controllability, the gauge and the number of impulses depend on the interval between impulses.
 
-At whole revolutions every impulse acts at one place and the radius is out of reach. At half revolutions
-all radial impulses are parallel, so that H(k) of the paper does not exist; the states are still reached.
+At whole revolutions every impulse acts at one place of the orbit, and the radius cannot be changed. At half
+revolutions all radial impulses are parallel, so that H(k) of (12) does not exist; the states can still be
+corrected.
 """
 
 from dataclasses import dataclass
@@ -11,37 +12,45 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.system.satellite import impulse_columns, step_factors
 from pontryagin.validation import positive, vectors
+from pontryagin.value import value_class
 
 
 def singular_values(intervals: ArrayLike, impulses: int) -> Array:
-    """Singular values of the controllability matrix of so many impulses, (..., 3), the largest first.
+    """Singular values of the controllability matrix, (..., 3), the largest first.
 
-    Its columns are what unit impulses do to the initial state.
+    The columns of the matrix are the effects of unit impulses on the initial state.
 
     Parameters
     ----------
     intervals : (...) array_like
         Times between impulses, rad.
     impulses : int
-        At least two.
+        Number of impulses, at least two.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is invalid, with its name.
 
     Examples
     --------
     >>> singular_values([np.pi, 2 * np.pi], 2).round(9)[:, -1].tolist()
     [0.794155604, 0.0]
     """
-    if not isinstance(impulses, int | np.integer) or impulses < 2:
-        raise ValueError(f"impulses must be a whole number, at least 2, got {impulses!r}")
+    instants = arguments.count("impulses", impulses, least=2)
     spacings = positive("intervals", intervals)
-    stacked = [np.hstack(list(impulse_columns(int(impulses), float(h)))) for h in spacings.ravel()]
+    stacked = [np.hstack(list(impulse_columns(instants, float(h)))) for h in spacings.ravel()]
     return np.linalg.svd(np.array(stacked), compute_uv=False).reshape(*spacings.shape, 3)
 
 
 def step_condition(intervals: ArrayLike) -> Array:
-    """Condition numbers of the paper's B for an even and an odd step, (..., 2); infinite where H is not.
+    """Condition numbers of B(k) of (12) for an even and an odd step, (..., 2).
+
+    A condition number beyond rounding says that H(k) does not exist.
 
     Examples
     --------
@@ -50,9 +59,10 @@ def step_condition(intervals: ArrayLike) -> Array:
     """
     spacings = positive("intervals", intervals)
     stacked = np.array([step_factors(2, float(h)) for h in spacings.ravel()])
-    return np.linalg.cond(stacked).reshape(*spacings.shape, 2)
+    return np.asarray(np.linalg.cond(stacked)).reshape(*spacings.shape, 2)
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Sweep:
     """Plans of one state for many intervals.
@@ -62,9 +72,9 @@ class Sweep:
     intervals : (k,) array
         Times between impulses, rad.
     impulses : (k,) array
-        Fewest impulses; nan where none suffice.
+        Fewest impulses; nan where no number suffices.
     gauge : (k,) array
-        alpha of the plan; nan likewise.
+        alpha of the plan; nan where there is none.
     """
 
     intervals: Array
@@ -78,7 +88,7 @@ class Sweep:
 
 
 def sweep(z0: ArrayLike, intervals: ArrayLike, peak: float = 0.0035, thrust: str = "ball") -> Sweep:
-    """Correct one state with impulses at each of the intervals.
+    """Correct one state at each of the intervals between impulses.
 
     Parameters
     ----------

@@ -1,26 +1,35 @@
-"""How many impulses an injection will need, before it is flown: Gaussian errors, counted."""
+"""The distribution of the number of impulses over random injection errors."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from pontryagin.validation import finite
+from pontryagin.value import value_class
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 CHUNK = 250
+"""States that are planned between two moves of the progress bar."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """Numbers of impulses over random injection errors.
+    """The fewest impulses of random injection errors, for each set of impulses.
 
     Attributes
     ----------
     z0 : (samples, 3) array
-        The errors drawn.
+        The injection errors.
     counts : dict of (samples,) int arrays
         Fewest impulses by the name of the set, "ball", "disc", "box".
     """
@@ -33,12 +42,12 @@ class Distribution:
         return float(self.counts[thrust].mean())
 
     def quantile(self, thrust: str, share: float) -> int:
-        """The least number of impulses that suffices for this share of the errors."""
+        """The least number of impulses that suffices for a given share of the errors."""
         return int(np.quantile(self.counts[thrust], share, method="inverted_cdf"))
 
 
 def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Array:
-    """Normal deviations with mean zero and a given covariance, (samples, 3), seeded.
+    """Normally distributed deviations of mean zero and given covariance, (samples, 3), from a seed.
 
     Raises
     ------
@@ -52,14 +61,17 @@ def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Arra
     """
     matrix = finite("covariance", covariance, "a symmetric (3, 3) matrix")
     if matrix.shape != (3, 3) or not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0):
-        raise ValueError(f"covariance must be a symmetric (3, 3) matrix, got {matrix.tolist()}")
-    if not isinstance(samples, int | np.integer) or samples < 1:
-        raise ValueError(f"samples must be a positive whole number, got {samples!r}")
+        raise ArgumentValueError(
+            f"covariance must be a symmetric (3, 3) matrix, got {matrix.tolist()}", "covariance"
+        )
+    number = arguments.count("samples", samples)
     values, axes = np.linalg.eigh(matrix)
     if values[0] < -1e-12 * max(values[-1], 0.0) or values[-1] < 0:
-        raise ValueError(f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}")
-    normal = np.random.default_rng(seed).standard_normal((int(samples), 3))
-    return normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T
+        raise ArgumentValueError(
+            f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}", "covariance"
+        )
+    normal = np.random.default_rng(seed).standard_normal((number, 3))
+    return np.asarray(normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T)
 
 
 def impulse_distribution(
@@ -75,13 +87,13 @@ def impulse_distribution(
     Parameters
     ----------
     covariance : (3, 3) array_like
-        Of (dr, dv_R, dv_T), in units of the orbit; symmetric, not indefinite.
+        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric, not indefinite.
     samples : int
-        How many errors are drawn.
+        Number of errors.
     interval, peak : float
         As in `correct`.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     verbose : bool
         Whether to show a progress bar on standard error.
 
@@ -108,7 +120,8 @@ def impulse_distribution(
     return Distribution(errors, counts)
 
 
-def _progress(verbose: bool):
+def _progress(verbose: bool) -> "Progress":
+    """A progress bar on standard error, which is hidden unless `verbose`."""
     from rich.console import Console
     from rich.progress import Progress
 

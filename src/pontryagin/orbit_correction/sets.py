@@ -1,7 +1,7 @@
-"""Controllable sets as surfaces, and a frame in which flat ones can be seen.
+"""Points on the boundary of 0-controllable sets, and a frame in which flat sets can be drawn.
 
-The states from which the steps k, k + 1, ... bring the satellite back form the sum of the remaining G_i U,
-carried along by the free motion. Its boundary is drawn through support points.
+The states X(N - k, k) that the steps from k on bring back are the sum of the remaining G_i U, carried along
+by the free motion. By Lemma 5 a boundary point of a sum is the sum of boundary points with a common normal.
 """
 
 from dataclasses import dataclass
@@ -12,9 +12,10 @@ from pontryagin.arrays import Array
 
 
 def support_points(factors: Array, normals: Array, square: bool) -> Array:
-    """Points of the sum of G_k U with the given outward normals (..., 3), as (..., 3).
+    """The support points rho(p) of Lemma 2 of the sum of G_k U, for outward normals p (..., 3), as (..., 3).
 
-    U is the unit ball, or for `square` the cube, of the components.
+    U is the unit ball of the components, or for `square` the cube. For a sum it is the sum of the support
+    points, Lemma 5 and (10).
 
     Examples
     --------
@@ -32,7 +33,7 @@ def support_points(factors: Array, normals: Array, square: bool) -> Array:
 
 @dataclass(frozen=True)
 class Frame:
-    """Principal axes of a set, each in units of the set's extent along it.
+    """Principal axes of a set, with coordinates in units of the set's extents along them.
 
     Attributes
     ----------
@@ -50,12 +51,12 @@ class Frame:
         return np.asarray(states @ self.axes.T / self.extents)
 
     def normals(self, costates: Array) -> Array:
-        """Unit normals (..., 3) in this frame of planes with the normals given; right angles are kept."""
-        turned = costates @ self.axes.T * self.extents
-        return np.asarray(turned / np.linalg.norm(turned, axis=-1, keepdims=True))
+        """Unit normals (..., 3) in this frame of planes with the given normals: Lemma 3, p goes to A^-T p."""
+        carried = costates @ self.axes.T * self.extents
+        return np.asarray(carried / np.linalg.norm(carried, axis=-1, keepdims=True))
 
     def back(self, normals: Array) -> Array:
-        """Costates of normals (..., 3) of this frame, up to their lengths."""
+        """The inverse of `normals`, up to the lengths: costates of normals (..., 3) of this frame."""
         return np.asarray(normals / self.extents @ self.axes)
 
 

@@ -1,4 +1,4 @@
-"""A plan in words and numbers: what the command line prints as a table or as JSON, and plans as CSV."""
+"""A plan as the command line prints it: a table or JSON of one plan, CSV of many."""
 
 from typing import Any
 
@@ -11,6 +11,7 @@ from pontryagin.orbit_correction.plan.correction import Plan
 from pontryagin.orbit_correction.system import satellite
 
 Report = dict[str, dict[str, Any]]
+"""Headings, and under each its quantities by name."""
 
 COLUMNS = ("dr", "dv_R", "dv_T")
 """The columns of a CSV file of states."""
@@ -26,7 +27,7 @@ TITLES = {
 
 
 def transcript(plan: Plan) -> Report:
-    """One plan as headings with their quantities, named as the attributes of the library.
+    """One plan as headings with their quantities, which are named as the attributes of `Plan`.
 
     Parameters
     ----------
@@ -36,8 +37,8 @@ def transcript(plan: Plan) -> Report:
     Examples
     --------
     >>> from pontryagin.orbit_correction import correct
-    >>> told = transcript(correct([-0.0037787, -0.0039109, 0.0141512], thrust="box"))
-    >>> int(told["solution"]["impulse_count"]), bool(abs(told["states"]["end"]).max() < 1e-15)
+    >>> report = transcript(correct([-0.0037787, -0.0039109, 0.0141512], thrust="box"))
+    >>> int(report["solution"]["impulse_count"]), bool(abs(report["states"]["end"]).max() < 1e-15)
     (5, True)
     """
     engine = plan.thrust
@@ -64,20 +65,20 @@ def samples(plan: Plan, count: int) -> dict[str, Array]:
     Examples
     --------
     >>> from pontryagin.orbit_correction import correct
-    >>> told = samples(correct([0.0, 0.0, 0.004]), 3)
-    >>> told["t"].tolist(), bool(abs(told["state"][-1]).max() < 1e-15)
+    >>> found = samples(correct([0.0, 0.0, 0.004]), 3)
+    >>> found["t"].tolist(), bool(abs(found["state"][-1]).max() < 1e-15)
     ([0.0, 0.375, 0.75], True)
     """
     starts = plan.thrust.interval * np.arange(len(plan.impulses))
     t = np.linspace(0.0, plan.thrust.interval * len(starts), count)
     kicks = np.einsum("jab,jb->ja", satellite.transition(-starts)[:, :, 1:], plan.impulses)
-    held = plan.z0 + (starts <= t[:, None]) @ kicks
-    state = np.einsum("tab,tb->ta", satellite.transition(t), held)
+    carried_back = plan.z0 + (starts <= t[:, None]) @ kicks
+    state = np.einsum("tab,tb->ta", satellite.transition(t), carried_back)
     return {"t": t, "state": state, "costate": plan.initial_costate @ satellite.transition(-t)}
 
 
 def conclusion(plan: Plan) -> str:
-    """The certificate in a sentence.
+    """A sentence that says what the certificate proves.
 
     Examples
     --------
@@ -97,7 +98,7 @@ def conclusion(plan: Plan) -> str:
 
 
 def to_csv(states: Rows, plan: Plan) -> str:
-    """The rows as they were read, each with its plan; impulses beyond a state's own are empty."""
+    """The rows as they were read, each with its plan; entries beyond a state's own impulses are empty."""
     answers = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
     answers |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
     answers |= {name: getattr(plan.certificate, name) for name in PROOF}

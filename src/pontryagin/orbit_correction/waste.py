@@ -1,4 +1,4 @@
-"""How many impulses the paper's ball wastes: counted against the disc and the square it stands for."""
+"""The impulses that the paper's ball wastes, counted against the disc and against the square it replaces."""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Waste:
     """Fewest impulses of the same states under the three sets of impulses.
@@ -27,15 +30,15 @@ class Waste:
     counts: dict[str, NDArray[np.int64]]
 
     def wasted(self, thrust: str = "box") -> NDArray[np.int64]:
-        """Impulses that the ball fires more than another set, (...)."""
+        """How many impulses more than another set the ball needs, (...)."""
         return self.counts["ball"] - self.counts[thrust]
 
 
 def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
     """Count the impulses that ball, disc and box need for the same states.
 
-    The ball lies in the square, so that the square never needs more; a ball's odd step also leaves half of
-    its last impulse unused. Neither of ball and disc contains the other.
+    The square holds the ball and the disc, so that it never needs more impulses. After an odd number of steps
+    of the ball, half of the last impulse is unused. Neither of ball and disc contains the other.
 
     Parameters
     ----------
@@ -60,13 +63,12 @@ def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) 
 
 
 def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
-    """Normal deviations with the same standard deviation in every component, (count, 3), seeded.
+    """Normal deviations whose components have the standard deviation `size`, (count, 3), from a seed.
 
     Examples
     --------
     >>> random_states(500).shape
     (500, 3)
     """
-    if not isinstance(count, int | np.integer) or count < 1:
-        raise ValueError(f"count must be a positive whole number, got {count!r}")
-    return float(positive("size", size)) * np.random.default_rng(seed).standard_normal((int(count), 3))
+    number, spread = arguments.count("count", count), arguments.positive_number("size", size)
+    return spread * np.random.default_rng(seed).standard_normal((number, 3))

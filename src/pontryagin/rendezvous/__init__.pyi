@@ -3,7 +3,7 @@ from .elements.certificate import ElementsCertificate as ElementsCertificate
 from .elements.elements import Elements as Elements
 from .elements.least_fuel import least_fuel as least_fuel
 from .elements.solution import ElementsExtremal as ElementsExtremal
-from .elements.solution import solve_in_elements as solve_in_elements
+from .elements.solve import solve_in_elements as solve_in_elements
 from .false_meetings.family import false_family as false_family
 from .false_meetings.family import false_meeting as false_meeting
 from .problem.chaser import Chaser as Chaser
@@ -14,4 +14,4 @@ from .reduced.multistart import Carried as Carried
 from .reduced.multistart import carry as carry
 from .reduced.multistart import multistart as multistart
 from .reduced.solution import Extremal as Extremal
-from .reduced.solution import solve as solve
+from .reduced.solve import solve as solve

@@ -99,7 +99,7 @@ def _problem(case: Text, file: File) -> Any:
 
 def _solved(problem: Any, option: str) -> Any:
     from pontryagin.errors import Infeasible, NotConverged
-    from pontryagin.rendezvous.reduced.solution import solve as solve_problem
+    from pontryagin.rendezvous.reduced.solve import solve as solve_problem
 
     with console.solving({}):
         try:

@@ -13,10 +13,8 @@ from pathlib import Path
 from pontryagin.display.tables import csv_table
 from pontryagin.rendezvous.problem.cases import case
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    solve,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.solve import solve
 
 FILE = Path(__file__).with_name("small_weight.csv")
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

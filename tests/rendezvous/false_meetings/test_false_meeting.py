@@ -11,11 +11,8 @@ from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
 from pontryagin.rendezvous.false_meetings.rotated_target import rotated_equations
-from pontryagin.rendezvous.reduced.homotopy import newton
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.start import cold_start
 
@@ -122,4 +119,4 @@ def test_newton_s_method_on_the_repaired_equations_leads_from_a_false_meeting_to
     found = false_meeting(true.problem, math.radians(5), true)
     scaled = true.problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    assert Extremal(true.problem, newton(setting, found.root.unknowns)).certificate.holds(1e-10)
+    assert Extremal(true.problem, meet(setting, found.root.unknowns)).certificate.holds(1e-10)

@@ -17,11 +17,8 @@ from pontryagin.rendezvous.false_meetings.printed_conditions import (
     reduced_variables,
 )
 from pontryagin.rendezvous.false_meetings.rotated_target import rotated_target_family
-from pontryagin.rendezvous.reduced.homotopy import newton
-from pontryagin.rendezvous.reduced.shooting import (
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.reduced.conditions import Setting, equations
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.witness.cartesian import (
     fly_cartesian,
     target_by_kepler,
@@ -42,7 +39,7 @@ def true_meeting(degrees: int, **changes: float) -> Extremal:
     scaled = problem.scaled
     start = np.append(np.array(known.costates) / scaled.costate_units, known.duration / scaled.time)
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    return Extremal(problem, newton(setting, start[: 6 if changes else 7]))
+    return Extremal(problem, meet(setting, start[: 6 if changes else 7]))
 
 
 @functools.cache

@@ -1,8 +1,8 @@
 """The ledger of Ibragimov 2017: every formula, number and decidable claim, in the paper's order.
 
-One module per step of the paper. A module transcribes and judges; what is derived comes from
-`pontryagin.orbit_correction.derivation`, `summands` and `exact`; the plans of the worked example come
-from the solver, their certificates from `worked`.
+One module for each step of the paper. A module transcribes and judges; what is derived comes from
+`pontryagin.orbit_correction.derivation`. The numbers of the worked example are those of `printed`, its plans
+come from the solver, and their certificates from `worked`.
 """
 
 from itertools import chain
@@ -46,4 +46,4 @@ IN_ORDER = (
 )
 
 ENTRIES = tuple(chain.from_iterable(part.claim for part in IN_ORDER))
-"""Section by section, from the abstract to the second table."""
+"""All entries in the paper's order, from the abstract to the second table."""

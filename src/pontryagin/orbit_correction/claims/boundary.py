@@ -19,7 +19,7 @@ def optimal(system: ExactSystem) -> tuple[list[sp.Matrix], list[sp.Matrix]]:
 
 
 @claim("Theorem 1, i)", "an optimal trajectory from the boundary stays on the boundaries", verdict="holds")
-def trajectory_on_the_boundaries():
+def trajectory_on_the_boundaries() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, _ = optimal(system)
@@ -42,7 +42,7 @@ def trajectory_on_the_boundaries():
     remark="It is an inclusion, not an equality: A(k) = I, U(0) a disc, U(1) a lens, x*(1) the lens's "
     "corner.",
 )
-def normals_along_the_trajectory():
+def normals_along_the_trajectory() -> Proof:
     def argument() -> Steps:
         for system in family():
             for k in range(system.steps - 1):
@@ -90,7 +90,7 @@ def only_controls() -> Steps:
 
 
 @claim("Theorem 1, iii)", "from a boundary point the optimal trajectory is unique", verdict="holds")
-def unique_trajectory():
+def unique_trajectory() -> Proof:
     return Proof(only_controls)
 
 
@@ -101,7 +101,7 @@ def unique_trajectory():
     remark="Printed for k from 1 to N_min − 2. The induction starts at k = 0: the step is needed for k from "
     "0 to N_min − 1. As printed, nothing is said of x*(1), nor of x*(N_min − 1) when N_min = 2.",
 )
-def steps_of_the_induction():
+def steps_of_the_induction() -> Slip:
     def reached(steps: range) -> set[int]:
         known = {0}
         for k in steps:
@@ -140,7 +140,7 @@ def steps_of_the_induction():
 @claim(
     "(3)", "A(k)x*(k) = x*(k+1) + u* with u* in −U(k) is the step of the system, u*(k) = −u*", verdict="holds"
 )
-def decomposition_as_a_step():
+def decomposition_as_a_step() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, controls = optimal(system)
@@ -165,7 +165,7 @@ def decomposition_as_a_step():
     verdict="holds",
     remark="By the equality that Lemma 5 proves, not by the inclusion that it states.",
 )
-def normals_of_a_step():
+def normals_of_a_step() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, controls = optimal(system)

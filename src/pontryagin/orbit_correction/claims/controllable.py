@@ -1,6 +1,7 @@
 """Section 2, (2) to Corollary 1: the 0-controllable sets."""
 
 from itertools import pairwise
+from typing import Any
 
 import sympy as sp
 
@@ -16,7 +17,7 @@ R = sp.Rational
 
 
 @claim("(2)", "X(N, k): states that admissible controls bring from step k to 0 in N steps", verdict="holds")
-def controllable_sets():
+def controllable_sets() -> Proof:
     def argument() -> Steps:
         reach = sp.S.Zero
         for N, end in ((1, R(1, 2)), (2, R(3, 4)), (3, R(7, 8))):
@@ -48,7 +49,7 @@ def controllable_sets():
     remark="It is an assumption and does not follow from 0 in int U(k): for x(k+1) = 2x(k) + u(k), |u| ≤ 1, "
     "the union is the interval (−1, 1).",
 )
-def finite_number_of_steps():
+def finite_number_of_steps() -> Proof:
     def argument() -> Steps:
         N, i = sp.symbols("N i", integer=True, positive=True)
         reach = sp.summation(2**-i, (i, 1, N))
@@ -69,7 +70,7 @@ def finite_number_of_steps():
     remark="True for x0 ≠ 0. The paper's naturals start at 1 (it writes k ∈ N ∪ {0}), so x0 = 0, which lies "
     "in X(0, 0), would get N_min = 1; the least is to be taken over N ∪ {0}.",
 )
-def least_number_of_steps():
+def least_number_of_steps() -> Conditional:
     def argument() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -100,7 +101,7 @@ def least_number_of_steps():
     "a trajectory is optimal exactly if x*(k) lies in X(N_min − k, k) for every k",
     verdict="holds",
 )
-def optimal_trajectories():
+def optimal_trajectories() -> Proof:
     def argument() -> Steps:
         for system in family():
             states = system.fly(system.boundary_state(), system.controls())
@@ -126,7 +127,7 @@ def printed_state(N: int) -> sp.Expr:
 
 
 @claim("Lemma 1", "X(N, k) as a sum of linear images of U(k), ..., U(k+N−1)", verdict="holds")
-def sum_of_images():
+def sum_of_images() -> Proof:
     sizes = (1, 2, 3, 4)
 
     def argument() -> Steps:
@@ -152,7 +153,7 @@ def sum_of_images():
 @claim(
     "proof of Lemma 1: x(N+k)", "the state after N steps in terms of x(k) and the controls", verdict="holds"
 )
-def state_after_steps():
+def state_after_steps() -> Equality:
     printed = A(2) * A(1) * A(0) * x + A(2) * A(1) * u(0) + A(2) * u(1) + u(2)
     return Equality(
         {"x(3)": printed},
@@ -168,7 +169,7 @@ def state_after_steps():
     verdict="misprint",
     remark="Printed without its minus: x(k) = (A(N+k−1)…A(k))⁻¹(…). The next line has it.",
 )
-def state_with_the_product_inverted():
+def state_with_the_product_inverted() -> Misprint:
     controls = A(2) * A(1) * u(0) + A(2) * u(1) + u(2)
     inverse = summands.backward_product([A(0), A(1), A(2)])
     right = summands.state_brought_to_zero(3)
@@ -190,10 +191,10 @@ def state_with_the_product_inverted():
 
 
 @claim("Corollary 1", "A(k) X(N+1, k) is the sum of X(N, k+1) and −U(k)", verdict="holds")
-def recurrence():
+def recurrence() -> Equality:
     sizes = (0, 1, 2, 3)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         return {
             rf"A(0)x(0)\ (N = {N})": sp.expand(A(0) * summands.state_brought_to_zero(N + 1)) for N in sizes
         }

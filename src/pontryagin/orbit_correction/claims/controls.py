@@ -1,5 +1,7 @@
 """Section 6, Lemma 10: the controls from the initial costate."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -20,7 +22,7 @@ claim = Page("Ibragimov 2017")
     remark="For x0 on the boundary, with H~ as corrected. For inner points the factor α of Theorem 4 "
     "belongs to it.",
 )
-def controls_from_the_costate():
+def controls_from_the_costate() -> Equality:
     systems = family()
     keys = [f"u^*({k})\\ ({named(system)})" for system in systems for k in range(system.steps)]
 
@@ -43,10 +45,10 @@ def controls_from_the_costate():
 @claim(
     "proof of Lemma 10: numerator", "H^−1(k) A^−T(k) ... A^−T(0) = A(k) ... A(0) H~^−1(k+1)", verdict="holds"
 )
-def numerator():
+def numerator() -> Equality:
     key = r"A(1)A(0)\tilde H^{-1}(2)"
 
-    def derived():
+    def derived() -> dict[str, Any]:
         return {key: A(1) * A(0) * summands.carried_back(2) ** -1}
 
     return Equality(
@@ -58,7 +60,7 @@ def numerator():
 
 
 @claim("proof of Lemma 10: root", "under the root stands (ψ0, H~^−1(k+1)ψ0)", verdict="holds")
-def root_of_the_controls():
+def root_of_the_controls() -> Equality:
     systems = family()
     keys = [f"k = {k}\\ ({named(system)})" for system in systems for k in range(system.steps)]
 

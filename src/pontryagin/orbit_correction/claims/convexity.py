@@ -1,5 +1,7 @@
 """Section 3: strictly convex compact sets, their support points and normals."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -28,7 +30,7 @@ def deficit(X: Ellipsoid, p: sp.Matrix, x: sp.Matrix) -> sp.Expr:
     "point e1 of the unit disc inside: no set with a boundary, so no compact set but the empty one, would "
     "belong.",
 )
-def strictly_convex_sets():
+def strictly_convex_sets() -> Slip:
     def argument() -> Steps:
         a, b = sp.symbols("a b", real=True)
         first = sp.Matrix([1 - a**2, 2 * a]) / (1 + a**2)
@@ -69,7 +71,7 @@ def strictly_convex_sets():
     "p ≠ 0 supports X at x if X lies in the half-space (p, u) ≤ (p, x)",
     verdict="holds",
 )
-def support_vectors():
+def support_vectors() -> Proof:
     def argument() -> Steps:
         for system in family():
             X, p = system.U[0], system.costates[1]
@@ -83,7 +85,7 @@ def support_vectors():
 
 
 @claim("section 3: support function", "s(p, X) is the largest (p, x)", verdict="holds")
-def support_function():
+def support_function() -> Proof:
     def argument() -> Steps:
         for system in family():
             p = system.costates[0]
@@ -105,7 +107,7 @@ def support_function():
     remark="Printed: s(p, X) ≥ (p, x), which every p satisfies for x in X. Right: s(p, X) ≤ (p, x), hence "
     "equality. As printed, e2 would be normal to the unit disc at e1, and Corollary 2 would fail.",
 )
-def normal_cones():
+def normal_cones() -> Slip:
     def argument() -> Steps:
         angle = sp.Symbol("phi", real=True)
         p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
@@ -139,7 +141,7 @@ def normal_cones():
     verdict="conditional",
     remark="True for p ≠ 0, the domain of ρ_X. For p = 0 every point of X is one.",
 )
-def one_support_point():
+def one_support_point() -> Conditional:
     def argument() -> Steps:
         for system in family():
             for X, p in zip(system.U, system.costates[1:], strict=True):
@@ -171,12 +173,12 @@ def one_support_point():
     "moved by εp, the middle of two support points would do better: (p, ·) = s + ε(p, p)",
     verdict="holds",
 )
-def moved_midpoint():
+def moved_midpoint() -> Equality:
     s, size = sp.symbols("s epsilon", positive=True)
     first, second = (sp.Matrix(sp.symbols(f"{name}1:4", real=True)) for name in ("x", "y"))
     p = sp.Matrix(sp.symbols("p1:4", real=True))
 
-    def derived():
+    def derived() -> dict[str, Any]:
         # (p, x') = (p, x'') = s settles the last coordinates.
         levels = [p.dot(point) - s for point in (first, second)]
         known = sp.solve(levels, [first[2], second[2]], dict=True)[0]
@@ -192,7 +194,7 @@ def moved_midpoint():
 
 
 @claim("after Lemma 2: ρ_X", "ρ_X(p) = arg max over X of (p, x) maps p ≠ 0 to the boundary", verdict="holds")
-def support_map():
+def support_map() -> Proof:
     def argument() -> Steps:
         h = sp.symbols("h", positive=True)
         X = Ellipsoid(sp.ImmutableMatrix(sp.diag(h, 2 * h)))
@@ -213,7 +215,7 @@ def support_map():
 
 
 @claim("Corollary 2", "normal cones at two different boundary points have nothing in common", verdict="holds")
-def disjoint_normal_cones():
+def disjoint_normal_cones() -> Proof:
     def argument() -> Steps:
         v, w = sp.Matrix(sp.symbols("v1:4", real=True)), sp.Matrix(sp.symbols("w1:4", real=True))
         on_sphere = {v[2] ** 2: 1 - v[0] ** 2 - v[1] ** 2, w[2] ** 2: 1 - w[0] ** 2 - w[1] ** 2}

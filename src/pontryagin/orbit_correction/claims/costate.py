@@ -1,5 +1,7 @@
 """Section 6, Lemma 9: the initial costate, (8) to (11)."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -24,7 +26,7 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
     verdict="holds",
     remark="With H~(k) as corrected.",
 )
-def equation_for_the_costate():
+def equation_for_the_costate() -> Equality:
     systems = family()
     keys = [f"-x_0\\ ({named(system)})" for system in systems]
 
@@ -41,7 +43,7 @@ def equation_for_the_costate():
 
 
 @claim("(8)", "x0 has one decomposition into boundary points of the E_k", verdict="holds")
-def decomposition_into_ellipsoids():
+def decomposition_into_ellipsoids() -> Proof:
     def argument() -> Steps:
         for system in family():
             psi, points = system.costates[0], parts(system, system.costates[0])
@@ -66,7 +68,7 @@ def decomposition_into_ellipsoids():
 
 
 @claim("(9)", "−ψ0 is normal at x0 and at all x^k", verdict="holds")
-def common_normal():
+def common_normal() -> Proof:
     def argument() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -93,7 +95,7 @@ def common_normal():
     "the normal cone at a boundary point of an ellipsoid is the ray of the gradient",
     verdict="holds",
 )
-def rays():
+def rays() -> Proof:
     def argument() -> Steps:
         X, _, x = plane()
         gradient = sp.Matrix([X.level(x)]).jacobian(x).T
@@ -113,7 +115,7 @@ def rays():
 
 
 @claim("after (9): one ray", "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
-def one_ray():
+def one_ray() -> Proof:
     def argument() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -128,7 +130,7 @@ def one_ray():
 
 
 @claim("(10)", "x^k is the point of E_k with the largest (−ψ0, x)", verdict="holds")
-def parts_as_support_points():
+def parts_as_support_points() -> Proof:
     def argument() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -144,13 +146,13 @@ def parts_as_support_points():
 
 
 @claim("after (10): x^k", "x^k by Lagrange's multipliers", verdict="holds")
-def parts_by_multipliers():
+def parts_by_multipliers() -> Equality:
     X, _, _ = plane()
     psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
     inverse = X.factor * X.factor.T
     key = "x^k"
 
-    def derived():
+    def derived() -> dict[str, Any]:
         # -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
         multiplier = sp.Symbol("m", positive=True)
         stationary = -inverse * psi / (2 * multiplier)
@@ -169,7 +171,7 @@ def parts_by_multipliers():
     "the equation of Lemma 9 is not linear, and does not change when ψ0 is multiplied by a positive number",
     verdict="holds",
 )
-def homogeneous_of_degree_zero():
+def homogeneous_of_degree_zero() -> Proof:
     def argument() -> Steps:
         factor = sp.Symbol("c", positive=True)
         for system in family():
@@ -190,7 +192,7 @@ def homogeneous_of_degree_zero():
     "agree there and only there. For the inner points of section 5, the worked example among them, there is "
     "no solution; with α as a factor and a further unknown there are two, (ψ, α) and the spurious (−ψ, −α).",
 )
-def system_for_the_costate():
+def system_for_the_costate() -> Conditional:
     def argument() -> Steps:
         a, b = sp.Matrix(sp.symbols("a1:4", real=True)), sp.Matrix(sp.symbols("b1:4", real=True))
         lagrange = a.dot(a) * b.dot(b) - a.dot(b) ** 2 - a.cross(b).dot(a.cross(b))

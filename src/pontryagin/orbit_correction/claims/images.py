@@ -1,4 +1,6 @@
-"""Section 3, Lemmas 3 and 4: images and sums stay strictly convex."""
+"""Section 3, Lemma 3 and Lemma 4: images and sums stay strictly convex."""
+
+from typing import Any
 
 import sympy as sp
 
@@ -28,7 +30,7 @@ def transformed() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
     remark="The proof of ii) shows that A^−T N(x, X) lies in N(Ax, AX); the other inclusion is the same "
     "with A^−1.",
 )
-def nonsingular_images():
+def nonsingular_images() -> Proof:
     def argument() -> Steps:
         A, x, y, p = transformed()
         kept = (A.inv().T * p).dot(A * y) - p.dot(y)
@@ -63,7 +65,7 @@ def nonsingular_images():
 
 
 @claim("proof of Lemma 3: products", "(p, x) = (A^−T p, Ax) and (A^−T p, x') = (p, A^−1 x')", verdict="holds")
-def products_under_a_map():
+def products_under_a_map() -> Equality:
     A, x, y, p = transformed()
     return Equality(
         {"(p, x)": p.dot(x), r"((A^{-1})^T p, x')": sp.cancel((A.inv().T * p).dot(y))},
@@ -76,7 +78,7 @@ def products_under_a_map():
 
 
 @claim("proof of Lemma 3: segment", "A^−1 maps a segment of AX to a segment of X", verdict="holds")
-def segments_under_a_map():
+def segments_under_a_map() -> Equality:
     A, x, y, _ = transformed()
     inverse = A.inv()
     return Equality(
@@ -93,7 +95,7 @@ def segments_under_a_map():
     verdict="holds",
     remark="Its printed proof has a gap, see the entry on it.",
 )
-def sums_stay_strictly_convex():
+def sums_stay_strictly_convex() -> Proof:
     def argument() -> Steps:
         for system in family():
             first, second = system.U[0], system.U[1]
@@ -119,7 +121,7 @@ def sums_stay_strictly_convex():
     verdict="holds",
     remark="O_r(x0) is written as a part of a space L that is not introduced: R^n is meant.",
 )
-def sums_of_balls():
+def sums_of_balls() -> Proof:
     def argument() -> Steps:
         w = sp.Matrix(sp.symbols("w1:4", real=True))
         small, large = sp.symbols("epsilon_1 epsilon_2", positive=True)
@@ -145,11 +147,11 @@ def sums_of_balls():
 
 
 @claim("proof of Lemma 4: segment", "λy1 + (1 − λ)y2 is the sum of the middles of the parts", verdict="holds")
-def segments_of_a_sum():
+def segments_of_a_sum() -> Equality:
     parts = sp.Matrix(2, 2, sp.symbols("x11 x12 x21 x22"))
     key = r"\lambda y^1 + (1-\lambda)y^2"
 
-    def derived():
+    def derived() -> dict[str, Any]:
         first, second = parts[0, 0] + parts[1, 0], parts[0, 1] + parts[1, 1]
         return {key: share * first + (1 - share) * second}
 
@@ -165,7 +167,7 @@ def segments_of_a_sum():
     "discs, y1 = e1 + e2 and y2 = e1 − e2, the first is e1, on the boundary. The lemma stands: x + int X2 "
     "is open.",
 )
-def parts_inside():
+def parts_inside() -> Conditional:
     def argument() -> Steps:
         for system in family():
             X, p = system.U[0], system.costates[1]

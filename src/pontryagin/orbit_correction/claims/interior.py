@@ -31,7 +31,7 @@ def interior_state(system: ExactSystem) -> sp.Matrix:
     "the case x0 in int X(N_min, 0) without X(N_min − 1, 0): together with the boundary it is every case",
     verdict="holds",
 )
-def interior_points():
+def interior_points() -> Proof:
     def argument() -> Steps:
         for system in family():
             p, state = -system.costates[0], interior_state(system)
@@ -51,7 +51,7 @@ def interior_points():
 
 
 @claim("after (5): normal cone", "at an inner point there is no normal", verdict="holds")
-def no_normal_inside():
+def no_normal_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
             state = interior_state(system)
@@ -72,7 +72,7 @@ def no_normal_inside():
     verdict="holds",
     remark="With Arg max for arg max: at ψ0 = 0 the maximum is attained everywhere, and (6) says nothing.",
 )
-def zero_costate_inside():
+def zero_costate_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
             state, controls = interior_state(system), system.controls()
@@ -94,7 +94,7 @@ def zero_costate_inside():
 
 
 @claim("(6)", "the maximum principle with the recursion from ψ(0) = ψ0", verdict="holds")
-def principle_with_recursion():
+def principle_with_recursion() -> Proof:
     def argument() -> Steps:
         for system in family():
             controls = system.controls()
@@ -121,7 +121,7 @@ def principle_with_recursion():
     "the same controls would bring x0 and ρ(−ψ0) to 0, so the two agree",
     verdict="holds",
 )
-def both_states():
+def both_states() -> Equality:
     N = 3
     state = summands.state_brought_to_zero(N)
     return Equality(
@@ -133,7 +133,7 @@ def both_states():
 
 
 @claim("after Lemma 6: Arg max", "for ψ0 = 0 every admissible control attains the maximum", verdict="holds")
-def maximum_attained_everywhere():
+def maximum_attained_everywhere() -> Proof:
     def argument() -> Steps:
         for system in family():
             zero = sp.zeros(*system.psi0.shape)

@@ -1,5 +1,7 @@
 """Section 7 up to A~ and B~: the motion near the circle, and an impulse at the start of each interval."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -34,11 +36,11 @@ RADIAL, TRANSVERSE = sp.Matrix([sin, cos, -sin]), sp.Matrix([2 - 2 * cos, 2 * si
     "comes from. As printed, the circle is no solution (v_R' = −1 on it), and its second row would be (2, "
     "0, 0), not (1, 0, 2).",
 )
-def equations_of_motion():
+def equations_of_motion() -> Misprint:
     keys = (r"\dot r", r"\dot\theta", r"\dot v_R", r"\dot v_T")
     printed = (v_radial, v_transverse / r, v_radial**2 / r - 1 / r**2, -v_radial * v_transverse / r)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         radius, radial, transverse = derivation.equations_of_motion()
         return dict(zip(keys, (radius, derivation.angular_rate(), radial, transverse), strict=True))
 
@@ -63,7 +65,7 @@ def equations_of_motion():
     verdict="holds",
     remark="For the shape of the orbit; the phase on it is not restored.",
 )
-def angle_does_not_matter():
+def angle_does_not_matter() -> Proof:
     def argument() -> Steps:
         angle = sp.Symbol("theta")
         rates = derivation.equations_of_motion()
@@ -80,7 +82,7 @@ def angle_does_not_matter():
     verdict="holds",
     remark="The linearised system takes them as r0 = 1, v_R0 = 0, v_T0 = 1; in general v_T0 = r0^(−1/2).",
 )
-def circular_orbit():
+def circular_orbit() -> Proof:
     def argument() -> Steps:
         radius = sp.Symbol("r_0", positive=True)
         at = {r: radius, v_radial: 0, v_transverse: 1 / sp.sqrt(radius)}
@@ -94,12 +96,12 @@ def circular_orbit():
 
 
 @claim("section 7: deviations", "Δr, Δv_R, Δv_T as differences from the circle", verdict="holds")
-def deviations_from_the_circle():
+def deviations_from_the_circle() -> Equality:
     keys = ("r", "v_R", "v_T")
     start = sp.symbols("r_0 v_R0 v_T0")
     whole = sp.symbols("r v_R v_T")
 
-    def derived():
+    def derived() -> dict[str, Any]:
         found = sp.solve(
             [a + d - b for a, d, b in zip(start, deviations, whole, strict=True)], list(deviations)
         )
@@ -110,7 +112,7 @@ def deviations_from_the_circle():
 
 
 @claim("section 7: linearised system", "Δr' = Δv_R, Δv_R' = Δr + 2Δv_T, Δv_T' = −Δv_R", verdict="holds")
-def linearised_system():
+def linearised_system() -> Equality:
     radius, radial, transverse = deviations
     keys = (r"\Delta\dot r", r"\Delta\dot v_R", r"\Delta\dot v_T")
     return Equality(
@@ -130,10 +132,10 @@ z, rate = sp.symbols("z z'", real=True)
     verdict="unreadable",
     remark="The dot over z on the left cannot be seen. Without it z = Az, which only z = 0 satisfies.",
 )
-def cauchy_problem():
+def cauchy_problem() -> Unreadable:
     keys = (r"\text{left side}", "A")
 
-    def derived():
+    def derived() -> dict[str, Any]:
         return dict(zip(keys, (rate, derivation.linearised()), strict=True))
 
     return Unreadable(
@@ -146,7 +148,7 @@ def cauchy_problem():
 
 
 @claim("section 7: solution", "the solution z(t) of the linearised system", verdict="holds")
-def solution_matrix():
+def solution_matrix() -> Proof:
     def argument() -> Steps:
         printed = printed_transition(t)
         yield (
@@ -167,10 +169,10 @@ def solution_matrix():
     verdict="unreadable",
     remark="The dot over z on the left cannot be seen, as above.",
 )
-def impulsive_cauchy_problem():
+def impulsive_cauchy_problem() -> Unreadable:
     keys = (r"\text{left side}", "A", "z(0) - y(k)")
 
-    def derived():
+    def derived() -> dict[str, Any]:
         jump = derivation.RADIAL * impulse[0] + derivation.TRANSVERSE * impulse[1]
         return dict(zip(keys, (rate, derivation.linearised(), jump), strict=True))
 
@@ -184,11 +186,11 @@ def impulsive_cauchy_problem():
 
 
 @claim("section 7: recurrence", "y(k+1) = A~y(k) + B~w(k)", verdict="holds")
-def recurrence():
+def recurrence() -> Equality:
     y = sp.Matrix(sp.symbols("y1:4", real=True))
     control = sp.Matrix(impulse)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         start = y + derivation.RADIAL * impulse[0] + derivation.TRANSVERSE * impulse[1]
         return {"y(k+1)": sp.Matrix(derivation.transition(interval)) * start}
 
@@ -202,7 +204,7 @@ def recurrence():
 
 
 @claim("section 7: A~", "the matrix A~ of an interval", verdict="holds")
-def interval_matrix():
+def interval_matrix() -> Equality:
     key = r"\tilde A"
     return Equality(
         {key: printed_transition(interval)}, lambda: {key: sp.Matrix(derivation.transition(interval))}
@@ -210,7 +212,7 @@ def interval_matrix():
 
 
 @claim("section 7: B~", "the matrix B~ of an impulse", verdict="holds")
-def impulse_matrix():
+def impulse_matrix() -> Equality:
     key = r"\tilde B"
     return Equality(
         {key: sp.Matrix.hstack(RADIAL, TRANSVERSE)},
@@ -225,7 +227,7 @@ def impulse_matrix():
     remark="Its conditions fail: B~w fills a flat set without inner points. The gauge and its dual do not "
     "need them.",
 )
-def flat_controls():
+def flat_controls() -> Proof:
     def argument() -> Steps:
         inputs = sp.Matrix.hstack(*derivation.impulse_directions())
         normal = derivation.impulse_directions()[0].cross(derivation.impulse_directions()[1])

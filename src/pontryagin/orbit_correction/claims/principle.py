@@ -1,4 +1,4 @@
-"""Section 4, Theorems 2 and 3: adjoint vectors and the maximum principle."""
+"""Section 4, Theorem 2 and Theorem 3: adjoint vectors and the maximum principle."""
 
 import sympy as sp
 
@@ -21,7 +21,7 @@ R = sp.Rational
     verdict="misprint",
     remark="Printed: the family {ψ(0)}, k = 0, ..., N_min − 1. Right: {ψ(k)}.",
 )
-def adjoint_vectors():
+def adjoint_vectors() -> Slip:
     def argument() -> Steps:
         for system in family():
             states, _ = optimal(system)
@@ -55,7 +55,7 @@ def adjoint_vectors():
     "A(k) = I, unit discs, x0 = −2e1: ψ(0) = e1, ψ(1) = 2e1 are adjoint; with a lens not even the direction "
     "is fixed.",
 )
-def adjoint_recursion():
+def adjoint_recursion() -> Conditional:
     def argument() -> Steps:
         for system in family():
             states, _ = optimal(system)
@@ -100,7 +100,7 @@ def adjoint_recursion():
 
 
 @claim("proof of Theorem 2", "ψ(k) = A^−T(k−1) ... A^−T(0) ψ(0)", verdict="holds")
-def adjoint_in_closed_form():
+def adjoint_in_closed_form() -> Equality:
     key = r"\psi(3)"
 
     printed = A_transposed(2) ** -1 * A_transposed(1) ** -1 * A_transposed(0) ** -1
@@ -113,7 +113,7 @@ def adjoint_in_closed_form():
 
 
 @claim("Theorem 3, i)", "u*(k) is the point of U(k) with the largest (A^−T(k)ψ(k), u)", verdict="holds")
-def maximum_principle():
+def maximum_principle() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, _ = optimal(system)
@@ -133,7 +133,7 @@ def maximum_principle():
 
 
 @claim("Theorem 3, ii)", "from a boundary point the optimal control is unique", verdict="holds")
-def unique_control():
+def unique_control() -> Proof:
     def argument() -> Steps:
         for system in family():
             for k, (U, q) in enumerate(zip(system.U, system.costates[1:], strict=True)):
@@ -152,7 +152,7 @@ def unique_control():
     "−A^−T(k)ψ(k) is normal at A(k)x*(k), hence at u*, and its negative at u*(k)",
     verdict="holds",
 )
-def normals_at_the_controls():
+def normals_at_the_controls() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, controls = optimal(system)
@@ -182,7 +182,7 @@ def normals_at_the_controls():
     remark="Printed: arg max ((A^−1(k))^T, u), the product of a matrix and a vector that is no number. ψ(k) "
     "is missing, see i) of the theorem.",
 )
-def argument_of_the_maximum():
+def argument_of_the_maximum() -> Slip:
     def argument() -> Steps:
         for system in family():
             q = system.A[0].inv().T * system.costates[0]
@@ -219,7 +219,7 @@ def argument_of_the_maximum():
     verdict="holds",
     remark="For x0 on the boundary and −ψ(0) normal there; the sufficiency is used, not proved.",
 )
-def sufficiency():
+def sufficiency() -> Proof:
     def argument() -> Steps:
         for system in family():
             states, _ = optimal(system)

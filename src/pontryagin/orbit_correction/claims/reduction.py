@@ -1,5 +1,7 @@
 """Section 7, (12): the ball for the cube, and what the reduced system answers."""
 
+from typing import Any
+
 import numpy as np
 import sympy as sp
 
@@ -17,7 +19,7 @@ CORNER = sp.ones(3, 1)
 
 
 @claim("regrouping: cube", "the set of admissible u~ is not strictly convex", verdict="holds")
-def cube_is_not_strictly_convex():
+def cube_is_not_strictly_convex() -> Proof:
     def argument() -> Steps:
         first, second = CORNER, sp.Matrix([1, 1, -1])
         middle = (first + second) / 2
@@ -37,7 +39,7 @@ def cube_is_not_strictly_convex():
     remark="Safe: the ball lies in the cube, so its plans are admissible. Not without loss: the answer "
     "changes. For the paper's z0 five impulses in the square suffice, and the ball fires six.",
 )
-def ball_in_the_cube():
+def ball_in_the_cube() -> Conditional:
     def argument() -> Steps:
         u = sp.Matrix(sp.symbols("u1:4", real=True))
         for i in range(3):
@@ -62,7 +64,7 @@ def ball_in_the_cube():
     verdict="holds",
     remark="With B(k) as corrected.",
 )
-def regrouped_system():
+def regrouped_system() -> Proof:
     def argument() -> Steps:
         plan = worked.ball_plan()
         left = worked.impulses_to_rest(dict(enumerate(plan.impulses)))
@@ -90,11 +92,11 @@ def regrouped_system():
     verdict="holds",
     remark="Right as a set. In the form (u, H(k)u) ≤ 1 of section 6 it has H(k) = B^−T B^−1/α_max².",
 )
-def system_with_ellipsoids():
+def system_with_ellipsoids() -> Equality:
     key = r"H(k)\,\alpha_{\max}^2"
     B, peak = sp.Matrix(2, 2, sp.symbols("B11 B12 B21 B22", real=True)), sp.Symbol("alpha_max", positive=True)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         ball = Ellipsoid(sp.ImmutableMatrix(peak * sp.eye(2)))
         return {key: (peak**2 * ball.image(B).shape).applyfunc(sp.cancel)}
 
@@ -114,7 +116,7 @@ def system_with_ellipsoids():
     "− cos Δt) for odd. At Δt = π the even U(k) are flat and H(k) does not exist, though the satellite can "
     "still be corrected. With B(k) as printed det B(k) = 0 for every Δt.",
 )
-def ellipsoids_of_the_satellite():
+def ellipsoids_of_the_satellite() -> Conditional:
     def argument() -> Steps:
         for k, right in enumerate((-sp.sin(interval), 2 * (1 - sp.cos(interval)))):
             yield f"det B({k}) = {right}", vanishes(sp.simplify(derivation.step_inputs(k).det() - right))
@@ -140,7 +142,7 @@ def ellipsoids_of_the_satellite():
     remark="With H(k) = B^−T(k)B^−1(k)/α_max², for Δt no multiple of π. With the H(k) = B^−T B^−1 that the "
     "print suggests, the bound would be 1 instead of 0.0035: then μ(z0, X(1, 0)) = 0.026, and N_min = 1.",
 )
-def conditions_of_the_theorems():
+def conditions_of_the_theorems() -> Conditional:
     def argument() -> Steps:
         for k in range(2):
             yield f"det A({k}) = 1: nonsingular", vanishes(sp.simplify(derivation.step_matrix(k).det() - 1))
@@ -165,5 +167,5 @@ def conditions_of_the_theorems():
     remark="A step is an impulse and a half: N_min = 4 steps fire 6 impulses, and 5 are enough within the "
     "square.",
 )
-def steps_and_impulses():
+def steps_and_impulses() -> Refutation:
     return Refutation(worked.box_certificate)

@@ -1,5 +1,7 @@
 """Section 7, the regrouping of impulses: u~, x, A(k) and B(k)."""
 
+from typing import Any
+
 import numpy as np
 import sympy as sp
 
@@ -40,11 +42,11 @@ def printed_inputs(k: int) -> sp.Matrix:
 
 
 @claim("regrouping: u~", "three successive impulse components make one control", verdict="holds")
-def regrouped_controls():
+def regrouped_controls() -> Equality:
     keys = (r"\tilde u(2)", r"\tilde u(3)")
     printed = (sp.Matrix([w(0, 3), w(1, 3), w(0, 4)]), sp.Matrix([w(1, 4), w(0, 5), w(1, 5)]))
 
-    def derived():
+    def derived() -> dict[str, Any]:
         grouped = [sp.Matrix([w(component, j) for j, component in derivation.schedule(k)]) for k in (2, 3)]
         return dict(zip(keys, grouped, strict=True))
 
@@ -57,10 +59,10 @@ def regrouped_controls():
 
 
 @claim("regrouping: x", "x(2k) = y(3k), x(2k+1) = A~y(3k+1) + B~(w1(3k+1), 0)", verdict="holds")
-def regrouped_states():
+def regrouped_states() -> Equality:
     halfway = once * state_after(1) + radial * w(0, 1)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         # The impulses of u~(0), then those of u~(1), each carried on to the end of its step.
         after = once**2 * start + once * radial * w(0, 0) + once * transverse * w(1, 0) + radial * w(0, 1)
         end = once * after + once * transverse * w(1, 1) + radial * w(0, 2) + transverse * w(1, 2)
@@ -75,7 +77,7 @@ def regrouped_states():
 
 
 @claim("regrouping: A(k)", "A(k) is A~² for even k and A~ for odd k", verdict="holds")
-def regrouped_matrices():
+def regrouped_matrices() -> Equality:
     keys = ("A(2k)", "A(2k+1)")
     printed = (printed_transition(interval) ** 2, printed_transition(interval))
     return Equality(
@@ -93,11 +95,11 @@ def regrouped_matrices():
     "act an interval before the others of their step. As printed, columns 1 and 3 are equal, det B(k) = 0 "
     "and U(k) is no ellipsoid; the worked example would have α = 0.9424 instead of the printed 0.9286.",
 )
-def regrouped_inputs():
+def regrouped_inputs() -> Misprint:
     keys = ("B(2k)", "B(2k+1)")
     delay = sp.eye(3) - printed_transition(interval)
 
-    def derived():
+    def derived() -> dict[str, Any]:
         return {key: derivation.step_inputs(k) for k, key in enumerate(keys)}
 
     def consequence() -> Consequence:
@@ -129,7 +131,7 @@ def regrouped_inputs():
     "last digit, and the printed controls have |B(k)⁻¹u(k)| = 0.9286 α_max in all four steps. The printed "
     "B(k) misses by thousands of units and has no inverse.",
 )
-def inputs_behind_the_tables():
+def inputs_behind_the_tables() -> Slip:
     def argument() -> Steps:
         worst = units_off().max()
         yield f"with the corrected B(k) the worst of 39 numbers is off by {worst:.2f} of a unit", worst <= 1

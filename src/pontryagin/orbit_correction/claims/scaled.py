@@ -21,7 +21,7 @@ R = sp.Rational
     verdict="holds",
     remark="The reference [22] for it is not in the list, which ends at 21.",
 )
-def minkowski_functional():
+def minkowski_functional() -> Proof:
     def argument() -> Steps:
         for system in family():
             p, state, N = -system.costates[0], interior_state(system), system.steps
@@ -39,7 +39,7 @@ def minkowski_functional():
 
 
 @claim("(7)", "the system with αU(k) for U(k)", verdict="holds")
-def scaled_system():
+def scaled_system() -> Proof:
     def argument() -> Steps:
         for system in family():
             scaled = [share_of(system) * u for u in system.controls()]
@@ -60,7 +60,7 @@ def scaled_system():
     verdict="holds",
     remark="In the proof once X(N, t) for X(N, k).",
 )
-def scaled_sets():
+def scaled_sets() -> Equality:
     keys = [rf"x(1)\ (N = {N})" for N in (0, 1, 2, 3)]
     printed = {key: sp.expand(alpha * summands.state_brought_to_zero(N, 1)) for N, key in enumerate(keys)}
     return Equality(
@@ -72,7 +72,7 @@ def scaled_sets():
 
 
 @claim("Lemma 7, ii)", "they lie in X(N, k)", verdict="holds", remark="By α < 1, 0 ∈ X(N, k) and convexity.")
-def scaled_sets_inside():
+def scaled_sets_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
             for k in range(system.steps):
@@ -102,7 +102,7 @@ def state_on_the_scaled_boundary() -> Steps:
 
 
 @claim("Lemma 7, iii)", "x0 is on the boundary of X_α(N_min, 0)", verdict="holds")
-def on_the_scaled_boundary():
+def on_the_scaled_boundary() -> Proof:
     return Proof(state_on_the_scaled_boundary, display=r"x_0 \in \partial X_\alpha(N_{\min}, 0)")
 
 
@@ -111,7 +111,7 @@ def on_the_scaled_boundary():
     "with ε = 1/α' − 1/α, α' < α: x0/α + εx0 = x0/α', and α times it is x0 + εαx0",
     verdict="holds",
 )
-def stretched_state():
+def stretched_state() -> Equality:
     smaller = sp.Symbol("alpha'", positive=True)
     size = 1 / smaller - 1 / alpha
     return Equality(
@@ -135,7 +135,7 @@ def stretched_state():
     remark="Printed: of X(N_min, 0). Right: of X_α(N_min, 0), as iii) says; x0 is an inner point of "
     "X(N_min, 0) by (5).",
 )
-def which_boundary():
+def which_boundary() -> Slip:
     def counterexample() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -160,7 +160,7 @@ def which_boundary():
     remark="α stays the gauge of x'(k) in X(N_min − k, k) along the trajectory. From an inner point the "
     "optimal control is not unique: this one has the least peak.",
 )
-def optimal_from_inside():
+def optimal_from_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
             size, p = share_of(system), -system.costates[0]
@@ -191,7 +191,7 @@ def optimal_from_inside():
     remark="It is optimal for (1), and the only one for (7). For (1) it is one of many: A = I, unit discs, "
     "x0 = −3/2 e1, is brought to 0 by 3/4 e1 twice, and by e1 and e1/2.",
 )
-def conditions_of_the_scaled_system():
+def conditions_of_the_scaled_system() -> Conditional:
     def argument() -> Steps:
         for system in family():
             size = share_of(system)

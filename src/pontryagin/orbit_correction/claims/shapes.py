@@ -1,5 +1,7 @@
 """Section 6, Lemma 8: ellipsoids, their images and the summands of X(N, 0)."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -24,7 +26,7 @@ def shape_inverse(system: ExactSystem, k: int) -> sp.Matrix:
     "(u, Hu) ≤ 1 with H positive definite is a set of U_2, for (u, Hu) is strictly convex",
     verdict="holds",
 )
-def ellipsoids_are_strictly_convex():
+def ellipsoids_are_strictly_convex() -> Proof:
     def argument() -> Steps:
         a, b, h11, h12, h22 = sp.symbols("a b h11 h12 h22", real=True)
         share = sp.Symbol("lambda", positive=True)
@@ -61,7 +63,7 @@ def plane() -> tuple[Ellipsoid, sp.Matrix, sp.Matrix]:
 
 
 @claim("Lemma 8, i)", "A^−T H A^−1 is positive definite", verdict="holds")
-def positive_definite_image():
+def positive_definite_image() -> Proof:
     def argument() -> Steps:
         X, M, y = plane()
         form = (y.T * M.inv().T * X.shape * M.inv() * y)[0]
@@ -82,7 +84,7 @@ def positive_definite_image():
     "(y, A^−T H A^−1 y) = (A^−1 y, H A^−1 y) = (x, Hx) for x = A^−1 y",
     verdict="holds",
 )
-def form_of_the_image():
+def form_of_the_image() -> Equality:
     X, M, x = plane()
     return Equality(
         {r"(y, (A^{-1})^T H A^{-1}y)": (x.T * X.shape * x)[0]},
@@ -94,7 +96,7 @@ def form_of_the_image():
 
 
 @claim("Lemma 8, ii)", "AX is the ellipsoid of A^−T H A^−1", verdict="holds")
-def image_of_an_ellipsoid():
+def image_of_an_ellipsoid() -> Equality:
     X, M, _ = plane()
     return Equality(
         {r"H_{AX}": M.inv().T * X.shape * M.inv()},
@@ -110,7 +112,7 @@ def image_of_an_ellipsoid():
     remark="Printed: (Ax, A^−T H A^−1 x). Right: (Ax, A^−T H A^−1 Ax). For H = I, A = 2I, x = e1 the print "
     "gives 1/2 instead of 1.",
 )
-def form_at_the_image_point():
+def form_at_the_image_point() -> Misprint:
     X, M, x = plane()
     key = "(x, Hx)"
     right = (x.T * X.shape * x)[0]
@@ -138,11 +140,11 @@ def form_at_the_image_point():
     remark="Printed with U(k). Right: U(k − 1), from Lemma 1 with i = k − 1. For x(k+1) = x(k) + u(k), "
     "|u(k)| ≤ k + 1, the print gives E_1 = [−2, 2], but X(1, 0) = [−1, 1].",
 )
-def summand():
+def summand() -> Misprint:
     key = "e_2"
     back = summands.backward_product([A(0), A(1)])
 
-    def derived():
+    def derived() -> dict[str, Any]:
         # How the last control enters the state that two steps bring to 0; the sign is lost by symmetry.
         state = summands.state_brought_to_zero(2)
         return {key: -(state - state.subs(summands.u(1), 0))}
@@ -167,7 +169,7 @@ def summand():
     remark="Printed with H(k). Right: H(k − 1), which is also what Lemma 10 takes for H~(k+1). With the "
     "index as printed, the worked example has α = 0.8903 instead of the printed 0.9286.",
 )
-def shape_of_a_summand():
+def shape_of_a_summand() -> Misprint:
     key = r"\tilde H(2)"
     before, after = A_transposed(0) * A_transposed(1), A(1) * A(0)
 
@@ -190,7 +192,7 @@ def shape_of_a_summand():
     verdict="holds",
     remark="With E_k as corrected.",
 )
-def sum_of_ellipsoids():
+def sum_of_ellipsoids() -> Proof:
     def argument() -> Steps:
         for system in family():
             for k, part in enumerate(system.summands(system.steps), start=1):

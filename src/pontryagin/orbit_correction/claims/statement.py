@@ -22,7 +22,7 @@ R = sp.Rational
     "steps fire six. The reduction without loss is y(k+1) = A~y(k) + B~w(k), one impulse a step, which is "
     "stationary.",
 )
-def reduction_of_the_problem():
+def reduction_of_the_problem() -> Refutation:
     return Refutation(worked.box_certificate)
 
 
@@ -33,7 +33,7 @@ def reduction_of_the_problem():
     remark="An engine may rest. For the paper's z0 and square of impulses four firings suffice, at the "
     "starts of intervals 0, 2, 3 and 5, while the least time, five intervals, takes five.",
 )
-def firings_and_time():
+def firings_and_time() -> Refutation:
     def counterexample() -> Steps:
         impulses = worked.sparse_impulses()
         left = worked.impulses_to_rest(impulses)
@@ -55,7 +55,7 @@ def firings_and_time():
     remark="True for a polytope in general position. For a ball, the kind of set that this paper uses, the "
     "control turns: x1' = x2 + u1, x2' = u2, |u| ≤ 1, with the costate (1, −t) has u = (1, −t)/√(1 + t²).",
 )
-def piecewise_constant_controls():
+def piecewise_constant_controls() -> Refutation:
     time = sp.Symbol("t", real=True)
     chain = sp.Matrix([[0, 1], [0, 0]])
 
@@ -98,7 +98,7 @@ def piecewise_constant_controls():
     verdict="holds",
     remark="At the paper's Δt = 0.25.",
 )
-def system():
+def system() -> Proof:
     def argument() -> Steps:
         for k in range(2):
             yield f"det A({k}) = 1", vanishes(sp.simplify(derivation.step_matrix(k).det() - 1))
@@ -118,7 +118,7 @@ def system():
 
 
 @claim("after (1): scalar product", "(x, y) is the sum of the products of coordinates", verdict="holds")
-def scalar_product():
+def scalar_product() -> Equality:
     pair = sp.symbols("x1:4 y1:4")
     return Equality(
         {"(x, y)": sum(a * b for a, b in zip(pair[:3], pair[3:], strict=True))},

@@ -1,5 +1,7 @@
 """Section 3, Lemma 5: the boundary of a sum."""
 
+from typing import Any
+
 import sympy as sp
 
 from pontryagin.ledger import Page
@@ -16,7 +18,7 @@ DISC = Ellipsoid(sp.ImmutableMatrix(sp.eye(2)))
 
 
 @claim("Lemma 5, i)", "a boundary point of a sum has one decomposition", verdict="holds")
-def one_decomposition():
+def one_decomposition() -> Proof:
     def argument() -> Steps:
         for system in family():
             p, N = -system.costates[0], system.steps
@@ -41,7 +43,7 @@ def one_decomposition():
 
 
 @claim("Lemma 5, ii)", "its parts are boundary points", verdict="holds")
-def parts_on_the_boundary():
+def parts_on_the_boundary() -> Proof:
     def argument() -> Steps:
         for system in family():
             p = -system.costates[0]
@@ -73,7 +75,7 @@ def lens_and_disc() -> Steps:
     remark="Printed as an inclusion; it is an equality, as the last line of the proof says and as (4) and "
     "(9) need it. For a corner of one summand the intersection is smaller than that summand's cone.",
 )
-def normals_of_a_sum():
+def normals_of_a_sum() -> Proof:
     def argument() -> Steps:
         for system in family():
             p, N = -system.costates[0], system.steps
@@ -95,11 +97,11 @@ def normals_of_a_sum():
     remark="Printed: (p, x1 + x2) maximised over x1 in X1 alone, twice. Right: over x1 in X1 and x2 in X2 "
     "(the second line may be lost in the scan). For two unit discs, p = e1 and x2 = 0 that is 1, not 2.",
 )
-def maximum_over_the_sum():
+def maximum_over_the_sum() -> Misprint:
     p, second = E1, sp.zeros(2, 1)
     key = r"\max_{x^1 \in X_1,\, x^2 \in X_2}(p, x^1 + x^2)"
 
-    def derived():
+    def derived() -> dict[str, Any]:
         return {key: 2 * DISC.support(p)}
 
     def consequence() -> Consequence:
@@ -125,7 +127,7 @@ def maximum_over_the_sum():
     verdict="holds",
     remark="Inner points x1 of X1 are not considered; the same inequality excludes them.",
 )
-def other_decompositions():
+def other_decompositions() -> Proof:
     def argument() -> Steps:
         for system in family():
             X, p = system.U[0], system.costates[1]
@@ -145,7 +147,7 @@ def other_decompositions():
     verdict="holds",
     remark="The second set is once printed X² for X_2.",
 )
-def equality_of_normal_cones():
+def equality_of_normal_cones() -> Proof:
     def argument() -> Steps:
         for system in family():
             p, N = -system.costates[0], system.steps

@@ -1,7 +1,6 @@
 """The worked example: N_min, alpha and the two tables, number by number."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.ledger import Entry, Page
@@ -21,9 +20,9 @@ ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
 
 
 def example(
-    inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0
-) -> tuple[NDArray, NDArray, NDArray]:
-    """States, costates and controls of Theorem 4 by Lemmas 9 and 10, with alpha, for some B(k)."""
+    inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0
+) -> tuple[Array, Array, Array]:
+    """States, costates and controls of Theorem 4 by Lemma 9 and Lemma 10, with alpha, for given B(k)."""
     found = worked.gauge_with(4, inputs, z0=z0)
     alpha, state, costate = float(found.alpha), z0, np.asarray(found.costate)
     states, costates, controls = [state], [], []
@@ -37,12 +36,12 @@ def example(
     return np.array(states), np.array(costates), np.array(controls)
 
 
-def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = worked.Z0) -> Array:
+def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0) -> Array:
     """How far the 36 numbers other than 0 are from the printed ones, in units of their last digits."""
     states, costates, controls = example(inputs, z0)
     computed = np.concatenate([states[:4].ravel(), costates.ravel(), controls.ravel()])
     scales = np.array([unit(number) for number in NUMBERS])
-    return np.abs(computed - np.array([float(number) for number in NUMBERS])) / scales
+    return np.asarray(np.abs(computed - np.array([float(number) for number in NUMBERS])) / scales)
 
 
 @claim(
@@ -52,7 +51,7 @@ def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: NDArray = work
     remark="Printed for system (7); (12) is meant, for (7) is built from N_min. Four steps fire six "
     "impulses.",
 )
-def number_of_steps():
+def number_of_steps() -> Decimals:
     return Decimals(
         {r"N_{\min}": FEWEST_STEPS},
         lambda: {r"N_{\min}": float(worked.ball_plan().steps)},
@@ -61,7 +60,7 @@ def number_of_steps():
 
 
 @claim("after (12): α", "the Minkowski functional of X(4, 0) at z0 is 0.9286", verdict="holds")
-def gauge_of_the_example():
+def gauge_of_the_example() -> Decimals:
     key = r"\alpha = \mu(z_0, X(4, 0))"
     return Decimals({key: GAUGE}, lambda: {key: float(worked.ball_plan().gauge)}, worked.ball_certificate)
 
@@ -72,7 +71,7 @@ def gauge_of_the_example():
     verdict="holds",
     remark="To the printed digits: the gauge is 0.928574, so z0 is inside by 3 parts in 100,000.",
 )
-def on_the_scaled_boundary():
+def on_the_scaled_boundary() -> Proof:
     def argument() -> Steps:
         yield from worked.ball_certificate()
         share = float(worked.ball_plan().gauge) / 0.9286
@@ -89,7 +88,7 @@ def on_the_scaled_boundary():
     "no solution: z0 is an inner point of X(4, 0), with the gauge 0.9286, and every sum in (11) is on the "
     "boundary.",
 )
-def costate_of_the_example():
+def costate_of_the_example() -> Conditional:
     def argument() -> Steps:
         plan, G = worked.ball_plan(), worked.factors(4)
         psi, alpha = plan.initial_costate, float(plan.gauge)
@@ -118,7 +117,7 @@ def costate_of_the_example():
     remark="With the factor α of Theorem 4, which Lemma 10 leaves out and the table holds: without it "
     "u2*(0) would be −0.26686·10⁻², printed −0.24779·10⁻².",
 )
-def controls_of_the_example():
+def controls_of_the_example() -> Conditional:
     printed = float(CONTROLS[0][1])
 
     def argument() -> Steps:
@@ -145,7 +144,7 @@ def controls_of_the_example():
 
 
 def row(table: int, k: int, columns: dict[str, tuple[str, str, str]], remark: str = "") -> Entry:
-    """The entry of one row: its numbers by name, the column 0 states, 1 costates, 2 controls of `example`."""
+    """The entry of one row of a table, with its numbers by the symbol that they belong to."""
     keys = [f"{name}_{i}({k})" for name in columns for i in (1, 2, 3)]
     printed = dict(zip(keys, (number for numbers in columns.values() for number in numbers), strict=True))
 
@@ -170,7 +169,7 @@ OFF = {
     (2, 2): "u2 = −0.524756·10⁻², printed −0.52475·10⁻²: 0.59 of a unit off.",
     (2, 3): "u2 = −0.388775·10⁻², printed −0.38877·10⁻²: 0.50 of a unit off.",
 }
-"""The rows with numbers off by more than half a unit of the last digit."""
+"""Remarks on the rows in which a number is off by more than half a unit of its last digit."""
 
 for k in range(4):
     row(1, k, {"x^*": STATES[k], r"\psi": COSTATES[k]}, OFF.get((1, k), ""))
@@ -186,7 +185,7 @@ for k in range(4):
     remark="All 39 numbers agree to one unit of the last digit, five are off by more than half a unit. z0 "
     "was rounded for print too: a z0 within half a unit of it rounds to every printed digit.",
 )
-def rounded_tables():
+def rounded_tables() -> Conditional:
     def argument() -> Steps:
         off = units_off()
         yield f"the worst number is off by {off.max():.2f} of a unit", off.max() <= 1
@@ -211,7 +210,7 @@ def rounded_tables():
     verdict="holds",
     remark="With A(k) and the corrected B(k).",
 )
-def consistent_tables():
+def consistent_tables() -> Proof:
     def argument() -> Steps:
         states, costates, controls = (
             np.array([[float(number) for number in numbers] for numbers in table])

@@ -1,11 +1,10 @@
-"""The paper's worked example, and certificates of its plans: matrices from the derivation, flown anew."""
+"""The paper's worked example, and certificates of its plans, with matrices from the derivation."""
 
 import functools
 from collections.abc import Callable
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from pontryagin.arrays import Array
@@ -18,10 +17,13 @@ from pontryagin.orbit_correction.plan.correction import Plan, correct
 Z0, INTERVAL, PEAK = np.array(printed.Z0), float(printed.INTERVAL), float(printed.PEAK)
 EXACT = {derivation.interval: sp.Rational(printed.INTERVAL)}
 SPARSE = (0, 2, 3, 5)
-"""Intervals at whose starts four impulses suffice; the engine rests at the others."""
+"""Intervals with an impulse at the start, of six: these four impulses suffice."""
 
 ROUNDING = 1e-12
+"""Largest difference between values of alpha that is due to rounding."""
+
 Inputs = Callable[[int], sp.Matrix]
+"""B(k) as a function of k."""
 
 
 def numbers(matrix: sp.Matrix) -> Array:
@@ -48,7 +50,7 @@ def interval_matrix() -> Array:
 
 @functools.cache
 def columns(j: int) -> Array:
-    """What the two impulses at the start of interval j do to the initial state."""
+    """The effects on the initial state of the two impulse components at the start of interval j, (3, 2)."""
     return numbers(sp.Matrix(derivation.transition(-j * derivation.interval)))[:, 1:]
 
 
@@ -71,10 +73,8 @@ def factors(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0)
     return np.array(result)
 
 
-def gauge_with(
-    steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0, z0: NDArray = Z0
-) -> Gauge:
-    """alpha(steps) of z0 and its costate for some B(k), between bounds from both sides."""
+def gauge_with(steps: int, inputs: Inputs = derivation.step_inputs, shift: int = 0, z0: Array = Z0) -> Gauge:
+    """alpha(steps) of z0 and its costate for given B(k); its lower and upper bound agree."""
     found = gauge_of_factors(factors(steps, inputs, shift), z0)
     if not found.certificate.holds(1e-9):
         raise Unsupported(f"the bounds on the gauge differ by {found.certificate.gap}")
@@ -82,12 +82,12 @@ def gauge_with(
 
 
 def bound(G: Array, psi: Array) -> float:
-    """What psi proves: no smaller share of the balls than (-z0, psi) / sum |G_k'psi| reaches z0."""
+    """The lower bound (-z0, psi) / sum |G_k'psi| on alpha that psi proves."""
     return float(-Z0 @ psi / np.linalg.norm(np.einsum("kij,i->kj", G, psi), axis=1).sum())
 
 
 def ball_certificate() -> Steps:
-    """Four steps do with the plan's share of the peak, no smaller share does, and three steps do not."""
+    """Four steps suffice with the plan's share of the peak and with no smaller one; three do not suffice."""
     plan = ball_plan()
     alpha, state = float(plan.gauge), Z0
     for k, control in enumerate(plan.step_controls):
@@ -110,7 +110,7 @@ def impulses_to_rest(impulses: dict[int, Array]) -> float:
 
 
 def box_certificate() -> Steps:
-    """Five impulses in the square do, four in a row do not, where the ball's four steps fire six."""
+    """Five impulses in the square suffice and four in a row do not; the ball's four steps fire six."""
     plan = box_plan()
     left = impulses_to_rest(dict(enumerate(plan.impulses)))
     yield "five impulses bring z0 to 0", left < 1e-16 and len(plan.impulses) == 5
@@ -124,7 +124,7 @@ def box_certificate() -> Steps:
 
 
 def shortest_box_costate(columns: Array) -> Array:
-    """psi that proves most for impulses in the square: least sum |g.psi| where (-z0, psi) = 1, by HiGHS."""
+    """The psi with the largest bound for the square: least sum |g.psi| with (-z0, psi) = 1, by HiGHS."""
     g = np.moveaxis(columns, 1, 2).reshape(-1, 3)
     cost = np.concatenate([np.zeros(3), np.ones(len(g))])
     above = np.block([[g, -np.eye(len(g))], [-g, -np.eye(len(g))]])

@@ -1,8 +1,8 @@
-"""Sums of ellipsoids, and exact systems on which sections 2 to 6 are followed without rounding, in SymPy.
+"""Ellipsoids, and rational systems on which sections 2 to 6 are checked without rounding.
 
-An ellipsoid is L B, B the unit ball. Its support function sqrt(p'LL'p) is a root; but a system can be built
-so that it is rational in one chosen direction psi_0 and along its costates. Then every point of the theory
-(support points, trajectory, controls) is rational, in space of any dimension.
+An ellipsoid is L B, B the unit ball, with the support function sqrt(p'LL'p). A system can be built so that
+this root is rational for one initial costate psi_0 and the costates that follow from it. Then all support
+points, states and controls of the theory are rational, in any dimension.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Ellipsoid:
         return (self.factor * self.factor.T).inv()
 
     def level(self, x: sp.Matrix) -> sp.Expr:
-        """(x, H x): below 1 inside, 1 on the boundary; the square of the Minkowski functional."""
+        """(x, H x), the square of the Minkowski functional: below 1 inside, 1 on the boundary."""
         return (x.T * self.shape * x)[0]
 
     def support(self, p: sp.Matrix) -> sp.Expr:
@@ -34,21 +34,21 @@ class Ellipsoid:
         return sp.sqrt((p.T * self.factor * self.factor.T * p)[0])
 
     def point(self, p: sp.Matrix) -> sp.Matrix:
-        """rho(p): where (p, x) is largest, for p other than 0."""
+        """The support point rho(p) of Lemma 2, where (p, x) is largest, for p other than 0."""
         return self.factor * self.factor.T * p / self.support(p)
 
     def normal(self, x: sp.Matrix) -> sp.Matrix:
-        """A normal at the boundary point x: the gradient of (x, H x), halved."""
+        """A normal at the boundary point x, half the gradient of (x, H x)."""
         return self.shape * x
 
     def image(self, A: sp.Matrix) -> "Ellipsoid":
-        """A X, Lemma 8."""
+        """A X, an ellipsoid by Lemma 8, whose normals are carried by A^-T, Lemma 3."""
         return Ellipsoid(sp.ImmutableMatrix(A * self.factor))
 
 
 @dataclass(frozen=True)
 class ExactSystem:
-    """x(k+1) = A(k) x(k) + u(k), u(k) in U(k), with a costate along which all lengths are rational.
+    """System (1) with ellipsoids U(k), and a costate along which all support functions are rational.
 
     Examples
     --------
@@ -65,12 +65,12 @@ class ExactSystem:
 
     @property
     def steps(self) -> int:
-        """How many steps the system has matrices for."""
+        """The number of steps."""
         return len(self.A)
 
     @cached_property
     def costates(self) -> list[sp.Matrix]:
-        """psi(k) by the recursion of Theorem 2, for k = 0 to the number of steps."""
+        """psi(k) by the recursion of Theorem 2 and (6), for k = 0 to the number of steps."""
         costates = [sp.Matrix(self.psi0)]
         for A in self.A:
             costates.append(A.inv().T * costates[-1])
@@ -81,23 +81,23 @@ class ExactSystem:
         return [self.U[k + i].image(-backward_product(self.A[k : k + i + 1])) for i in range(N)]
 
     def support(self, p: sp.Matrix, N: int, k: int = 0) -> sp.Expr:
-        """Support function of X(N, k)."""
+        """Support function of X(N, k) of (2)."""
         return sum((part.support(p) for part in self.summands(N, k)), sp.S.Zero)
 
     def point(self, p: sp.Matrix, N: int, k: int = 0) -> sp.Matrix:
-        """Support point of X(N, k)."""
+        """Support point of X(N, k): the sum of those of the summands, Lemma 4, Lemma 5 and (10)."""
         return sum((part.point(p) for part in self.summands(N, k)), sp.zeros(*self.psi0.shape))
 
     def boundary_state(self) -> sp.Matrix:
-        """x0 on the boundary of X(N, 0), with -psi_0 normal there, N all the steps."""
+        """x0 on the boundary of X(N, 0) for all N steps, with normal -psi_0 (9): Lemma 9, (8) and (11)."""
         return self.point(-self.costates[0], self.steps)
 
     def controls(self) -> list[sp.Matrix]:
-        """u(k) = arg max over U(k) of (A^-T(k) psi(k), u), Theorem 3."""
+        """u(k) = arg max over U(k) of (A^-T(k) psi(k), u), Theorem 3; for ellipsoids this is Lemma 10."""
         return [U.point(costate) for U, costate in zip(self.U, self.costates[1:], strict=True)]
 
     def fly(self, x0: sp.Matrix, controls: list[sp.Matrix]) -> list[sp.Matrix]:
-        """The states from x0 under the controls, (1)."""
+        """The states from x0 under the controls, by (1); from the boundary they are those of Theorem 1."""
         states = [x0]
         for A, u in zip(self.A, controls, strict=True):
             states.append(A * states[-1] + u)
@@ -105,9 +105,9 @@ class ExactSystem:
 
 
 def exact_system(n: int, steps: int, seed: int) -> ExactSystem:
-    """A system in R^n, n at least 2, with random rational matrices, rational along its costate.
+    """A system in R^n, n at least 2, of random rational matrices, from a seed.
 
-    A(k) is made to carry psi(k) to a psi(k+1) for which L(k)'psi(k+1) has rational length.
+    A(k) is chosen so that it carries psi(k) to a psi(k+1) for which L(k)'psi(k+1) has rational length.
     """
     draw = Random(seed)
     psi = _vector(draw, n)
@@ -145,8 +145,10 @@ def _rational_direction(draw: Random, n: int) -> sp.Matrix:
 
 
 LENS_CENTRES = (sp.Matrix([-sp.Rational(3, 5), 0]), sp.Matrix([sp.Rational(3, 5), 0]))
+"""The lens is the intersection of the unit discs about these centres: strictly convex, with a corner."""
+
 LENS_CORNER = sp.Matrix([0, sp.Rational(4, 5)])
-"""The lens: two unit discs about these centres, intersected. Strictly convex, with a corner."""
+"""The upper corner of the lens."""
 
 
 def lens_level(x: sp.Matrix) -> sp.Expr:
@@ -160,6 +162,6 @@ def lens_corner_normals() -> tuple[sp.Matrix, sp.Matrix]:
 
 
 def normal_at_lens_corner(p: sp.Matrix) -> bool:
-    """Whether p is normal at the corner: a combination of its edges with weights that are not negative."""
+    """Whether p is normal at the corner: a nonnegative combination of the edges of its normal cone."""
     weights = sp.Matrix.hstack(*lens_corner_normals()).solve(p)
     return bool(p.norm() > 0 and min(weights) >= 0)

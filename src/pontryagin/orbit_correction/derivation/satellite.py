@@ -1,6 +1,6 @@
-"""From the satellite's equations to a sum of ellipsoids (Ibragimov 2017, section 7), in SymPy.
+"""From the satellite's equations of motion to the regrouped system (12) and its summands, section 7.
 
-Units in which the circle has radius, speed and angular rate 1; z = (dr, dv_R, dv_T).
+The circle has radius, speed and angular rate 1; z = (dr, dv_R, dv_T).
 """
 
 import functools
@@ -54,17 +54,17 @@ def transition(time: sp.Expr = t) -> sp.ImmutableMatrix:
 
 
 def impulse_directions() -> list[sp.Matrix]:
-    """What a radial and a transverse impulse become after one interval: columns of the input matrix."""
+    """The effects of a radial and a transverse impulse after one interval: the columns of B~."""
     return [transition(interval) * unit for unit in (RADIAL, TRANSVERSE)]
 
 
 def step_matrix(k: int) -> sp.Matrix:
-    """A(k): two intervals for even k, one for odd."""
+    """A(k) of (12): the transition over two intervals for even k, over one for odd k."""
     return sp.Matrix(transition(interval)) ** (2 if k % 2 == 0 else 1)
 
 
 def step_inputs(k: int) -> sp.Matrix:
-    """B(k): the three impulse components of step k, carried to its end."""
+    """B(k) of (12): the three impulse components of step k, carried to its end."""
     once = sp.Matrix(transition(interval))
     radial, transverse = impulse_directions()
     if k % 2 == 0:
@@ -78,7 +78,7 @@ def schedule(k: int) -> list[tuple[int, int]]:
 
 
 def factor_columns(k: int) -> sp.Matrix:
-    """G_k up to the peak: e^{-A j Delta} e for the components of step k, with no inverse of B or A."""
+    """G_k of Lemma 1 for a peak of 1, without inverses: e^{-A j Delta} e for the components of step k."""
     columns = []
     for j, component in schedule(k):
         columns.append(transition(-j * interval) * (TRANSVERSE if component else RADIAL))

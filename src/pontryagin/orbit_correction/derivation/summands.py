@@ -1,6 +1,6 @@
-"""Lemma 1 and what follows from it, for matrices of any size: SymPy's noncommuting symbols stand for them.
+"""Lemma 1, Theorem 2, Lemma 7 and Lemma 8 for matrices of any size, as noncommuting symbols of SymPy.
 
-A set that is a sum of linear images of U(k), ..., U(k+N-1) is known by how u(k), ..., u(k+N-1) enter x(k).
+A sum of linear images of U(k), ..., U(k+N-1) is represented by the same sum of images of u(k), ..., u(k+N-1).
 """
 
 from collections.abc import Sequence
@@ -53,7 +53,10 @@ def final_state(N: int) -> sp.Expr:
 
 
 def state_brought_to_zero(N: int, k: int = 0, size: sp.Expr = sp.S.One) -> sp.Expr:
-    """The x(k) that the controls (times `size`) of steps k to k+N-1 bring to 0: (1) read backwards."""
+    """The x(k) of (2) that the controls (times `size`) of steps k to k+N-1 bring to 0: (1) backwards.
+
+    With `size` alpha it is that of the system (7), Lemma 7. One step of it is Corollary 1.
+    """
     state = sp.S.Zero
     for step in reversed(range(k, k + N)):
         state = A(step) ** -1 * (state - size * u(step))
@@ -61,7 +64,7 @@ def state_brought_to_zero(N: int, k: int = 0, size: sp.Expr = sp.S.One) -> sp.Ex
 
 
 def adjoint(k: int) -> sp.Expr:
-    """psi(k) from psi(0), the recursion of Theorem 2, the initial vector left away."""
+    """The product that takes psi(0) to psi(k), by the recursion of Theorem 2 and (6)."""
     state = sp.S.One
     for step in range(k):
         state = A_transposed(step) ** -1 * state
@@ -69,7 +72,7 @@ def adjoint(k: int) -> sp.Expr:
 
 
 def carried_back(k: int) -> sp.Expr:
-    """H of the set of states that A(k-1) ... A(0) carries into U(k-1): H~(k) of E_k, by Lemma 8."""
+    """H~(k) of E_k, the states that A(k-1) ... A(0) carries into U(k-1), by Lemma 8."""
     shape = H(k - 1)
     for step in reversed(range(k)):
         shape = A_transposed(step) * shape * A(step)

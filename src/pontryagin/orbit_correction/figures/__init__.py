@@ -1,4 +1,4 @@
-"""Figures and tables of Ibragimov 2017: from a state or a plan to a picture."""
+"""Figures and tables of Ibragimov 2017, made from states and plans."""
 
 from pontryagin.orbit_correction.figures import tables
 from pontryagin.orbit_correction.figures.ergodic import ergodic_limit

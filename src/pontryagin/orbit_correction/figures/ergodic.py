@@ -1,4 +1,4 @@
-"""Many impulses: alpha N and its limit."""
+"""Figure of alpha N for many steps, and of its limit."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,7 +14,7 @@ from pontryagin.orbit_correction.plan.thrust import THRUSTS
 def ergodic_limit(
     z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, most: int = 3000, points: int = 90
 ) -> Figure:
-    """Left: alpha times the number of impulses, and its limit. Right: how far it is from the limit.
+    """Left: alpha times the number of impulses, and its limit. Right: the distance from the limit.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def ergodic_limit(
     interval, peak : float
         As in `correct`.
     most, points : int
-        Steps at the right end, and at how many numbers of steps the gauge is computed.
+        Largest number of steps, and how many numbers of steps are computed.
     """
     figure, (left, right) = subplots(1, 2, height=3.2)
     steps = np.unique(np.geomspace(2, most, points).round().astype(int))

@@ -1,4 +1,4 @@
-"""The true flight: what the linear plan leaves, and how replanning removes it."""
+"""Figures of flights on the nonlinear equations: the deviation left by a plan, and by further plans."""
 
 from collections.abc import Mapping
 
@@ -14,12 +14,14 @@ from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 @styled
 def nonlinear_residual(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Figure:
-    """What the true flight leaves of a deviation, state and peak scaled together; of slope 2.
+    """The deviation that the nonlinear flight of a plan leaves, against |z0|, which has slope 2.
+
+    State and peak are scaled together.
 
     Parameters
     ----------
     z0 : (3,) array_like
-        Deviation; it gives the direction.
+        Deviation whose multiples are flown.
     interval, peak : float
         As in `correct`.
     """
@@ -41,7 +43,7 @@ def nonlinear_residual(z0: ArrayLike, interval: float = 0.25, peak: float = 0.00
 
 
 def fitted_slope(sizes: np.ndarray, left: np.ndarray) -> float:
-    """Slope of log(left) against log(size) where rounding does not show."""
+    """Slope of log(left) against log(size) where the deviation left is well above rounding."""
     clear = left > 1e-12
     return float(np.polyfit(np.log(sizes[clear]), np.log(left[clear]), 1)[0])
 

@@ -1,4 +1,4 @@
-"""The gauge against the number of impulses, for every set of impulses."""
+"""Figure of the gauge against the number of impulses, for every set of impulses."""
 
 from collections.abc import Sequence
 
@@ -34,14 +34,14 @@ def gauge_over_impulses(
     interval: float = 0.25,
     peak: float = 0.0035,
 ) -> Figure:
-    """How much of the peak a state needs when more impulses are fired: ball, disc, square, p-balls.
+    """The gauge against the number of impulses, for ball, disc, square and p-balls.
 
     Parameters
     ----------
     z0 : (3,) array_like
         Deviation.
     most : int
-        Impulses at the right end.
+        Largest number of impulses.
     powers : sequence of float
         Exponents of the p-balls.
     interval, peak : float
@@ -73,6 +73,7 @@ def gauge_over_impulses(
 
 
 def _power(z0: ArrayLike, steps: int, p: float, interval: float, peak: float) -> float:
+    """The gauge for a p-ball, or nan where the impulses do not span the space."""
     try:
         return power_gauge(z0, steps, p, interval, peak).alpha
     except Infeasible:

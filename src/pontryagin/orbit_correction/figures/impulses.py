@@ -1,4 +1,4 @@
-"""Plans as pictures: one plan against time, hodographs in the square, plans of one length side by side."""
+"""Figures of plans: against time, as hodographs in the square, and plans of one length side by side."""
 
 from collections.abc import Sequence
 
@@ -9,6 +9,7 @@ from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
 
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, RED, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.plan.alternatives import Alternative, least_energy, least_fuel, least_peak
 from pontryagin.orbit_correction.plan.correction import Plan, single
@@ -19,7 +20,7 @@ MEASURES = {"peak": BLUE, "energy": ORANGE, "fuel": GREEN}
 
 @styled
 def plan_figure(plan: Plan) -> Figure:
-    """One plan: deviations between the impulses, above; the impulses' two components, below.
+    """Above: the deviations between the impulses of a plan. Below: the two components of the impulses.
 
     Parameters
     ----------
@@ -33,7 +34,7 @@ def plan_figure(plan: Plan) -> Figure:
     """
     count = int(single(plan).impulse_count)
     if count == 0:
-        raise ValueError("plan must have an impulse, got that of no deviation")
+        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
     figure, (above, below) = subplots(2, height=4.6, sharex=True, height_ratios=(1.5, 1))
     times, states = linear_path(plan)
     for values, colour, name in zip(states.T, (BLUE, RED, GREEN), labels.STATES, strict=True):
@@ -53,7 +54,7 @@ def plan_figure(plan: Plan) -> Figure:
 
 
 def linear_path(plan: Plan, samples: int = 30) -> tuple[np.ndarray, np.ndarray]:
-    """Times (k,) and deviations (k, 3) of the linear motion, both sides of every impulse."""
+    """Times (k,) and deviations (k, 3) of the linear motion, before and after every impulse."""
     grid = np.linspace(0.0, plan.thrust.interval, samples)
     flow = satellite.transition(grid)
     times, states, state = [np.zeros(1)], [plan.z0[None]], plan.z0
@@ -67,12 +68,12 @@ def linear_path(plan: Plan, samples: int = 30) -> tuple[np.ndarray, np.ndarray]:
 
 @styled
 def hodograph(plans: Sequence[Plan]) -> Figure:
-    """The impulses of plans for one state in the square of admissible impulses, with the inscribed disc.
+    """The impulses of several plans for one state, in the square of admissible impulses and its disc.
 
     Parameters
     ----------
     plans : sequence of Plan
-        One a panel, each of one state.
+        One for each panel, each of one state.
     """
     figure, axes = subplots(1, len(plans), height=2.75, sharey=True, squeeze=False)
     for ax, plan in zip(axes[0], plans, strict=True):
@@ -93,7 +94,7 @@ def hodograph(plans: Sequence[Plan]) -> Figure:
 
 
 def _numbered(points: np.ndarray) -> dict[tuple[float, float], str]:
-    """The impulses' numbers at their places, together where places agree."""
+    """The numbers of the impulses at each place, joined where several impulses are the same."""
     found: dict[tuple[float, float], str] = {}
     for j, point in enumerate(points):
         x, y = (float(value) for value in point.round(3))
@@ -102,6 +103,7 @@ def _numbered(points: np.ndarray) -> dict[tuple[float, float], str]:
 
 
 def _square(ax: Axes) -> None:
+    """Draw the square of admissible impulses and its inscribed disc."""
     ax.add_patch(Rectangle((-1, -1), 2, 2, facecolor="#f3f3f3", edgecolor=INK, linewidth=1.0))
     ax.add_patch(Circle((0, 0), 1, facecolor="none", edgecolor=INK, linewidth=0.8, linestyle="--"))
     ax.set(xlim=(-1.15, 1.15), ylim=(-1.15, 1.15), aspect="equal", xticks=(-1, 0, 1), yticks=(-1, 0, 1))

@@ -1,4 +1,4 @@
-"""Numbers of impulses over random injection errors."""
+"""Figure of the numbers of impulses over random injection errors."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,13 +10,14 @@ from pontryagin.orbit_correction.montecarlo import Distribution
 
 @styled
 def injection_impulses(found: Distribution, sure: float = 0.99) -> Figure:
-    """Left: share of the errors that need just so many impulses. Right: share that so many suffice for.
+    """Left: share of the errors that need each number of impulses. Right: share for which it suffices.
 
     Parameters
     ----------
     found : Distribution
+        Numbers of impulses of random errors.
     sure : float
-        Share whose quantile is marked.
+        Share of the errors whose quantile is marked.
     """
     figure, (left, right) = subplots(1, 2, height=3.1)
     most = max(int(counts.max()) for counts in found.counts.values())

@@ -1,27 +1,30 @@
-"""Controllable sets: in space, stretched to unit size, and to scale, seen along the supporting planes."""
+"""Figures of 0-controllable sets: in space, scaled to unit size, and in planes across supporting planes."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.plan.correction import Plan, single
 
 SHADES = (PURPLE, GREEN, BLUE, SKY, RED, INK)
+"""Colours of X(1, 0), X(2, 0), ...; they repeat after six."""
+
 PERCENT = 100.0
+
 VIEWS = ((1, 0), (1, 2))
-"""Pairs of axes of the plane views: horizontal, vertical."""
+"""The horizontal and the vertical axis of each plane view."""
 
 
 @styled
 def controllable_sets(plan: Plan) -> Figure:
     """The sets X(1, 0) ... X(N, 0), the states of the plan and their adjoint vectors -psi.
 
-    Left in space, right their outlines as seen along two of the axes.
+    Left: in space. Right: their outlines, seen along two of the axes.
 
     Parameters
     ----------
@@ -73,7 +76,8 @@ def controllable_sets(plan: Plan) -> Figure:
 def remaining_sets(plan: Plan) -> Figure:
     """At each step the set alpha X(N - k, k), the state on its boundary, and the normal -psi(k) there.
 
-    Each is seen along its supporting plane at the state, all to one scale.
+    That the states stay on these boundaries is Theorem 1 for the system (7), and Theorem 4. Each set is seen
+    along its supporting plane at the state, all to one scale.
 
     Parameters
     ----------
@@ -87,16 +91,16 @@ def remaining_sets(plan: Plan) -> Figure:
     """
     steps = _steps(plan)
     if steps > 6:
-        raise ValueError(f"plan must be of at most 6 steps, got {steps}")
+        raise ArgumentValueError(f"plan must be of at most 6 steps, got {steps}", "plan")
     figure, grid = subplots(1, steps, height=3.25, sharey=True, squeeze=False)
     axes, square = grid[0], plan.thrust.name == "box"
     for k, ax in enumerate(axes):
         factors = _at_step(plan, steps, k)
         seen = edge_on(factors, -plan.costates[k])
-        whole = PERCENT * _outline(factors, seen, square) @ seen.T
+        outline = PERCENT * _outline(factors, seen, square) @ seen.T
         state = PERCENT * plan.states[k] @ seen.T
-        ax.plot(*whole.T, "--", color=BLUE, linewidth=0.9, label="$X(N - k, k)$")
-        ax.fill(*(plan.gauge * whole).T, facecolor=SKY, edgecolor=BLUE, label=r"$\alpha X(N - k, k)$")
+        ax.plot(*outline.T, "--", color=BLUE, linewidth=0.9, label="$X(N - k, k)$")
+        ax.fill(*(plan.gauge * outline).T, facecolor=SKY, edgecolor=BLUE, label=r"$\alpha X(N - k, k)$")
         ax.axvline(state[0], color=INK, linewidth=0.8)
         look = {"arrowstyle": "-|>", "color": ORANGE, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
         ax.annotate("", (state[0] + 0.7, state[1]), state, arrowprops=look)
@@ -126,13 +130,14 @@ def edge_on(factors: Array, normal: Array) -> Array:
     return np.stack([along, across * np.sign(across[np.abs(across).argmax()])])
 
 
-def _outline(factors: NDArray, plane: NDArray, square: bool) -> Array:
-    """Support points (361, 3) with normals in a plane: where a set, seen across the plane, ends."""
+def _outline(factors: Array, plane: Array, square: bool) -> Array:
+    """Support points (361, 3) whose normals lie in a plane: the outline of a set projected on the plane."""
     turn = np.linspace(0, 2 * np.pi, 361)
     return sets.support_points(factors, np.column_stack([np.cos(turn), np.sin(turn)]) @ plane, square)
 
 
-def _plane(ax: Axes, path: NDArray, towards: NDArray) -> None:
+def _plane(ax: Axes, path: Array, towards: Array) -> None:
+    """Draw the states and their adjoint vectors in one of the plane views."""
     ax.plot(*path.T, "o-", color=INK, markersize=3, linewidth=1.1)
     for k, (start, step) in enumerate(zip(path, towards, strict=False)):
         look = {"arrowstyle": "-|>", "color": ORANGE, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0}
@@ -150,13 +155,15 @@ def _at_step(plan: Plan, steps: int, k: int) -> Array:
 
 
 def _steps(plan: Plan) -> int:
+    """The number of steps of a plan of one state, at least one."""
     steps = int(single(plan).steps)
     if steps == 0:
-        raise ValueError("plan must have a step, got that of no deviation")
+        raise ArgumentValueError("plan must have a step, got that of no deviation", "plan")
     return steps
 
 
 def _dress(ax: Axes3D) -> None:
+    """Equal scales and named axes."""
     ax.set_box_aspect((1, 1, 1))
     ax.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), zlim=(-1.1, 1.1))
     for number, axis in enumerate((ax.xaxis, ax.yaxis, ax.zaxis), start=1):
@@ -165,6 +172,7 @@ def _dress(ax: Axes3D) -> None:
 
 
 def _description(frame: sets.Frame) -> str:
+    """Direction and unit of each axis, in lines of text."""
     lines = []
     for number, (row, extent) in enumerate(zip(frame.axes, frame.extents, strict=True), start=1):
         direction = ", ".join(f"{value:.2f}".replace("-", "−") for value in row)
@@ -173,5 +181,6 @@ def _description(frame: sets.Frame) -> str:
 
 
 def _power(value: float) -> str:
+    """A number as a mantissa times a power of ten, in LaTeX."""
     mantissa, exponent = f"{value:.1e}".split("e")
     return rf"{mantissa}\cdot 10^{{{int(exponent)}}}"

@@ -1,4 +1,4 @@
-"""The interval between impulses: how many are needed, and how well they span the space."""
+"""Figure of the number of impulses and of their controllability against the interval between them."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,7 +14,7 @@ from pontryagin.orbit_correction.plan.thrust import THRUSTS
 def impulses_over_interval(
     z0: ArrayLike, peak: float = 0.0035, longest: float = 6.8, points: int = 272
 ) -> Figure:
-    """Above: the fewest impulses against the interval. Below: singular values of four impulses.
+    """Above: the fewest impulses. Below: singular values of the controllability matrix of four impulses.
 
     Parameters
     ----------
@@ -23,9 +23,9 @@ def impulses_over_interval(
     peak : float
         As in `correct`.
     longest : float
-        Interval at the right end, rad.
+        Largest interval, rad.
     points : int
-        Intervals at which plans are made.
+        Number of intervals at which plans are made.
     """
     figure, (above, below) = subplots(2, height=4.8, sharex=True)
     intervals = longest * np.arange(1, points + 1) / points

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import ergodic, printed
 from pontryagin.orbit_correction.figures.impulses import same_length
 from pontryagin.orbit_correction.flight import ClosedLoop
@@ -41,7 +42,9 @@ def controls(plan: Plan) -> Columns:
 def _beside(numbers: Sequence[Sequence[str]], ours: Array, symbol: str, digits: int) -> Columns:
     """A printed table, without its common factor 10^-2, beside our numbers in the same units."""
     if ours.shape != (len(numbers), 3):
-        raise ValueError(f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}")
+        raise ArgumentValueError(
+            f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}", "plan"
+        )
     columns: Columns = {"$k$": list(range(len(numbers)))}
     for i in range(3):
         texts, name = [row[i].removesuffix("e-2") for row in numbers], f"{symbol}_{i + 1}"
@@ -53,11 +56,12 @@ def _beside(numbers: Sequence[Sequence[str]], ours: Array, symbol: str, digits: 
 
 
 def _fixed(value: float, digits: int) -> str:
+    """A number with fixed digits and a true minus sign."""
     return f"{round(float(value), digits) + 0.0:.{digits}f}".replace("-", "−")
 
 
 def gauges(plans: Sequence[Plan]) -> Columns:
-    """N_min, alpha and the proofs of both, a row a plan."""
+    """N_min and alpha with the proofs of both, one row for each plan."""
     proofs = [plan.certificate for plan in plans]
     return {
         "impulses in": [plan.thrust.name for plan in plans],
@@ -103,7 +107,7 @@ def _rank(matrix: np.ndarray) -> int:
 def power_balls(
     z0: ArrayLike, powers: Sequence[float], interval: float = 0.25, peak: float = 0.0035
 ) -> Columns:
-    """N_min and alpha of p-balls, between the paper's ball and the square."""
+    """N_min and alpha for p-balls between the paper's ball and the cube."""
     found = [fewest_power_steps(z0, p, interval, peak) for p in powers]
     return {
         "$p$": [f"{p:g}" for p in powers],
@@ -116,7 +120,7 @@ def power_balls(
 
 
 def crossed_measures(plans: Sequence[Plan]) -> Columns:
-    """What the plans of least peak, energy and fuel cost in each measure, for every set of impulses."""
+    """Peak, energy and fuel of the plans of least peak, least energy and least fuel, for every plan given."""
     rows = [one for plan in plans for one in same_length(plan)]
     return {
         "impulses in": [one.plan.thrust.name for one in rows],
@@ -129,7 +133,7 @@ def crossed_measures(plans: Sequence[Plan]) -> Columns:
 
 
 def waste_table(found: Waste) -> Columns:
-    """Impulses over many states under ball, disc and square, and what the ball wastes."""
+    """Numbers of impulses of many states under ball, disc and square, and how many the ball wastes."""
     ball = found.counts["ball"]
     return {
         "impulses in": list(found.counts),
@@ -143,7 +147,7 @@ def waste_table(found: Waste) -> Columns:
 
 
 def closed_loop(loops: Mapping[str, ClosedLoop]) -> Columns:
-    """Each plan of each closed loop: what it starts from, how many impulses, what it leaves."""
+    """Each plan of each closed loop: the deviation before it, its impulses, the deviation after it."""
     rows = [(name, loop, i) for name, loop in loops.items() for i in range(len(loop.plans))]
     before = [float(loop.residuals[i]) for _, loop, i in rows]
     after = [float(loop.residuals[i + 1]) for _, loop, i in rows]
@@ -158,7 +162,7 @@ def closed_loop(loops: Mapping[str, ClosedLoop]) -> Columns:
 
 
 def limits(z0: ArrayLike, intervals: Mapping[str, float], peak: float = 0.0035, steps: int = 3000) -> Columns:
-    """alpha N at many steps and its limit, for intervals by their names and every set of impulses."""
+    """alpha N at a large N and its limit, for intervals by their names and every set of impulses."""
     rows = [(words, h, name) for words, h in intervals.items() for name in THRUSTS]
     ends = [ergodic.limit(z0, h, peak, name) for _, h, name in rows]
     reached = [float(ergodic.approach(z0, [steps], h, peak, name)[0]) for _, h, name in rows]

@@ -1,4 +1,4 @@
-"""Impulses that the paper's ball wastes, over random states."""
+"""Figure of the impulses that the paper's ball wastes, over random states."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -8,12 +8,12 @@ from pontryagin.orbit_correction.figures import labels
 from pontryagin.orbit_correction.waste import Waste
 
 AREA = 5.0
-"""Of a dot that stands for one state, in square points."""
+"""Area of the dot of one state, in square points."""
 
 
 @styled
 def wasted_impulses(found: Waste) -> Figure:
-    """Left: the impulses that the square saves, over the ball's. Right: how often how many are saved.
+    """Left: impulses that the square saves against those of the ball. Right: shares of numbers saved.
 
     Parameters
     ----------

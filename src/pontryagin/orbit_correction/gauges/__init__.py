@@ -1,4 +1,4 @@
-"""The gauge alpha of a state in a 0-controllable set, Lemmas 7 and 9: a module for each shape of controls.
+"""The gauge alpha of a state in a 0-controllable set, Lemma 7 and Lemma 9, for each shape of the controls.
 
 `ellipsoids` is the paper's case, `kinks` the disc, whose ellipsoids are flat, `zonotope` the square, `pball`
 the p-balls between ball and cube. `general` is the gauge of any `DiscreteSystem`. `columns` is the linear

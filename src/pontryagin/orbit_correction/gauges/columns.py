@@ -1,7 +1,8 @@
-"""Convex programmes over sums of G_k u_k = b by generated columns: mixtures of boundary points, by HiGHS.
+"""Linear programmes over mixtures of boundary points of the controls' sets, solved by HiGHS.
 
-A mixture is admissible because the sets are convex; the multipliers psi of the linear programme prove a
-bound whatever the mixture, and name for each step the boundary point that would help most.
+A mixture of boundary points is an admissible control because the sets are convex. The multipliers psi of the
+linear programme prove a lower bound whatever the mixture, and tell for each step which boundary point, added
+as a column, would lower the cost most.
 """
 
 from dataclasses import dataclass
@@ -13,19 +14,32 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 
 PRECISIONS = (1e-10, 1e-9, 1e-8)
-"""Tolerances of HiGHS, tried in turn: where hardly more than one plan exists the finest may find none."""
+"""Tolerances of HiGHS, tried in turn.
+
+Where hardly more than one plan exists, HiGHS may find none to the finest tolerance.
+"""
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Points of the steps' sets: whose they are (n,), which (n, m), and what each costs (n,)."""
+    """Points of the controls' sets.
+
+    Attributes
+    ----------
+    owners : (n,) int array
+        The step of each point.
+    points : (n, m) array
+        The points.
+    costs : (n,) array
+        What each costs.
+    """
 
     owners: NDArray[np.int64]
     points: Array
     costs: Array
 
-    def joined(self, owners: NDArray, points: NDArray, costs: NDArray) -> "Columns":
-        """These and more."""
+    def joined(self, owners: NDArray[np.int64], points: Array, costs: Array) -> "Columns":
+        """These columns and more."""
         return Columns(
             np.append(self.owners, owners),
             np.concatenate([self.points, points]),
@@ -33,7 +47,9 @@ class Columns:
         )
 
 
-def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tuple[float, Array, Array]:
+def mixture(
+    factors: Array, target: Array, columns: Columns, room: float | None = None
+) -> tuple[float, Array, Array]:
     """The cheapest mixture of columns that reaches the target: its cost, psi, and the controls.
 
     Parameters
@@ -43,9 +59,10 @@ def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tu
     target : (3,) array
         b.
     columns : Columns
-    shared : bool
-        Whether the largest total weight of a step is the cost (the gauge), else it is at most 1 and each
-        column costs its own.
+        The points to mix.
+    room : float, optional
+        Largest total weight of a step; the cost is then the sum of the columns' own costs. Without it the
+        cost is the largest total weight that a step has, which gives the gauge.
 
     Raises
     ------
@@ -57,7 +74,7 @@ def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tu
     steps = len(factors)
     reach = np.einsum("nij,nj->in", factors[columns.owners], columns.points)
     within = (columns.owners == np.arange(steps)[:, None]).astype(float)
-    last = float(shared)
+    last = float(room is None)
     equal = np.hstack([reach, np.zeros((3, 1))])
     below = np.hstack([within, np.full((steps, 1), -last)])
     for precision in PRECISIONS:
@@ -65,7 +82,7 @@ def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tu
         found = linprog(  # type: ignore[call-overload]
             np.append((1 - last) * columns.costs, last),
             A_ub=below,
-            b_ub=np.full(steps, 1 - last),
+            b_ub=np.full(steps, room or 0.0),
             A_eq=equal,
             b_eq=target,
             method="highs-ds",
@@ -81,7 +98,12 @@ def mixture(factors: Array, target: Array, columns: Columns, shared: bool) -> tu
     return float(found.fun), found.eqlin.marginals, controls + np.einsum("kij,i->kj", factors, miss)
 
 
-def whitened(factors: Array, target: Array) -> tuple[NDArray, NDArray]:
+def gram_root(factors: Array) -> Array:
+    """The Cholesky factor of the sum of G_k G_k', (n, n)."""
+    return np.asarray(np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors)))
+
+
+def whitened(factors: Array, target: Array) -> tuple[Array, Array]:
     """G_k and b in the coordinates in which the sum of G G' is the identity."""
-    root = np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
-    return np.linalg.solve(root, factors), np.linalg.solve(root, target)
+    root = np.asarray(gram_root(factors), dtype=float)
+    return np.asarray(np.linalg.solve(root, factors)), np.asarray(np.linalg.solve(root, target))

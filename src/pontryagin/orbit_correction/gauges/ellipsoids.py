@@ -1,21 +1,30 @@
-"""The gauge of the sum of ellipsoids E_k = G_k B (B the unit ball): how much of the peak a state needs.
+"""The gauge of a sum of ellipsoids E_k = G_k B, B the unit ball, by Newton's method: Lemma 9 and (8) to (11).
 
-The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b is the largest (b, psi)/S(psi); its
-square is twice the largest value of the smooth concave (b, psi) - S(psi)^2/2, found by Newton's method.
-Any psi proves a lower bound; the controls that it chooses, corrected to reach b exactly, an upper one.
+The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b = -x0 is the largest (b, psi)/S(psi). Its
+square is twice the largest value of the concave function (b, psi) - S(psi)^2/2. Where the gradient of this
+function vanishes, b = S(psi) sum G_k G_k'psi/|G_k'psi|, which is the equation of Lemma 9 with the factor
+alpha = S(psi). Any psi proves the lower bound (b, psi)/S(psi). The controls that psi chooses (Lemma 10),
+corrected so that they reach b, prove an upper bound.
 """
 
 from math import fabs, sqrt
 
 import numpy as np
 
+from pontryagin.arrays import Array
+
 STEPS = 80
+"""Most iterations of Newton's method."""
+
 GAP = 1e-12
+"""Relative gap between the bounds above which a harder method is tried."""
+
 CONTINUATION = 12
+"""Rounds of the continuation, each with a tenth of the smoothing of the round before."""
 
 
-def cholesky_solve(matrix, right):
-    """Solve a positive definite system in place of its right-hand side; False if it is not definite."""
+def cholesky_solve(matrix: Array, right: Array) -> bool:
+    """Overwrite the right-hand side by the solution; False if the matrix is not positive definite."""
     n = matrix.shape[0]
     for j in range(n):
         pivot = matrix[j, j]
@@ -34,8 +43,8 @@ def cholesky_solve(matrix, right):
     return True
 
 
-def forward_backward(factor, right):
-    """Solve L L' x = right in place, given L."""
+def forward_backward(factor: Array, right: Array) -> None:
+    """Overwrite ``right`` by the solution x of L L' x = right, given L."""
     n = factor.shape[0]
     for i in range(n):
         for k in range(i):
@@ -47,8 +56,8 @@ def forward_backward(factor, right):
         right[i] /= factor[i, i]
 
 
-def support(factors, psi, smoothing):
-    """S(psi), each term |g| rounded off to sqrt(|g|^2 + smoothing^2)."""
+def support(factors: Array, psi: Array, smoothing: float) -> float:
+    """S(psi), with each term |g| smoothed to sqrt(|g|^2 + smoothing^2)."""
     steps, n, m = factors.shape
     total = 0.0
     for k in range(steps):
@@ -62,8 +71,10 @@ def support(factors, psi, smoothing):
     return total
 
 
-def support_derivatives(factors, psi, smoothing, gradient, hessian):
-    """`support`, its gradient (the support point) and its second derivative (lower triangle), in place."""
+def support_derivatives(
+    factors: Array, psi: Array, smoothing: float, gradient: Array, hessian: Array
+) -> float:
+    """`support`; in place, its gradient, the support point rho(psi), and the lower half of its Hessian."""
     steps, n, m = factors.shape
     total = 0.0
     gradient[:] = 0.0
@@ -95,10 +106,13 @@ def support_derivatives(factors, psi, smoothing, gradient, hessian):
     return total
 
 
-def gauge_of(factors, gram_factor, b, psi, controls):
-    """Lower bound on the gauge of b, and peak of controls (steps, m) that reach b; psi ends as the costate.
+def gauge_of(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
+    """Lower bound on the gauge of b, and the peak of controls that reach b.
 
-    ``gram_factor`` is the Cholesky factor of the sum of G_k G_k'.
+    ``psi`` is overwritten by the costate and ``controls`` (steps, m) by the controls. ``gram_factor`` is the
+    Cholesky factor of the sum of G_k G_k'.
     """
     if not least_energy_start(factors, gram_factor, b, psi):
         controls[:, :] = 0.0
@@ -107,14 +121,16 @@ def gauge_of(factors, gram_factor, b, psi, controls):
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def gauge_by_continuation(factors, gram_factor, b, psi, controls):
-    """`gauge_of` for sets that are all but flat, where Newton's method alone ends short."""
+def gauge_by_continuation(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
+    """`gauge_of` for sets that are nearly flat, where Newton's method alone stops before the optimum."""
     continuation(factors, gram_factor, b, psi)
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def continuation(factors, gram_factor, b, psi):
-    """Newton's method on support functions rounded off less and less."""
+def continuation(factors: Array, gram_factor: Array, b: Array, psi: Array) -> None:
+    """Newton's method on support functions that are smoothed less from round to round."""
     least_energy_start(factors, gram_factor, b, psi)
     smoothing = support(factors, psi, 0.0) / factors.shape[0]
     for _ in range(CONTINUATION):
@@ -123,8 +139,8 @@ def continuation(factors, gram_factor, b, psi):
     newton(factors, b, psi, 0.0)
 
 
-def least_energy_start(factors, gram_factor, b, psi):
-    """The costate of the least-energy controls, scaled to the best value of the dual; False if b = 0."""
+def least_energy_start(factors: Array, gram_factor: Array, b: Array, psi: Array) -> bool:
+    """Set psi to the costate of the least-energy controls, scaled to the best dual value; False if b = 0."""
     n = b.shape[0]
     size = 0.0
     for i in range(n):
@@ -142,8 +158,8 @@ def least_energy_start(factors, gram_factor, b, psi):
     return True
 
 
-def newton(factors, b, psi, smoothing):
-    """Minimise S(psi)^2/2 - (b, psi) from psi, in place."""
+def newton(factors: Array, b: Array, psi: Array, smoothing: float) -> None:
+    """Minimise S(psi)^2/2 - (b, psi), starting from psi and overwriting it."""
     n = b.shape[0]
     gradient, hessian, step, trial = np.empty(n), np.empty((n, n)), np.empty(n), np.empty(n)
     polish = 3
@@ -185,8 +201,11 @@ def newton(factors, b, psi, smoothing):
                 break
 
 
-def bounds(factors, gram_factor, b, psi, parts):
-    """What psi proves from below, and the peak of the controls it chooses once they reach b exactly."""
+def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Array) -> tuple[float, float]:
+    """The lower bound that psi proves, and the peak of its controls of Lemma 10, corrected so as to reach b.
+
+    The correction is the least-energy control for what the controls miss.
+    """
     steps, n, m = factors.shape
     total, pairing = support(factors, psi, 0.0), 0.0
     for i in range(n):
@@ -217,10 +236,11 @@ def bounds(factors, gram_factor, b, psi, parts):
     return lower, sqrt(upper)
 
 
-def gauge_stack(factors, targets, costates, results):
-    """Bounds on the gauge and what the controls miss, for each row of targets (states, n).
+def gauge_stack(factors: Array, targets: Array, costates: Array, results: Array) -> None:
+    """Both bounds on the gauge and what the controls miss of b, for each row of targets (states, n).
 
-    Factors are whitened: the sum of G_k G_k' is the identity. Results are (states, 3), costates (states, n).
+    Factors are whitened: the sum of G_k G_k' is the identity. The results fill ``results`` (states, 3) and
+    ``costates`` (states, n).
     """
     steps, n, m = factors.shape
     controls = np.empty((steps, m))

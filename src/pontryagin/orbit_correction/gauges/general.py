@@ -1,4 +1,4 @@
-"""The gauge of the 0-controllable set of any system with ellipsoidal controls, Lemmas 7 and 9."""
+"""The gauge of the 0-controllable set of any system with ellipsoidal controls, Lemma 7 and Lemma 9."""
 
 from dataclasses import dataclass
 
@@ -7,12 +7,14 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible
+from pontryagin.errors import ArgumentTypeError, Infeasible
 from pontryagin.numerics.jit import compiled
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
 from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.system.discrete import DiscreteSystem
 from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
 
@@ -29,18 +31,20 @@ VANISHING = 1e-100
 """Steps that add less than this share of the reach are set to zero: their squares would underflow."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """How much of its peak a system needs to bring states to the origin in given steps.
+    """The share of its peak that a system needs to bring states to the origin in given steps.
 
     Attributes
     ----------
     alpha : (...) array
-        Minkowski functional of the 0-controllable set at the state: at most 1 where it can be done.
+        Minkowski functional of the 0-controllable set X(N, 0) at the state: at most 1 if and only if N steps
+        suffice.
     costate : (..., n) array
         psi_0, unit; zeros for the zero state.
     certificate : Certificate
-        alpha of controls that reach the origin exactly, and the bound that psi_0 proves.
+        The value is alpha of controls that reach the origin; the bound is the one that psi_0 proves.
     """
 
     alpha: Array
@@ -49,7 +53,10 @@ class Gauge:
 
 
 def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
-    """The gauge of the set of states that the system brings to the origin in `steps` steps, Lemmas 7 and 9.
+    """The gauge of the set of states that the system brings to the origin in `steps` steps.
+
+    It is the alpha of Lemma 7, found with the costate psi_0 of Lemma 9 by maximising a concave function
+    instead of solving the system (11), which has no solution for states inside the set.
 
     Parameters
     ----------
@@ -58,27 +65,38 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
     x0 : (..., n) array_like
         States.
     steps : int
-        Number of steps, at least one.
+        Number of steps N, at least one.
+
+    Returns
+    -------
+    Gauge
+        alpha, costate and certificate of every state.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is invalid, with its name.
     pontryagin.Infeasible
-        If the controls span less than the whole space.
+        If the controls do not span the space and a state lies outside what they span.
+    pontryagin.NotConverged
+        If rounding leaves a gap between the bounds.
+
+    Examples
+    --------
+    >>> system = DiscreteSystem(np.eye(2), np.eye(2))
+    >>> gauge(system, [[3.0, 4.0], [0.0, 5.0]], steps=5).alpha.round(9).tolist()
+    [1.0, 1.0]
     """
     if not isinstance(system, DiscreteSystem):
-        raise TypeError(f"system must be a DiscreteSystem, got {type(system).__name__}")
-    if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 1:
-        raise ValueError(f"steps must be a positive whole number, got {steps!r}")
-    n = system.step(0)[0].shape[0]
-    return gauge_of_factors(system.factors(int(steps)), vectors("x0", x0, n))
+        raise ArgumentTypeError(f"system must be a DiscreteSystem, got {type(system).__name__}", "system")
+    number, n = arguments.count("steps", steps), system.step(0)[0].shape[0]
+    return gauge_of_factors(system.factors(number), vectors("x0", x0, n))
 
 
 def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
 
-    A flat sum is taken as a set of the plane that it spans: states there have a gauge, others none.
+    A flat sum is taken as a set of the subspace that it spans: states there have a gauge, others have none.
     """
     n, shape = factors.shape[1], x0.shape[:-1]
     reach = np.abs(factors).max(axis=(0, 2))
@@ -115,10 +133,12 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
 
 
 def _require_reachable(left: Array, x0: Array) -> None:
+    """Refuse states of which something is left outside the span of the controls."""
     outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
     if outside.any():
         state = x0.reshape(left.shape)[int(np.argmax(outside))]
         raise Infeasible(
             f"the controls do not span the state space: x0 = {state.tolist()} is out of their reach, "
-            "whatever their size"
+            "whatever their size",
+            "x0",
         )

@@ -1,22 +1,29 @@
-"""The gauge of a sum of ellipses in space that may be flat, G_k (3, m): impulses in a disc, kinks included.
+"""The gauge of a sum of flat ellipses in space, G_k (3, m): impulses in a disc.
 
-The support function is not smooth where psi is orthogonal to a flat G_j: then step j does not matter to
-first order and need not be at its bound. If Newton's method ends short, the optimum is at such a psi, and
-the steps that vanish there take up whatever the others leave.
+The support function S(psi) = sum |G_k'psi| has a kink where psi is orthogonal to a flat G_j; there step j
+need not be at its bound. If Newton's method stops before the optimum, the optimum is at such a psi: the steps
+whose G_j'psi vanishes there reach what the other steps leave of b.
 """
 
 from math import sqrt
 
 import numpy as np
 
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction.gauges.ellipsoids import GAP, bounds, continuation, gauge_of, support
 from pontryagin.orbit_correction.gauges.zonotope import cross, dot
 
 CANDIDATES = 8
+"""Steps whose kinks are tried, those nearest to psi first."""
 
 
-def flat_gauge(factors, gram_factor, b, psi, controls):
-    """Lower bound and peak of controls (steps, m) with sum of G_k w_k = b; psi ends as the costate."""
+def flat_gauge(
+    factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
+) -> tuple[float, float]:
+    """Lower bound on the gauge of b, and the peak of controls w_k with sum of G_k w_k = b.
+
+    ``psi`` is overwritten by the costate and ``controls`` (steps, m) by the controls.
+    """
     lower, upper = gauge_of(factors, gram_factor, b, psi, controls)
     if upper - lower <= GAP * upper:
         return lower, upper
@@ -28,8 +35,8 @@ def flat_gauge(factors, gram_factor, b, psi, controls):
     return bounds(factors, gram_factor, b, psi, controls)
 
 
-def at_a_kink(factors, b, psi, controls):
-    """Whether the optimum is the kink of one of the steps, the nearest first; then psi is moved there."""
+def at_a_kink(factors: Array, b: Array, psi: Array, controls: Array) -> bool:
+    """Whether the optimum is at the kink of one of the steps; if so, psi is moved there."""
     steps = factors.shape[0]
     sizes = np.empty(steps)
     for k in range(steps):
@@ -46,8 +53,8 @@ def at_a_kink(factors, b, psi, controls):
     return False
 
 
-def bounds_at(factors, b, psi, controls):
-    """What psi proves, and the peak of the controls."""
+def bounds_at(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
+    """The lower bound that psi proves, and the peak of the controls."""
     upper = 0.0
     for k in range(factors.shape[0]):
         square = 0.0
@@ -57,7 +64,7 @@ def bounds_at(factors, b, psi, controls):
     return dot(b, psi) / support(factors, psi, 0.0), sqrt(upper)
 
 
-def length_along(factors, k, psi):
+def length_along(factors: Array, k: int, psi: Array) -> float:
     """|G_k'psi|."""
     square = 0.0
     for j in range(factors.shape[2]):
@@ -66,7 +73,7 @@ def length_along(factors, k, psi):
     return sqrt(square)
 
 
-def normal_of(factors, k, normal):
+def normal_of(factors: Array, k: int, normal: Array) -> None:
     """Normal of the plane of the two most independent columns of G_k."""
     best = -1.0
     trial = np.empty(3)
@@ -80,10 +87,11 @@ def normal_of(factors, k, normal):
                     normal[i] = trial[i]
 
 
-def kink(factors, b, psi, controls):
-    """Bound proved by a psi at which some steps vanish, and the peak when those share the rest.
+def kink(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
+    """Lower bound proved by a psi at which G_k'psi of some steps vanishes, and the peak of the controls.
 
-    They share it with the least energy, which is the least peak where they are the same plane's.
+    The other steps are at their bounds. What they leave of b is shared among the steps that vanish, with the
+    least energy, which is also the least peak where those steps act in the same plane.
     """
     steps, _, m = factors.shape
     pairing = dot(b, psi)
@@ -128,8 +136,8 @@ def kink(factors, b, psi, controls):
     return alpha, alpha * peak
 
 
-def in_plane(gram, normal, target):
-    """x of the plane with gram x = target, gram being singular along the normal."""
+def in_plane(gram: Array, normal: Array, target: Array) -> Array:
+    """The x orthogonal to the normal with gram x = target, where gram maps the normal to 0."""
     first, second, result = np.zeros(3), np.empty(3), np.empty(3)
     axis = 0
     for i in range(3):
@@ -146,7 +154,7 @@ def in_plane(gram, normal, target):
     return result
 
 
-def form(matrix, left, right):
+def form(matrix: Array, left: Array, right: Array) -> float:
     """left' matrix right."""
     total = 0.0
     for i in range(3):

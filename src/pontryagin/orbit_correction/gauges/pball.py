@@ -1,32 +1,38 @@
-"""Impulses in p-balls: between the paper's ball (p = 2) and the square (p infinite), strictly convex still.
+"""The gauge for impulses in p-balls, strictly convex sets between the paper's ball (p = 2) and the cube.
 
-Three successive impulse components form u with |u|_p <= peak, the larger p the closer to the square. All
-that the paper proves of strictly convex sets applies; the support function of G_k U is |G_k'psi|_q with
-1/p + 1/q = 1.
+Three successive impulse components form a control u with |u|_p <= peak; as p grows the set tends to the cube.
+What the paper proves of strictly convex sets, Lemma 2 to Lemma 5, applies. The support function of G_k U is
+|G_k'psi|_q with 1/p + 1/q = 1.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
+from pontryagin.orbit_correction import arguments
+from pontryagin.orbit_correction.gauges.columns import Columns, gram_root, mixture, whitened
 from pontryagin.orbit_correction.system.satellite import step_factors
-from pontryagin.validation import finite, positive, vectors
+from pontryagin.validation import finite
+from pontryagin.value import value_class
 
 ITERATIONS = 200
+"""Most rounds of column generation."""
+
 CLOSED = 5e-10
-"""Relative gap between the peak of the controls and the bound at which columns are enough."""
+"""Column generation ends when the gap between peak and bound, relative to the peak, is at most this."""
 
 MOST_STEPS = 2000
+"""Most steps among which `fewest_power_steps` searches."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class PowerGauge:
-    """How much of its peak a satellite needs, for impulses in p-balls.
+    """The share of its peak that a satellite needs, for impulses in p-balls.
 
     Attributes
     ----------
@@ -39,7 +45,8 @@ class PowerGauge:
     step_controls : (steps, 3) array
         Impulse components, orbital speeds.
     certificate : Certificate
-        What the controls miss, relative to the state; their alpha; the bound that psi_0 proves.
+        The residual is what the controls leave of the state, relative to it; the value is their alpha; the
+        bound is the one that psi_0 proves.
     """
 
     p: float
@@ -55,14 +62,14 @@ class PowerGauge:
 
     @property
     def impulse_count(self) -> int:
-        """Impulses of these steps."""
+        """The number of impulses in these steps."""
         return -(-3 * self.steps // 2)
 
 
 def power_gauge(
     z0: ArrayLike, steps: int, p: float, interval: float = 0.25, peak: float = 0.0035
 ) -> PowerGauge:
-    """Gauge of a state in the set of those corrected in given steps, |u|_p <= peak in each.
+    """Gauge of a state in the set of states that given steps correct, with |u|_p <= peak in each step.
 
     Parameters
     ----------
@@ -82,7 +89,7 @@ def power_gauge(
     pontryagin.Infeasible
         If the impulses of these steps do not span the space.
     pontryagin.NotConverged
-        If the bounds do not meet.
+        If the gap between the bounds does not close.
 
     Examples
     --------
@@ -90,30 +97,24 @@ def power_gauge(
     >>> [round(power_gauge(z0, 4, p).alpha, 4) for p in (2, 8, 16)]
     [0.9286, 0.6944, 0.6585]
     """
-    state = vectors("z0", z0, 3)
-    if state.ndim != 1:
-        raise ValueError(f"z0 must be (3,), got shape {state.shape}")
-    if not isinstance(steps, int | np.integer) or steps < 1:
-        raise ValueError(f"steps must be a positive whole number, got {steps!r}")
+    state, number = arguments.state(z0), arguments.count("steps", steps)
     exponent = float(finite("p", p, "a number greater than 1"))
     if exponent <= 1:
-        raise ValueError(f"p must be greater than 1, got {p}")
-    size = float(np.linalg.norm(state))
-    plain = float(positive("peak", peak)) * step_factors(int(steps), float(positive("interval", interval)))
-    if np.linalg.matrix_rank(np.hstack(list(plain)), tol=1e-9 * float(peak)) < 3:
-        raise Infeasible(f"{steps} steps of interval {interval} do not span the space of states")
+        raise ArgumentValueError(f"p must be greater than 1, got {p}", "p")
+    spacing, bound = arguments.positive_number("interval", interval), arguments.positive_number("peak", peak)
+    size, plain = float(np.linalg.norm(state)), bound * step_factors(number, spacing)
+    if np.linalg.matrix_rank(np.hstack(list(plain)), tol=1e-9 * bound) < 3:
+        raise Infeasible(f"{number} steps of interval {spacing} do not span the space of states", "steps")
     if size == 0:
         zero = np.array(0.0)
-        return PowerGauge(exponent, int(steps), state, 0 * plain[:, 0], Certificate(zero, zero, zero))
+        return PowerGauge(exponent, number, state, 0 * plain[:, 0], Certificate(zero, zero, zero))
     factors, target = whitened(plain, -state / size)
-    controls, psi, bound = _generate(factors, target, exponent)
+    controls, psi, proved = _generate(factors, target, exponent)
     missed = np.abs(np.einsum("kij,kj->i", plain, controls) + state / size).max()
     alpha = np.linalg.norm(controls, ord=exponent, axis=1).max()
-    normal = np.linalg.lstsq(_root(plain).T, psi, rcond=None)[0]
-    certificate = Certificate(np.array(missed), np.array(size * alpha), np.array(size * bound))
-    return PowerGauge(
-        exponent, int(steps), normal / np.linalg.norm(normal), float(peak) * size * controls, certificate
-    )
+    normal = np.linalg.lstsq(gram_root(plain).T, psi, rcond=None)[0]
+    certificate = Certificate(np.array(missed), np.array(size * alpha), np.array(size * proved))
+    return PowerGauge(exponent, number, normal / np.linalg.norm(normal), bound * size * controls, certificate)
 
 
 def fewest_power_steps(
@@ -124,7 +125,7 @@ def fewest_power_steps(
     Raises
     ------
     pontryagin.Infeasible
-        If no number of steps up to 2000 does.
+        If no number of steps up to 2000 corrects the state.
 
     Examples
     --------
@@ -149,22 +150,18 @@ def fewest_power_steps(
         following = int(np.ceil(guess * min(lower, 1e3)))
         guess = min(max(following, too_few + 1), enough - 1, MOST_STEPS)
     if best is None:
-        raise Infeasible(f"z0 = {np.asarray(z0).tolist()} is not corrected in {MOST_STEPS} steps")
+        raise Infeasible(f"z0 = {np.asarray(z0).tolist()} is not corrected in {MOST_STEPS} steps", "z0")
     return best, proof
 
 
-def _root(factors: NDArray) -> Array:
-    return np.linalg.cholesky(np.einsum("kij,klj->il", factors, factors))
-
-
-def _generate(factors: NDArray, target: NDArray, p: float) -> tuple[NDArray, NDArray, float]:
-    """Controls (steps, 3) of the least largest p-norm, the costate and its bound."""
+def _generate(factors: Array, target: Array, p: float) -> tuple[Array, Array, float]:
+    """Controls (steps, 3) whose largest p-norm is least, the costate, and the bound that it proves."""
     steps = len(factors)
     axes = np.tile(np.concatenate([np.eye(3), -np.eye(3)]), (steps, 1))
     columns = Columns(np.repeat(np.arange(steps), 6), axes, np.zeros(len(axes)))
     bound, costate = 0.0, target
     for _ in range(ITERATIONS):
-        _, psi, controls = mixture(factors, target, columns, shared=True)
+        _, psi, controls = mixture(factors, target, columns)
         offered, support = _support_points(np.einsum("kij,i->kj", factors, psi), p)
         proved = float(target @ psi / support.sum())
         if proved > bound:
@@ -176,8 +173,8 @@ def _generate(factors: NDArray, target: NDArray, p: float) -> tuple[NDArray, NDA
     raise NotConverged("the gauge of p-balls was not found", peak / bound - 1)
 
 
-def _support_points(along: NDArray, p: float) -> tuple[NDArray, NDArray]:
-    """u of the unit p-ball with the largest (v, u), and that value |v|_q."""
+def _support_points(along: Array, p: float) -> tuple[Array, Array]:
+    """For each v the point u of the unit p-ball with the largest (v, u), and that value |v|_q."""
     q = p / (p - 1)
     largest = np.abs(along).max(axis=1, keepdims=True)
     scaled = along / np.maximum(largest, 1e-300)

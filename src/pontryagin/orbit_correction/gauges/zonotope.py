@@ -1,34 +1,40 @@
-"""The gauge of a zonotope, the sum of segments [-g_k, g_k] in space: impulses in a square, exactly.
+"""The gauge of a zonotope, a sum of segments [-g_k, g_k] in space, by a simplex method: impulses in a square.
 
-The least sum |g_k.psi| over (b, psi) = 1 lies at a psi orthogonal to two of the segments. From one such
-vertex to the next along edges; each edge is searched exactly, the sum along it being convex and piecewise
-linear. At the end the multipliers of the two segments are their controls: primal and dual agree to rounding.
+The least sum of |g_k.psi| over (b, psi) = 1 is attained at a vertex, a psi orthogonal to two of the segments.
+The method moves from vertex to vertex along edges. Along an edge the sum is convex and piecewise linear, and
+its minimum is found exactly. At the last vertex the multipliers of the two segments are their controls, all
+other controls are at their bounds, and primal and dual value agree to rounding.
 """
 
 from math import fabs
 
 import numpy as np
+from numpy.typing import NDArray
+
+from pontryagin.arrays import Array
 
 PIVOTS = 10_000
+"""Most moves from vertex to vertex."""
 
 
-def cross(u, v, result):
+def cross(u: Array, v: Array, result: Array) -> None:
     """u x v."""
     result[0] = u[1] * v[2] - u[2] * v[1]
     result[1] = u[2] * v[0] - u[0] * v[2]
     result[2] = u[0] * v[1] - u[1] * v[0]
 
 
-def dot(u, v):
+def dot(u: Array, v: Array) -> float:
     """u . v in space."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    product: float = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    return product
 
 
-def turning_place(times, rates, crossed, used, slope):
+def turning_place(times: Array, rates: Array, crossed: NDArray[np.int64], used: int, slope: float) -> int:
     """Place in ``crossed[:used]`` of the segment at which the slope stops being negative, or -1.
 
-    Crossing segment k adds 2 |rates[k]|. ``crossed`` is rearranged: what is crossed earlier comes first. A
-    selection, not a sort, so that an edge costs time in proportion to the number of segments.
+    Crossing segment k adds 2 |rates[k]| to the slope. ``crossed`` is rearranged so that segments crossed
+    earlier come first. This is a selection, not a sort: its time is proportional to the number of segments.
     """
     low, high = 0, used
     while low < high:
@@ -55,23 +61,32 @@ def turning_place(times, rates, crossed, used, slope):
             if slope >= 0.0:
                 return place
         low = above
-    # Sums in another order may differ by rounding; then the slope vanishes where the last piece ends.
+    # Summed in another order the slope may be negative by rounding: then it vanishes at the last piece.
     return high - 1 if high < used else -1
 
 
-def slide(segments, psi, direction, slope, held, leaving, values, signs):
-    """Move psi along an edge to the least of the sum; returns the segment that stops it, or -1.
+def slide(
+    segments: Array,
+    psi: Array,
+    direction: Array,
+    slope: float,
+    fixed: int,
+    leaving: int,
+    values: Array,
+    signs: Array,
+) -> int:
+    """Move psi along an edge to the minimum of the sum; return the segment that vanishes there, or -1.
 
-    ``slope`` (negative) is the sum's rate at the start. ``values`` holds g_k.psi and ``signs`` the side on
-    which each segment counts, also where it is zero (more than two segments vanish at many vertices: all
-    radial impulses lie in one plane); both are kept up to date. ``held`` stays orthogonal; ``leaving`` has
-    just been let go.
+    ``slope``, which is negative, is the rate of the sum at the start. ``values`` holds g_k.psi. ``signs``
+    holds the sign with which each segment counts, also where g_k.psi is zero: more than two segments vanish
+    at many vertices, since all radial impulses lie in one plane. Both are kept up to date. The segment
+    ``fixed`` stays orthogonal to psi; ``leaving`` is the one that was orthogonal until this move.
     """
     count = segments.shape[0]
     rates, times, crossed = np.empty(count), np.empty(count), np.empty(count, np.int64)
     size, largest = 0.0, 0.0
     for k in range(count):
-        rates[k] = 0.0 if k == held else dot(segments[k], direction)
+        rates[k] = 0.0 if k == fixed else dot(segments[k], direction)
         size, largest = max(size, fabs(rates[k])), max(largest, fabs(values[k]))
     used = 0
     for k in range(count):
@@ -86,7 +101,7 @@ def slide(segments, psi, direction, slope, held, leaving, values, signs):
     last = turning_place(times, rates, crossed, used, slope)
     if last < 0:
         return -1
-    stop = crossed[last]
+    stop: int = crossed[last]
     for place in range(last):
         signs[crossed[place]] = -signs[crossed[place]]
     length = times[stop]
@@ -98,21 +113,24 @@ def slide(segments, psi, direction, slope, held, leaving, values, signs):
     return stop
 
 
-def descend(segments, psi, direction, held, values, signs):
-    """`slide` in whichever sense of the direction lowers the sum."""
+def descend(segments: Array, psi: Array, direction: Array, fixed: int, values: Array, signs: Array) -> int:
+    """`slide` along the direction or against it, whichever lowers the sum."""
     slope = 0.0
     for k in range(segments.shape[0]):
-        if k != held:
+        if k != fixed:
             slope += signs[k] * dot(segments[k], direction)
     if slope > 0.0:
         slope = -slope
         for i in range(3):
             direction[i] = -direction[i]
-    return slide(segments, psi, direction, slope, held, -1, values, signs)
+    return slide(segments, psi, direction, slope, fixed, -1, values, signs)
 
 
-def multipliers(segments, b, first, second, signs, result):
-    """Solve sum of signs g + x g_first + y g_second = z b for (x, y, z); False if the three are dependent."""
+def multipliers(segments: Array, b: Array, first: int, second: int, signs: Array, result: Array) -> bool:
+    """Solve sum of signs g + x g_first + y g_second = z b for (x, y, z).
+
+    The sum is over all segments but the two. False if the two and b are linearly dependent.
+    """
     total, right = np.zeros(3), np.empty(3)
     for k in range(segments.shape[0]):
         if k != first and k != second:
@@ -133,10 +151,10 @@ def multipliers(segments, b, first, second, signs, result):
     return True
 
 
-def zonotope_gauge(segments, b, psi, controls):
-    """Lower bound and peak of the controls (count,) whose sum of controls times segments is b.
+def zonotope_gauge(segments: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
+    """Lower bound on the gauge of b, and the peak of controls (count,) whose segments add up to b.
 
-    ``psi`` (3,) ends as the costate with (b, psi) = 1. The peak is infinite if no vertex was reached.
+    ``psi`` (3,) is overwritten by the costate with (b, psi) = 1. If no vertex is reached the peak is 1e300.
     """
     count = segments.shape[0]
     square = dot(b, b)

@@ -1,41 +1,47 @@
-"""Other plans of the same length: an interior state has many, of least peak, least energy and least fuel.
+"""Plans of the same length with least peak, least energy or least fuel.
 
-Each is a convex problem whose dual has three variables, the costate. With |.|* the conjugate of a step's
-cost over its set of impulses, (b, psi) - sum |G_k'psi|* is a bound from below for every psi.
+A state inside X(N_min, 0), the case (5), has many plans of N_min steps. Each of the three problems is convex,
+and its dual has three variables, the costate psi. With f* the conjugate of a step's cost over its set of
+impulses, (b, psi) - sum f*(G_k'psi) is a lower bound for every psi.
 """
 
 from dataclasses import dataclass
+from math import ceil, log2
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import NotConverged
 from pontryagin.orbit_correction.gauges.columns import Columns, mixture, whitened
 from pontryagin.orbit_correction.plan.correction import Plan, single
+from pontryagin.value import value_class
 
 ITERATIONS = 200
+"""Most iterations of Newton's method, and most rounds of column generation."""
+
 CLOSED = 1e-10
-"""Gap, relative to the value, at which an iteration ends."""
+"""Iterations end when the gap, relative to the value, is at most this."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Alternative:
-    """A plan with the impulses of another, spread to make another measure least.
+    """A plan that has the same number of steps as another, and makes another measure least.
 
     Peak, energy and fuel are in units of the bound on impulses, alpha_max.
 
     Attributes
     ----------
     plan : Plan
-        The plan whose length it keeps.
+        The plan whose number of steps it keeps.
     least : str
         "peak", "energy" or "fuel".
     step_controls : (N, components) array
         Impulse components of each step, orbital speeds.
     certificate : Certificate
-        What remains of the state, relative to it; the measure; the bound that a costate proves.
+        The residual is what remains of the state, relative to it; the value is the measure; the bound is the
+        one that a costate proves.
     """
 
     plan: Plan
@@ -51,7 +57,7 @@ class Alternative:
 
     @property
     def peak(self) -> float:
-        """Gauge of the largest step in the set of impulses."""
+        """The largest gauge of a step in the set of impulses."""
         return float(_sizes(self.plan, self._relative).max(initial=0.0))
 
     @property
@@ -61,7 +67,7 @@ class Alternative:
 
     @property
     def fuel(self) -> float:
-        """Sum of the impulses: of their lengths for the engine that turns, else of both components."""
+        """Sum of the lengths of the impulses for the disc, else sum of the moduli of their components."""
         return _fuel(self.plan, self._relative)
 
     @property
@@ -70,7 +76,7 @@ class Alternative:
 
 
 def least_peak(plan: Plan) -> Alternative:
-    """The plan itself: scaled by 1/alpha, no step could stay in its set.
+    """The plan itself: by the definition of the gauge no plan of its length has a smaller peak.
 
     Parameters
     ----------
@@ -88,8 +94,8 @@ def least_peak(plan: Plan) -> Alternative:
 def least_energy(plan: Plan) -> Alternative:
     """The plan of least sum of squares within the set of impulses.
 
-    Where no bound is met it is the closed form G' (sum G G')^-1 b; else Newton's method on the dual, whose
-    controls are the projections of G_k'psi on the set.
+    Where no bound is active the plan is the closed form G' (sum G G')^-1 b. Otherwise Newton's method solves
+    the dual; the controls are the projections of G_k'psi on the set.
 
     Parameters
     ----------
@@ -118,8 +124,9 @@ def least_energy(plan: Plan) -> Alternative:
 def least_fuel(plan: Plan) -> Alternative:
     """The plan of least sum of impulses within the set: a linear or cone programme.
 
-    Columns are generated: HiGHS mixes impulses on the sets' boundaries, and its multipliers name, for each
-    step, the impulse that would help most. The mixture is a plan, the multipliers a bound.
+    Columns are generated: HiGHS mixes impulses on the boundaries of the sets, and its multipliers tell for
+    each step which impulse, added to the mixture, lowers the fuel most. The mixture is a plan, and the
+    multipliers prove a bound.
 
     Parameters
     ----------
@@ -131,8 +138,8 @@ def least_fuel(plan: Plan) -> Alternative:
     ValueError
         If the plan is that of a stack.
     pontryagin.NotConverged
-        If the bounds do not meet: for the ball, where the gauge is within 1e-8 of 1 and hardly more than
-        one plan exists.
+        If the gap between the bounds does not close: for the ball, where the gauge is within 1e-8 of 1 and
+        hardly more than one plan exists.
 
     Examples
     --------
@@ -145,36 +152,39 @@ def least_fuel(plan: Plan) -> Alternative:
     shape = (len(factors), factors.shape[2])
     if plan.thrust.name == "box":
         factors = np.moveaxis(factors, 1, 2).reshape(-1, 3, 1)
-    outward = plan.thrust.peak * max(float(plan.gauge), 1e-300)
-    start = plan.step_controls.reshape(len(factors), factors.shape[2]) / outward
-    controls, value = _generate(factors, target, start, plan.thrust.name == "disc")
+    gauge = max(float(plan.gauge), 1e-300)
+    scale = 2.0 ** ceil(log2(gauge))
+    start = plan.step_controls.reshape(len(factors), factors.shape[2]) / (gauge * plan.thrust.peak)
+    controls, bound = _generate(factors, target / scale, start, 1 / scale, plan.thrust.name == "disc")
     controls = controls.reshape(shape)
-    return _alternative(plan, "fuel", controls, _fuel(plan, controls), value)
+    return _alternative(plan, "fuel", scale * controls, scale * _fuel(plan, controls), scale * bound)
 
 
-def _alternative(plan: Plan, least: str, controls: NDArray, value: float, bound: float) -> Alternative:
+def _alternative(plan: Plan, least: str, controls: Array, value: float, bound: float) -> Alternative:
     residual = plan.thrust.miss(plan.z0[None], plan.steps[None], controls[None])[0]
     certificate = Certificate(np.array(residual), np.array(value), np.array(bound))
     return Alternative(plan, least, plan.thrust.peak * controls, certificate)
 
 
-def _whitened(plan: Plan) -> tuple[NDArray, NDArray]:
+def _whitened(plan: Plan) -> tuple[Array, Array]:
     """G_k and b = -z0, whitened."""
     if not int(single(plan).steps):
         return np.zeros((0, 3, plan.step_controls.shape[-1])), np.zeros(3)
     return whitened(plan.thrust.factors(int(plan.steps)), -plan.z0)
 
 
-def _sizes(plan: Plan, controls: NDArray) -> Array:
+def _sizes(plan: Plan, controls: Array) -> Array:
+    """The gauges of the controls in the set of impulses; for the square those of each component."""
     return np.abs(controls) if plan.thrust.name == "box" else np.linalg.norm(controls, axis=1)
 
 
-def _fuel(plan: Plan, controls: NDArray) -> float:
+def _fuel(plan: Plan, controls: Array) -> float:
     measure = _length if plan.thrust.name == "disc" else _total
     return float(measure(controls).sum())
 
 
-def _least_energy(factors: NDArray, target: NDArray, square: bool) -> tuple[NDArray, float]:
+def _least_energy(factors: Array, target: Array, square: bool) -> tuple[Array, float]:
+    """Controls of least energy within the unit sets, and the bound that the costate proves."""
     project = _onto_box if square else _onto_balls
     psi = target.copy()
     for _ in range(ITERATIONS):
@@ -200,25 +210,30 @@ def _least_energy(factors: NDArray, target: NDArray, square: bool) -> tuple[NDAr
     return controls, value
 
 
-def _energy_bound(psi: NDArray, along: NDArray, controls: NDArray, target: NDArray) -> float:
-    """What psi proves: 2 (b, psi) - sum of max over the set of 2 (G_k'psi, u) - |u|^2."""
+def _energy_bound(psi: Array, along: Array, controls: Array, target: Array) -> float:
+    """The bound that psi proves: 2 (b, psi) - sum of the largest 2 (G_k'psi, u) - |u|^2 over the set."""
     return float(2 * (target @ psi) - (2 * along * controls - controls**2).sum())
 
 
-def _onto_box(along: NDArray) -> tuple[NDArray, NDArray]:
+def _onto_box(along: Array) -> tuple[Array, Array]:
+    """The projections on the unit square, and their derivatives."""
     inside = (np.abs(along) <= 1).astype(float)
     return np.clip(along, -1, 1), inside[:, :, None] * np.eye(along.shape[1])
 
 
-def _onto_balls(along: NDArray) -> tuple[NDArray, NDArray]:
+def _onto_balls(along: Array) -> tuple[Array, Array]:
+    """The projections on the unit ball, and their derivatives."""
     size = np.maximum(np.linalg.norm(along, axis=1), 1.0)[:, None]
     unit = along / size
     outward = np.where(size[:, :, None] > 1, unit[:, :, None] * unit[:, None, :], 0.0)
     return unit, (np.eye(along.shape[1]) - outward) / size[:, :, None]
 
 
-def _generate(factors: NDArray, target: NDArray, start: NDArray, turning: bool) -> tuple[NDArray, float]:
-    """Least sum of fuel by generated columns: controls (N, m) and the best bound."""
+def _generate(factors: Array, target: Array, start: Array, room: float, turning: bool) -> tuple[Array, float]:
+    """Controls (N, m) of sizes up to `room` with the least sum of fuel, and the best bound.
+
+    psi proves the bound (b, psi) - room * sum of gains; scaled down until nothing gains, (b, psi) itself.
+    """
     steps, width = start.shape
     if not steps:
         return start, 0.0
@@ -228,35 +243,39 @@ def _generate(factors: NDArray, target: NDArray, start: NDArray, turning: bool) 
     columns = columns.joined(np.repeat(np.arange(steps), 2 * width), axes, cost(axes))
     bound = -np.inf
     for _ in range(ITERATIONS):
-        value, psi, controls = mixture(factors, target, columns, shared=False)
+        value, psi, controls = mixture(factors, target, columns, room)
         offered, gains = offer(np.einsum("kij,i->kj", factors, psi))
-        bound = max(bound, float(target @ psi - gains.sum()))
-        if value - bound <= CLOSED * max(1.0, value):
+        paired = float(target @ psi)
+        bound = max(bound, paired - room * float(gains.sum()), paired / (1 + float(gains.max())))
+        if value - bound <= CLOSED * value:
             return controls, bound
         new = np.flatnonzero(gains > 0)
         columns = columns.joined(new, offered[new], cost(offered[new]))
     raise NotConverged("the least fuel was not found", value - bound)
 
 
-def _length(points: NDArray) -> Array:
+def _length(points: Array) -> Array:
+    """The fuel of an engine that turns: the lengths of the impulses."""
     return np.asarray(np.linalg.norm(points, axis=1))
 
 
-def _total(points: NDArray) -> Array:
+def _total(points: Array) -> Array:
+    """The fuel of separate engines: the sums of the moduli of the components."""
     return np.asarray(np.abs(points).sum(axis=1))
 
 
-def _longest(along: NDArray) -> tuple[NDArray, NDArray]:
-    """The impulse u of the unit disc with the most (v, u) - |u|, and how much that is."""
+def _longest(along: Array) -> tuple[Array, Array]:
+    """For each v the impulse u of the unit disc with the largest (v, u) - |u|, and that gain."""
     unit, size = _directions(along)
     return unit, np.maximum(size - 1, 0.0)
 
 
-def _beyond(along: NDArray) -> tuple[NDArray, NDArray]:
-    """The same for the unit ball with the sum of the components for fuel."""
+def _beyond(along: Array) -> tuple[Array, Array]:
+    """For each v the u of the unit ball with the largest (v, u) - sum of |u_i|, and that gain."""
     return _directions(np.sign(along) * np.maximum(np.abs(along) - 1, 0.0))
 
 
-def _directions(along: NDArray) -> tuple[NDArray, NDArray]:
+def _directions(along: Array) -> tuple[Array, Array]:
+    """Unit vectors along those given, and their lengths."""
     size = np.linalg.norm(along, axis=1)
     return along / np.maximum(size, 1e-300)[:, None], size

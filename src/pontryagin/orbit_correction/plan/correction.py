@@ -1,4 +1,4 @@
-"""The fewest steps that bring a satellite back to its circle, and the plan of least peak among them."""
+"""The fewest steps that bring a satellite back to its circle, and their plan of least peak: Theorem 4."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,21 +7,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.certificate import ACCEPTED, Certificate
-from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.orbit_correction.gauges.proof import require_closed, unit
-from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
-from pontryagin.validation import positive, vectors
+from pontryagin.certificate import Certificate
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
+from pontryagin.orbit_correction.gauges.proof import PROVED, require_closed, unit
+from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
+from pontryagin.validation import vectors
+from pontryagin.value import value_class
 
 ROUNDING = 1e-12
-"""A gauge this much above 1 is 1, rounded."""
+"""A gauge that exceeds 1 by at most this counts as 1."""
 
 MOST_STEPS = 1_000_000
+"""Most steps among which `correct` searches."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A correction in the fewest steps and, among those, of the least peak.
+    """A correction in the fewest steps and, among those, of the least peak: the control of Theorem 4.
 
     Attributes
     ----------
@@ -30,16 +33,17 @@ class Plan:
     z0 : (..., 3) array
         Deviations (dr, dv_R, dv_T) in units of the orbit's radius and speed.
     steps : (...) int array
-        N_min: the paper's steps of three impulse components for "ball", else one impulse a step.
+        N_min: for "ball" the paper's steps of three impulse components, else steps of one impulse.
     shorter_gauge : (...) array
-        Lower bound on alpha(N_min - 1), above 1: the proof that fewer steps do not do. Infinite where
-        fewer impulses do not span the space.
+        Lower bound on alpha(N_min - 1), above 1: the proof that the state lies outside X(N_min - 1, 0), as
+        (5) says. Infinite where fewer impulses do not span the space.
     initial_costate : (..., 3) array
-        psi_0, unit; zeros for the zero state.
+        psi_0 of Lemma 9, unit; zeros for the zero state.
     step_controls : (..., N, components) array
-        Impulse components of each step; zeros beyond the steps of a state.
+        Impulse components of each step, by Lemma 10 with the factor alpha; zeros beyond the steps of a state.
     certificate : Certificate
-        What remains of the state at the end, relative to z0; alpha of the plan; the bound psi_0 proves.
+        The residual is what remains of the state at the end, relative to z0; the value is alpha of the plan;
+        the bound is the one that psi_0 proves.
     """
 
     thrust: Thrust
@@ -52,12 +56,12 @@ class Plan:
 
     @property
     def gauge(self) -> Array:
-        """alpha(N_min), the share of the peak that the plan uses, (...)."""
+        """alpha(N_min), the Minkowski functional of X(N_min, 0) at z0: the share of the peak used, (...)."""
         return self.certificate.primal_value
 
     @property
     def impulse_count(self) -> NDArray[np.int64]:
-        """How many impulses the plan fires, (...); a ball's step holds one and a half."""
+        """The number of impulses of the plan, (...); a step of the ball holds one and a half."""
         return -(-3 * self.steps // 2) if self.thrust.name == "ball" else self.steps
 
     @cached_property
@@ -70,15 +74,15 @@ class Plan:
 
     @cached_property
     def controls(self) -> Array:
-        """u(k) of x(k+1) = A(k) x(k) + u(k), (..., N, 3)."""
+        """u(k) of the system (7), x(k+1) = A(k) x(k) + u(k), (..., N, 3)."""
         inputs = np.zeros((self.step_controls.shape[-2], 3, self.step_controls.shape[-1]))
         for k in range(len(inputs)):
             inputs[k] = self.thrust.step_input(k)
-        return np.einsum("kij,...kj->...ki", inputs, self.step_controls)
+        return np.asarray(np.einsum("kij,...kj->...ki", inputs, self.step_controls))
 
     @cached_property
     def states(self) -> Array:
-        """x(k) from z0 to the end, (..., N + 1, 3)."""
+        """x(k) from z0 to the end, step by step as in (3), (..., N + 1, 3)."""
         states = [self.z0]
         for k in range(self.controls.shape[-2]):
             states.append(states[-1] @ self.thrust.step_transition(k).T + self.controls[..., k, :])
@@ -86,7 +90,7 @@ class Plan:
 
     @cached_property
     def costates(self) -> Array:
-        """psi(k), with psi(k+1) = A(k)^-T psi(k), (..., N, 3)."""
+        """psi(k), with psi(k+1) = A(k)^-T psi(k) of Theorem 2 and (6), (..., N, 3)."""
         costates = np.empty_like(self.controls)
         current = self.initial_costate
         for k in range(costates.shape[-2]):
@@ -98,12 +102,14 @@ class Plan:
 def single(plan: Plan) -> Plan:
     """The plan itself, if it is that of one state; else `ValueError`."""
     if plan.steps.shape:
-        raise ValueError(f"plan must be that of one state, got a stack of shape {plan.steps.shape}")
+        raise ArgumentValueError(
+            f"plan must be that of one state, got a stack of shape {plan.steps.shape}", "plan"
+        )
     return plan
 
 
 def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: str = "ball") -> Plan:
-    """Bring a satellite near its circular orbit back to it with the fewest impulses, section 7.
+    """Bring a satellite near its circular orbit back to it in the fewest steps, section 7.
 
     Parameters
     ----------
@@ -119,7 +125,7 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     Returns
     -------
     Plan
-        For a stack of states, arrays padded with zeros beyond each state's own steps.
+        For a stack of states, arrays are padded with zeros beyond the steps of each state.
 
     Raises
     ------
@@ -127,9 +133,9 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
         If an argument is invalid, with its name.
     pontryagin.Infeasible
         If no number of impulses brings a state back: at intervals of whole revolutions every impulse acts
-        at the same place and none changes the radius. Also if a million steps do not.
+        at the same place and none changes the radius. Also if more than a million steps are needed.
     pontryagin.NotConverged
-        If rounding leaves a plan without its proof.
+        If rounding leaves a gap between the bounds on a plan.
 
     Examples
     --------
@@ -138,14 +144,7 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     (4, 0.9286, 6)
     """
     states = vectors("z0", z0, 3)
-    if thrust not in THRUSTS:
-        raise ValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}")
-    spacing, bound = positive("interval", interval), positive("peak", peak)
-    if spacing.ndim or bound.ndim:
-        raise ValueError(
-            f"interval and peak must be single numbers, got shapes {spacing.shape} and {bound.shape}"
-        )
-    engine = Thrust(thrust, float(spacing), float(bound))
+    engine = thrust_of(thrust, interval, peak)
     rows = states.reshape(-1, 3)
     steps, shorter = fewest_steps(engine, rows)
     found = engine.gauges(rows, steps)
@@ -166,11 +165,12 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
 
 
 def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]:
-    """N_min of the states (rows, 3), and what proves that one step fewer does not do.
+    """N_min of the states (rows, 3), and the bound on alpha(N_min - 1) that proves that fewer do not suffice.
 
-    alpha(N) falls strictly and N alpha(N) tends to a constant, so that N alpha(N) is a good next guess; it
-    is moved on further from try to try. Between a number too few and one that does, log alpha is
-    interpolated in log N; in the long run every third try is the middle, so that the search is bounded.
+    alpha(N) decreases strictly and N alpha(N) tends to a constant, so that N alpha(N) is a good next guess
+    for N_min; each try moves it further on, by doubling amounts. Between a number of steps that is too small
+    and one that suffices, log alpha is interpolated in log N. After ten tries every third one is the middle,
+    which bounds the length of the search.
     """
     moving = rows.any(axis=1)
     too_few = np.where(moving, thrust.fewest - 1, 0)
@@ -181,7 +181,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         count = guess[open_rows]
         lower, upper = thrust.bounds(rows[open_rows], count)
         reached = ~(lower > 1 + ROUNDING)
-        if (reached & ~(upper <= 1 + ACCEPTED)).any():
+        if (reached & ~(upper <= 1 + PROVED)).any():
             raise NotConverged("the gauge could not be proved: lost to rounding", float(upper[reached].max()))
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
@@ -190,7 +190,8 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         if (too_few >= MOST_STEPS).any():
             worst = rows[int(np.argmax(too_few))]
             raise Infeasible(
-                f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}"
+                f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}",
+                "z0",
             )
         following[open_rows] = count * np.minimum(lower, 100.0)
         between = _between(too_few, proof, enough, reaching, middle=tries > 9 and tries % 3 == 0)
@@ -200,9 +201,9 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
     return enough, proof
 
 
-def _between(low: NDArray, above: NDArray, high: NDArray, below: NDArray, middle: bool) -> Array:
-    """Where log alpha, linear in log N, is 0 between alpha(low) > 1 and alpha(high) <= 1; or the middle."""
+def _between(low: Array, above: Array, high: Array, below: Array, middle: bool) -> Array:
+    """Where log alpha, linear in log N between alpha(low) > 1 and alpha(high) <= 1, is 0; or the middle."""
     with np.errstate(all="ignore"):
         share = np.log(above) / np.log(above / below)
         found = np.exp(np.log(low) + share * np.log(high / low))
-    return np.where(np.isfinite(found) & np.logical_not(middle), found, (low + high) / 2)
+    return np.asarray(np.where(np.isfinite(found) & np.logical_not(middle), found, (low + high) / 2))

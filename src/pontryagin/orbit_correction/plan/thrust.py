@@ -1,8 +1,8 @@
-"""The three sets of admissible impulses, and their gauges for states and numbers of steps side by side.
+"""The three sets of admissible impulses, and the gauges of stacks of states, each for its number of steps.
 
-ball    the paper's: three impulse components in succession, together in a ball of the peak's radius
-disc    each impulse (radial, transverse) in a disc: an engine that turns
-box     each component within the peak: two engines, and the paper's own constraint before its last step
+ball    the paper's (12): three successive impulse components together in a ball whose radius is the peak
+disc    each impulse (radial, transverse) in a disc: one engine that turns
+box     each component within the peak: two engines, the constraint that the paper replaces by the ball
 """
 
 from dataclasses import dataclass
@@ -10,11 +10,12 @@ from functools import lru_cache
 from math import fabs
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import Infeasible
+from pontryagin.errors import ArgumentValueError, Infeasible
 from pontryagin.numerics.jit import compiled
+from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_of
 from pontryagin.orbit_correction.gauges.kinks import flat_gauge
 from pontryagin.orbit_correction.gauges.zonotope import zonotope_gauge
@@ -29,20 +30,32 @@ MISS_SIGNATURE = (
     "void(float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],float64[:,:,::1],float64[::1])"
 )
 COMPILE_FROM = 60
-"""States times steps from which loading the compiled kernel pays."""
+"""The compiled kernels are loaded when the number of states times that of steps exceeds this."""
 
-FIRST = 2
-"""Steps whose impulses span the space, for every thrust."""
+SPANNING = 2
+"""The impulses of this many steps span the space, whatever the set of impulses."""
 
 KEPT = 1024
-"""Up to this many steps the factors are kept for the next call: they are most of what one state costs."""
+"""Factors of at most this many steps are kept for the next call: they take most of the time of one state."""
 
 CHUNK = 1_000_000
-"""States times steps for which controls are kept at a time."""
+"""A stack is solved in pieces of at most this many states times steps, to limit the memory for controls."""
 
 
-def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, results):
-    """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`."""
+def gauges_of(
+    kind: int,
+    factors: Array,
+    gram_factors: Array,
+    counts: NDArray[np.int64],
+    targets: Array,
+    costates: Array,
+    controls: Array,
+    results: Array,
+) -> None:
+    """Gauge of each target (rows, 3) for its own number of steps; ``kind`` is the index in `THRUSTS`.
+
+    Targets of two components are speeds, reached by impulses that all act at one place of the orbit.
+    """
     width = factors.shape[2]
     for row in range(targets.shape[0]):
         n = counts[row]
@@ -66,8 +79,15 @@ def gauges_of(kind, factors, gram_factors, counts, targets, costates, controls, 
         results[row, 0], results[row, 1] = found
 
 
-def misses_of(transitions, inputs, counts, states, controls, results):
-    """What remains of each state (rows, 3) after its steps, flown one by one, relative to its start.
+def misses_of(
+    transitions: Array,
+    inputs: Array,
+    counts: NDArray[np.int64],
+    states: Array,
+    controls: Array,
+    results: Array,
+) -> None:
+    """What remains of each state (rows, 3) after its steps, flown one by one, relative to the initial state.
 
     ``transitions`` and ``inputs`` hold the matrices of an even and an odd step.
     """
@@ -95,7 +115,17 @@ def misses_of(transitions, inputs, counts, states, controls, results):
 
 @dataclass(frozen=True)
 class Gauges:
-    """Gauges of states, each for its own number of steps: bounds, costates and controls."""
+    """Gauges of a stack of states, each for its own number of steps.
+
+    Attributes
+    ----------
+    lower, upper : (rows,) arrays
+        Bounds on the gauges: what the costates prove, and the peaks of the controls.
+    costates : (rows, 3) array
+        Of any length.
+    controls : (rows, steps, components) array
+        In units of the peak.
+    """
 
     lower: Array
     upper: Array
@@ -105,13 +135,15 @@ class Gauges:
 
 @dataclass(frozen=True)
 class Scaled:
-    """Factors of steps in units of their reach along each axis, and what their sums need.
+    """Factors of steps in units of their reach along each axis, and their Gramians.
 
     Attributes
     ----------
     reach : (n,) array
-        That of the first steps: a state's answer does not depend on what else is in the stack.
+        Largest entry of the first steps along each axis. It does not depend on the number of steps, so that
+        the answer for a state does not depend on the rest of its stack.
     factors : (steps, n, components) array
+        G_k / reach.
     gram_factors : (steps, n, n) array
         Cholesky factors of the Gramians after each step, zero where they are singular.
     """
@@ -120,14 +152,14 @@ class Scaled:
     factors: Array
     gram_factors: Array
 
-    def first(self, steps: int) -> "Scaled":
-        """The same for fewer steps."""
+    def up_to(self, steps: int) -> "Scaled":
+        """The first of the steps."""
         return Scaled(self.reach, self.factors[:steps], self.gram_factors[:steps])
 
 
 @dataclass(frozen=True)
 class Thrust:
-    """What the impulses of a step do to the initial state, for as many steps as asked.
+    """A set of admissible impulses with their interval and peak, and the system that they make.
 
     Attributes
     ----------
@@ -143,24 +175,24 @@ class Thrust:
 
     @property
     def phase(self) -> float:
-        """The interval less whole revolutions."""
+        """The interval minus the nearest number of whole revolutions."""
         return satellite.phase(self.interval)
 
     @property
     def whole_revolutions(self) -> bool:
-        """Whether every impulse acts at the same place of the orbit; then none changes the radius there.
+        """Whether the interval is whole revolutions, to the precision of a floating number of its size.
 
-        An interval is that when no number of its size is closer to whole revolutions.
+        Then every impulse acts at the same place of the orbit, and none changes the radius there.
         """
         return abs(self.phase) <= min(np.finfo(float).eps * self.interval, 1e-9)
 
     @property
     def fewest(self) -> int:
-        """Steps below which the impulses span less than the space."""
+        """The fewest steps whose impulses span the space of states."""
         return 1 if self.name == "ball" or self.whole_revolutions else 2
 
     def factors(self, steps: int) -> Array:
-        """G_k, (steps, 3, components)."""
+        """G_k of Lemma 1 for unit balls (discs, squares) of impulses, (steps, 3, components)."""
         return self.peak * self.unit_factors(steps)
 
     def unit_factors(self, steps: int) -> Array:
@@ -169,27 +201,28 @@ class Thrust:
         return make(steps, self.phase)
 
     def step_transition(self, k: int) -> Array:
-        """A(k), (3, 3)."""
+        """A(k) of (12), or of the system with one impulse a step, (3, 3)."""
         if self.name == "ball":
             return satellite.step_transition(k, self.phase)
         return satellite.transition(self.phase)
 
     def step_input(self, k: int) -> Array:
-        """B(k), (3, components)."""
+        """B(k) of (12), or of the system with one impulse a step, (3, components)."""
         if self.name == "ball":
             return satellite.step_input(k, self.phase)
         return satellite.transition(self.phase)[:, 1:]
 
-    def miss(self, z0: NDArray, counts: NDArray, controls: NDArray) -> Array:
-        """What remains of the states (rows, 3) after flying their controls (in units of the peak)."""
+    def miss(self, z0: Array, counts: NDArray[np.int64], controls: Array) -> Array:
+        """What remains, relative to the states (rows, 3), after controls in units of the peak."""
         transitions, inputs = _motion(self)
         results = np.empty(len(z0))
         run = compiled(misses_of, MISS_SIGNATURE, len(z0) * controls.shape[1] > COMPILE_FROM)
-        run(transitions, inputs, counts, np.ascontiguousarray(z0), controls, results)
+        writable = (np.require(array, requirements=["C", "W"]) for array in (counts, z0, controls))
+        run(transitions, inputs, *writable, results)
         return results
 
-    def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
-        """Lower and upper bounds on the gauges, as `gauges` gives them, whatever the size of the stack."""
+    def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[Array, Array]:
+        """The bounds that `gauges` finds, computed in pieces so that large stacks fit into memory."""
         lower, upper = np.empty(len(z0)), np.empty(len(z0))
         order = np.argsort(counts, kind="stable")
         while order.size:
@@ -205,13 +238,13 @@ class Thrust:
         with np.errstate(all="ignore"):
             if self.whole_revolutions:
                 return self._gauges_of_speeds(z0, counts)
-            most = max(int(counts.max(initial=0)), FIRST)
+            most = max(int(counts.max(initial=0)), SPANNING)
             if most > KEPT:
                 return self._gauges(z0, counts, scaled(self.unit_factors(most), self.fewest))
-            return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).first(most))
+            return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).up_to(most))
 
-    def _gauges(self, z0: NDArray, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
-        """Solved in units of the state and of the impulses' reach along each axis: both may be tiny."""
+    def _gauges(self, z0: Array, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
+        """The gauges, solved in units of the state and of the impulses' reach, since both may be tiny."""
         reach, factors, gram_factors = steps.reach, steps.factors, steps.gram_factors
         most = len(factors)
         size = np.abs(z0).max(axis=1, initial=0.0)
@@ -230,15 +263,16 @@ class Thrust:
             controls * scale[:, None, None],
         )
 
-    def _gauges_of_speeds(self, z0: NDArray, counts: NDArray[np.int64]) -> Gauges:
-        """Impulses that all act at one place: they change the speeds alone, and share the work equally."""
+    def _gauges_of_speeds(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
+        """The gauges where all impulses act at one place: equal impulses, which change the speeds alone."""
         if z0[:, 0].any():
             raise Infeasible(
                 f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
                 f"of the orbit and leave the radius as it is; z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
-                "cannot be corrected"
+                "cannot be corrected",
+                "interval",
             )
-        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), FIRST)
+        speeds, most = z0[:, 1:], max(int(counts.max(initial=0)), SPANNING)
         if self.name == "ball":
             found = self._gauges(speeds, counts, scaled(self.unit_factors(most)[:, 1:], self.fewest))
             costates = np.pad(found.costates, ((0, 0), (1, 0)))
@@ -254,9 +288,17 @@ class Thrust:
         return Gauges(alpha, alpha, np.pad(costates, ((0, 0), (1, 0))), controls)
 
 
+def thrust_of(thrust: str, interval: ArrayLike, peak: ArrayLike) -> Thrust:
+    """The set of impulses that a user names, with its interval and peak checked."""
+    if thrust not in THRUSTS:
+        raise ArgumentValueError(f"thrust must be one of {', '.join(THRUSTS)}, got {thrust!r}", "thrust")
+    spacing = arguments.positive_number("interval", interval)
+    return Thrust(thrust, spacing, arguments.positive_number("peak", peak))
+
+
 def scaled(factors: Array, fewest: int) -> Scaled:
-    """What the gauges need of the factors (steps, n, components), with Gramians from `fewest` steps on."""
-    reach = np.maximum(np.abs(factors[:FIRST]).max(axis=(0, 2)), 1e-300)
+    """The factors (steps, n, components) scaled, with Gramians from `fewest` steps on."""
+    reach = np.maximum(np.abs(factors[:SPANNING]).max(axis=(0, 2)), 1e-300)
     units = np.ascontiguousarray(factors / reach[:, None])
     gram = np.cumsum(np.einsum("kij,klj->kil", units, units), axis=0)
     gram_factors = np.zeros_like(gram)

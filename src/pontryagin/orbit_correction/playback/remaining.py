@@ -11,14 +11,15 @@ from pontryagin.orbit_correction.plan.correction import Plan
 
 @dataclass(frozen=True)
 class Remaining:
-    """What is still to come at an instant: whole steps, and what is left of one that has begun.
+    """The impulses still to come at an instant: whole steps, and the rest of a step that has begun.
 
     Attributes
     ----------
     factors : (steps, 3, m) array
-        Of the steps not begun, for the initial state.
+        Factors G_k of the steps that have not begun.
     rest : (3, c) array
-        Of the components still to come in the step that has begun, within what they have left of its ball.
+        Columns of G_k of the components still to come in the step that has begun, times the radius of the
+        ball that the components before them leave.
     """
 
     factors: Array
@@ -26,12 +27,12 @@ class Remaining:
 
     def boundary(self, normals: Array, square: bool) -> Array:
         """Support points for outward normals (..., 3)."""
-        whole = sets.support_points(self.factors, normals, square)
-        return whole + sets.support_points(self.rest[None], normals, False)
+        steps = sets.support_points(self.factors, normals, square)
+        return steps + sets.support_points(self.rest[None], normals, False)
 
 
 def remaining(plan: Plan, fired: int) -> Remaining:
-    """What is still to come once so many impulses have been fired, for states carried back to the start."""
+    """The impulses still to come after the given number of impulses, for states carried back to the start."""
     factors = plan.thrust.factors(int(plan.steps))
     begun, spent = divmod(2 * fired, factors.shape[2])
     if not spent or begun >= len(factors):

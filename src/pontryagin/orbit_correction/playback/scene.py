@@ -10,6 +10,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import BLUE, GREEN, GREY, ORANGE, RED, SKY
 from pontryagin.display.recording import Events, Plot, Point, Recording, Scene, View, record
+from pontryagin.errors import ArgumentValueError
 from pontryagin.orbit_correction import sets
 from pontryagin.orbit_correction.flight import fly_plan
 from pontryagin.orbit_correction.plan.correction import Plan, single
@@ -60,7 +61,7 @@ def record_plan(plan: Plan, path: Path) -> None:
         If the plan is that of a stack, or of no impulse.
     """
     if int(single(plan).impulse_count) == 0:
-        raise ValueError("plan must have an impulse, got that of no deviation")
+        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
     factor = magnification(plan)
     plots: list[View] = [
         Plot("deviation of the true flight, thousandths", "state"),
@@ -87,7 +88,7 @@ def record_plan(plan: Plan, path: Path) -> None:
 
 
 def magnification(plan: Plan) -> float:
-    """By what deviations of the radius are drawn larger: 1, 2 or 5 times a power of ten."""
+    """The factor by which deviations of the radius are enlarged: 1, 2 or 5 times a power of ten."""
     largest = float(np.abs(fly_plan(plan).path(SAMPLES)[1][:, 0]).max())
     wanted = 0.25 / max(largest, 1e-12)
     power = 10.0 ** np.floor(np.log10(wanted))
@@ -95,7 +96,7 @@ def magnification(plan: Plan) -> float:
 
 
 def _above(plan: Plan) -> tuple[Point, Point]:
-    """Above the arc that is flown, or above the whole circle where that is long."""
+    """A camera above the arc that is flown, or above the circle if the arc exceeds 2 rad."""
     arc = float(fly_plan(plan).angles[-1])
     if arc > 2:
         return (0.0, -1.6 * RADIUS, 2.6 * RADIUS), (0.0, 0.0, 0.0)

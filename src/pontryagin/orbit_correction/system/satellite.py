@@ -1,4 +1,4 @@
-"""The satellite near its circular orbit: transition, impulse columns and the regrouped steps, section 7."""
+"""The satellite near its circular orbit, section 7: transition, impulses, and the regrouped steps of (12)."""
 
 from math import atan2, cos, pi, sin
 
@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 
 LINEAR = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, -1.0, 0.0]])
+"""The matrix A of the linearised system z' = A z, z = (dr, dv_R, dv_T)."""
 
 
 def transition(time: ArrayLike) -> Array:
@@ -21,13 +22,14 @@ def transition(time: ArrayLike) -> Array:
            [0., 0., 1.]])
     """
     time = np.asarray(time, dtype=float)[..., None, None]
-    return np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR)
+    return np.asarray(np.eye(3) + np.sin(time) * LINEAR + 2 * np.sin(time / 2) ** 2 * (LINEAR @ LINEAR))
 
 
 def phase(interval: float) -> float:
-    """The interval less whole revolutions, within half a one of 0.
+    """The interval minus the nearest number of whole revolutions, between -pi and pi.
 
-    Multiples of it are as good as multiples of the interval, and exact close to whole revolutions.
+    Impulses at its multiples act as impulses at the multiples of the interval do. Close to whole revolutions
+    its multiples lose no digits, while those of the interval would.
 
     Examples
     --------
@@ -38,7 +40,7 @@ def phase(interval: float) -> float:
 
 
 def impulse_columns(intervals: int, interval: float) -> Array:
-    """What unit impulses at the starts of the intervals do to the initial state, (intervals, 3, 2).
+    """The effect on the initial state of unit impulses at the starts of the intervals, (intervals, 3, 2).
 
     Column 0 is a radial and column 1 a transverse impulse, e^{-A j interval} e.
     """
@@ -46,19 +48,19 @@ def impulse_columns(intervals: int, interval: float) -> Array:
 
 
 def step_factors(steps: int, interval: float) -> Array:
-    """G_k of the paper's regrouped steps, three impulse components each, (steps, 3, 3), for peak 1."""
+    """G_k of the regrouped steps of (12), three impulse components each, for a peak of 1: (steps, 3, 3)."""
     intervals = -(-3 * steps // 2)
     columns = np.moveaxis(impulse_columns(intervals, interval), 1, 2).reshape(-1, 3)
     return np.moveaxis(columns[: 3 * steps].reshape(steps, 3, 3), 1, 2)
 
 
 def step_transition(k: int, interval: float) -> Array:
-    """A(k): two intervals for even k, one for odd."""
+    """A(k) of (12): the transition over two intervals for even k, over one for odd k."""
     return transition((2 if k % 2 == 0 else 1) * interval)
 
 
 def step_input(k: int, interval: float) -> Array:
-    """B(k): the three impulse components of step k carried to its end."""
+    """B(k) of (12), as derived: the three impulse components of step k carried to its end."""
     once = transition(interval)
     radial, transverse = once[:, 1], once[:, 2]
     if k % 2 == 0:

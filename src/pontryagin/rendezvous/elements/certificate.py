@@ -1,4 +1,4 @@
-"""How exactly an extremal in the elements satisfies everything that it must, with Newton's law as a witness.
+"""The certificate of an extremal in the elements: the maximum principle, with Newton's law as a witness.
 
 The witness has Cartesian coordinates, other costates and another integrator; it shares the thrust's law and
 the switch times.
@@ -30,7 +30,7 @@ from pontryagin.rendezvous.elements.flight import (
     start_of,
     switching,
 )
-from pontryagin.rendezvous.elements.shooting import Root
+from pontryagin.rendezvous.root import Root, scales
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,
@@ -92,7 +92,7 @@ class ElementsCertificate(MaximumPrinciple):
         return np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)
 
 
-def certify(root: Root, free: bool) -> ElementsCertificate:
+def certify(root: Root[ElementFlight], free: bool) -> ElementsCertificate:
     """Evaluate every condition anew."""
     flight = root.flight
     grid = np.linspace(0.0, flight.phi, SAMPLES)
@@ -109,7 +109,6 @@ def certify(root: Root, free: bool) -> ElementsCertificate:
     goal = target_by_kepler(flight.scaled, flight.duration)
     size = np.linalg.norm(n, axis=1).max()
     pair = Elements(states[:, :4], states[:, 4:8])
-    scale = np.append(np.full(6, np.abs(root.unknowns[:6]).max()), root.unknowns[6])
     return ElementsCertificate(
         boundary=np.maximum(np.abs(here[-1] - goal).max(), late),
         transversality=np.maximum(law, turn_momentum(states)),
@@ -119,7 +118,7 @@ def certify(root: Root, free: bool) -> ElementsCertificate:
         agreement=np.maximum(np.abs(there[:, :6] - here).max(), np.abs(there[:, 9:] - n).max() / size),
         relation=np.abs(pair.relation).max(),
         switching=np.asarray(off_level(flight)),
-        condition=np.asarray(np.linalg.cond(root.equations.jacobian * scale)),
+        condition=np.asarray(np.linalg.cond(root.equations.jacobian * scales(root.unknowns))),
     )
 
 

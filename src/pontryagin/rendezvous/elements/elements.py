@@ -13,7 +13,7 @@ from pontryagin.validation import common_shape, finite, positive, vectors
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
 RELATED = 1e-6
-"""By what the bilinear relation may be missed, relative to A^2 + B^2."""
+"""Largest residual of the bilinear relation that is accepted, relative to A^2 + B^2."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +21,7 @@ class Elements:
     """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.
 
     The spinor u = A cos phi + B sin phi stands for the place, R = u~ o i1 o u, and w = -A sin phi + B cos phi
-    for the velocity; A and B stay where they are while the craft coasts. Turning A and B together,
+    for the velocity; A and B are constant while the craft coasts. Turning A and B together,
     A -> exp(i1 s) o A, changes neither R nor V.
 
     Parameters

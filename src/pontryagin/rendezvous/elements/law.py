@@ -1,6 +1,6 @@
-"""What is minimised in the elements and under which bound: which thrust the switching function n asks for."""
+"""The law of thrust in the elements: functional, bound, and the mode that the switching function selects."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -32,10 +32,6 @@ class Law:
     ratio: float
     peak: float
     width: float = 0.0
-
-    def but(self, **changes) -> "Law":
-        """The same with some of it changed."""
-        return replace(self, **changes)
 
     @property
     def bang(self) -> bool:

@@ -8,39 +8,34 @@ as events.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous.elements.flight import switching
+from pontryagin.rendezvous.elements.conditions import ElementsSetting
+from pontryagin.rendezvous.elements.flight import ElementFlight, switching
 from pontryagin.rendezvous.elements.law import Law
-from pontryagin.rendezvous.elements.shooting import (
-    Root,
-    Setting,
-    follow_round,
-    newton,
-)
-from pontryagin.rendezvous.elements.solution import (
-    ElementsExtremal,
-    largest_thrust,
-    require,
-)
+from pontryagin.rendezvous.elements.shooting import SHOOTING, lead_round, meet
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.start import (
-    energy,
-    led,
-    marched,
+    lead_goal,
+    least_energy,
 )
+from pontryagin.rendezvous.estimate import orbit_change_duration, require_solvable
+from pontryagin.rendezvous.families import freed
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.first_extremal import first_duration
+from pontryagin.rendezvous.root import Root
 from pontryagin.validation import integer
 
 WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
-"""Of the smoothed jump; from the fourth on, sharpening is tried."""
+"""Widths of the smoothed jump, in the order in which they are gone through."""
 SHARPENED_FROM = 0.1
+"""Width from which on the jump itself is tried in the place of the smoothed one."""
 ROOM = 1.3
-"""The bound that the smoothed family starts from, in units of the largest thrust of the first functional."""
+"""The bound at the widest jump is at least this, in units of the largest thrust of the first functional."""
 
 
 def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
@@ -84,7 +79,7 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     >>> found.modes, found.certificate.holds(1e-10)
     (('saturated', 'coast', 'saturated'), True)
     """
-    require(problem)
+    require_solvable(problem)
     integer("revolutions", revolutions)
     if problem.energy_weight == 0:
         raise ValueError("energy_weight must be greater than 0, got 0: nothing but time would cost")
@@ -96,64 +91,78 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
     value = problem.energy_weight * scaled.acceleration * scaled.time
-    duration = scaled.duration or _duration(scaled)
-    wide = _wide(scaled, law, duration, revolutions)
-    smoothed, sharp = _freed(scaled, law, wide) if problem.free else _sharpened(scaled, law, wide, duration)
+    duration = scaled.duration or _guessed_duration(scaled)
+    wide = _widest(scaled, law, duration, revolutions)
+    smoothed, sharp = (
+        _sharpen_freed(scaled, law, wide) if problem.free else _sharpen(scaled, law, wide, duration)
+    )
     return ElementsExtremal(problem, sharp, value, tuple(smoothed))
 
 
-def _freed(scaled: Scaled, law: Law, wide: Root) -> tuple[list[Root], Root]:
-    """As `_sharpened`, with the terminal law in place of the duration.
+def _sharpen_freed(
+    scaled: Scaled, law: Law, wide: Root[ElementFlight]
+) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
+    """`_sharpen`, with the terminal law in place of the duration.
 
     With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
     extremal of one duration led to the law.
     """
     try:
-        return _sharpened(scaled, law, wide, None)
+        return _sharpen(scaled, law, wide, None)
     except NotConverged:
-        smoothed, sharp = _sharpened(scaled, law, wide, wide.flight.duration)
-        return smoothed, marched(scaled, law, sharp)
+        smoothed, sharp = _sharpen(scaled, law, wide, wide.flight.duration)
+        return smoothed, freed(SHOOTING, ElementsSetting(scaled, law), sharp)
 
 
-def _duration(scaled: Scaled) -> float:
-    """Of a problem with a free one, to start from: with half the peak one orbit becomes the other."""
-    return 1.5 * first_duration(scaled, (scaled.peak / 2) ** 2)
+def _guessed_duration(scaled: Scaled) -> float:
+    """A first guess of a free duration: half the peak changes one orbit into the other."""
+    return 1.5 * orbit_change_duration(scaled, (scaled.peak / 2) ** 2)
 
 
-def _wide(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root:
+def _widest(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[ElementFlight]:
     """The extremal of the widest smoothed jump."""
-    gentle = energy(scaled, duration, revolutions)
-    wide = law.but(width=WIDTHS[0], peak=max(law.peak, ROOM * largest_thrust(gentle.flight)))
-    root = led(Setting(scaled, wide, duration), scaled_to(gentle, wide))
+    gentle = least_energy(scaled, duration, revolutions)
+    wide = replace(
+        law, width=WIDTHS[0], peak=max(law.peak, ROOM * float(SHOOTING.thrust(gentle.flight).max()))
+    )
+    root = lead_goal(ElementsSetting(scaled, wide, duration), rescaled_unknowns(gentle, wide))
     fixed = scaled.duration
     if fixed is None:
-        root = marched(scaled, wide, root)
+        root = freed(SHOOTING, ElementsSetting(scaled, wide), root)
 
-    def lowered(logarithm: float) -> Setting:
-        return Setting(scaled, wide.but(peak=math.exp(logarithm)), fixed)
+    def lowered(logarithm: float) -> ElementsSetting:
+        return ElementsSetting(scaled, replace(wide, peak=math.exp(logarithm)), fixed)
 
-    return follow_round(lowered, root, math.log(wide.peak), math.log(law.peak))
+    return lead_round(lowered, root, math.log(wide.peak), math.log(law.peak))
 
 
-def _sharpened(scaled: Scaled, law: Law, wide: Root, duration: float | None) -> tuple[list[Root], Root]:
-    """The smoothed extremals, widest first, and the one with the jump itself that the last leads to."""
+def _sharpen(
+    scaled: Scaled, law: Law, wide: Root[ElementFlight], duration: float | None
+) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
+    """The extremals of ever narrower jumps, widest first, and the one with the jump itself.
 
-    def narrowed(logarithm: float) -> Setting:
-        return Setting(scaled, law.but(width=math.exp(logarithm)), duration)
+    Raises
+    ------
+    NotConverged
+        If none of them leads to the jump itself.
+    """
+
+    def narrowed(logarithm: float) -> ElementsSetting:
+        return ElementsSetting(scaled, replace(law, width=math.exp(logarithm)), duration)
 
     found = [wide]
     for width in WIDTHS[1:]:
         last = found[-1]
-        found.append(follow_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
+        found.append(lead_round(narrowed, last, math.log(last.flight.law.width), math.log(width)))
         if width <= SHARPENED_FROM:
             try:
-                return found, newton(Setting(scaled, law, duration), found[-1].unknowns)
+                return found, meet(ElementsSetting(scaled, law, duration), found[-1].unknowns)
             except NotConverged:
                 continue
     raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
 
 
-def scaled_to(gentle: Root, law: Law) -> Array:
+def rescaled_unknowns(gentle: Root[ElementFlight], law: Law) -> Array:
     """Unknowns of an extremal of the first functional, scaled to a smoothed thrust about as large."""
     flight = gentle.flight
     grid = np.linspace(0.0, flight.phi, 201)

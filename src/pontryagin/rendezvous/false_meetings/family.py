@@ -19,9 +19,11 @@ from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jaco
 from pontryagin.rendezvous.false_meetings.rotated_target import newton_at_angle, rotated_target_family
 from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.reduced.homotopy import Root, scales
-from pontryagin.rendezvous.reduced.shooting import Equations
-from pontryagin.rendezvous.reduced.solution import Extremal, require_extremal, solve
+from pontryagin.rendezvous.reduced.conditions import Equations
+from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.reduced.solution import Extremal, require_extremal
+from pontryagin.rendezvous.reduced.solve import solve
+from pontryagin.rendezvous.root import Root, scales
 from pontryagin.validation import finite
 from pontryagin.value import value_class
 
@@ -214,16 +216,22 @@ def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
     return FalseFamily(solution, tuple(members))
 
 
-def _member(solution: Extremal, angle: float, root: Root) -> RotatedMeeting:
+def _member(solution: Extremal, angle: float, root: Root[Flight]) -> RotatedMeeting:
     return RotatedMeeting(Extremal(solution.problem, root), angle)
 
 
-def _curve(solution: Extremal, angles: list[float]) -> tuple[list[Point[Equations]], dict[float, Root]]:
+def _curve(
+    solution: Extremal, angles: list[float]
+) -> tuple[list[Point[Equations]], dict[float, Root[Flight]]]:
     """The curve from a true meeting until it passes the last of some angles of one sign, nearest first.
 
     Returns its points, of which the last is the first beyond, and the solutions at the angles.
     """
-    family, points, roots = rotated_target_family(solution), list[Point[Equations]](), dict[float, Root]()
+    family, points, roots = (
+        rotated_target_family(solution),
+        list[Point[Equations]](),
+        dict[float, Root[Flight]](),
+    )
     left = list(angles)
     if left[:1] == [0.0]:
         return points, {0.0: newton_at_angle(family, solution.root.unknowns, 0.0)}

@@ -14,8 +14,8 @@ from pontryagin.numerics.complex_step import derivative
 from pontryagin.numerics.rotation import conjugate, product, rotated
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.reduced.certificate import anomaly_constant
+from pontryagin.rendezvous.reduced.conditions import end_rates
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.shooting import end_rates
 
 Numbers = NDArray[Any]
 """Real numbers, or complex ones where derivatives are taken by a complex step."""

@@ -14,16 +14,10 @@ from dataclasses import replace
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
-from pontryagin.numerics.newton import newton
+from pontryagin.numerics.continuation import Family
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.homotopy import (
-    Family,
-    Root,
-    scales,
-)
-from pontryagin.rendezvous.reduced.search import turning
-from pontryagin.rendezvous.reduced.shooting import (
+from pontryagin.rendezvous.reduced import shooting
+from pontryagin.rendezvous.reduced.conditions import (
     Equations,
     Setting,
     by_goal,
@@ -32,22 +26,23 @@ from pontryagin.rendezvous.reduced.shooting import (
     goal_of,
     mismatch,
 )
+from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.reduced.shooting import WITHIN
 from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.root import Root, root
 
 CHI = 10
 """Index of chi among the twelve states."""
-CONVERGED = 1e-8
-"""Relative correction below which Newton's method at an angle has converged."""
 FLAT = 1e-12
 """Largest component out of the plane of the quaternion between two orbits that count as coplanar."""
 
 
-def rotated_target_family(solution: Extremal) -> Family:
+def rotated_target_family(solution: Extremal) -> Family[Equations]:
     """The repaired equations of a true meeting as a family in the angle by which the target is rotated."""
     scaled = solution.problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
     if in_one_plane(scaled):
-        return turning(setting)
+        return shooting.family(setting, "lead")
     return lambda unknowns, angle: rotated_equations(setting, unknowns, angle)
 
 
@@ -76,7 +71,7 @@ def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[
     return replace(unrotated, jacobian=jacobian, residual=residual), by_angle
 
 
-def newton_at_angle(family: Family, unknowns: Array, angle: float) -> Root:
+def newton_at_angle(family: Family[Equations], unknowns: Array, angle: float) -> Root[Flight]:
     """The solution at an angle, by Newton's method.
 
     Raises
@@ -84,8 +79,4 @@ def newton_at_angle(family: Family, unknowns: Array, angle: float) -> Root:
     NotConverged
         If it does not converge.
     """
-    last = newton(lambda x: family(x, angle)[0], unknowns, scales=scales)
-    if not last.correction < CONVERGED:
-        message = f"Newton's method did not reach a meeting at the angle {angle:.6g}"
-        raise NotConverged(message, last.correction)
-    return Root(last.unknowns, last.equations, last.correction)
+    return root(lambda x: family(x, angle)[0], unknowns, within=WITHIN)

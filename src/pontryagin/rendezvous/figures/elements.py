@@ -25,10 +25,8 @@ from pontryagin.display.plotting import (
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.least_fuel import least_fuel
-from pontryagin.rendezvous.elements.solution import (
-    ElementsExtremal,
-    solve_in_elements,
-)
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
+from pontryagin.rendezvous.elements.solve import solve_in_elements
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.judge.table import (
     MESHES,

@@ -27,7 +27,7 @@ def costates_along(solution: ElementsExtremal) -> Figure:
     Examples
     --------
     >>> from pontryagin.rendezvous.problem.cases import case
-    >>> from pontryagin.rendezvous.elements.solution import solve_in_elements
+    >>> from pontryagin.rendezvous.elements.solve import solve_in_elements
     >>> costates_along(solve_in_elements(case("circle-energy").problem)).get_label()
     'costates-along'
     """

@@ -14,15 +14,13 @@ from pontryagin.display.plotting import (
     subplots,
 )
 from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.continuation import follow
 from pontryagin.rendezvous.figures.labels import CRAFT, OTHER
-from pontryagin.rendezvous.reduced.homotopy import follow
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.shooting import (
-    Equations,
-    Setting,
-    equations,
-)
+from pontryagin.rendezvous.reduced.shooting import family
 from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.root import scales
 
 MARGIN = 1.25
 """Factor by which curves are continued beyond the shortest and the longest duration of an extremal."""
@@ -89,13 +87,19 @@ def _points(extremal: Extremal, sign: int) -> Iterator[tuple[float, float]]:
     """Duration and cost along the branch, in the solver's units."""
     scaled = extremal.problem.scaled
     setting = Setting(scaled, scaled.ratio, math.inf)
-
-    def family(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
-        duration = math.exp(parameter)
-        whole = equations(setting, np.append(unknowns, duration))
-        return whole, whole.jacobian[:6, 6] * duration
-
     start = math.log(extremal.flight.duration)
-    for point in follow(family, extremal.root.unknowns[:6], start, start + sign, 0.03, 120, 0.05, rows=6):
+    unknowns = extremal.root.unknowns[:6]
+    points = follow(
+        family(setting, "duration"),
+        unknowns,
+        start,
+        sign,
+        scales=scales,
+        step=0.03,
+        largest=0.05,
+        steps=120,
+        rows=6,
+    )
+    for point in points:
         flight = point.equations.flight
         yield flight.duration, scaled.ratio * flight.duration + energy(flight)

@@ -6,10 +6,8 @@ from pontryagin.rendezvous.problem.cases import (
     case,
     cases,
 )
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    solve,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.solve import solve
 
 
 @functools.cache

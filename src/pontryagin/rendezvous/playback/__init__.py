@@ -14,10 +14,8 @@ from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.playback.motion import motion_of
 from pontryagin.rendezvous.playback.scene import record_motion
 from pontryagin.rendezvous.problem.cases import case
-from pontryagin.rendezvous.reduced.solution import (
-    Extremal,
-    solve,
-)
+from pontryagin.rendezvous.reduced.solution import Extremal
+from pontryagin.rendezvous.reduced.solve import solve
 
 FIVE_ARCS = 0.05
 """A bound on the thrust under which the mixed case has five arcs, three of them at the bound."""

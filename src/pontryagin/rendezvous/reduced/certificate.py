@@ -1,4 +1,4 @@
-"""How exactly an extremal satisfies everything that it must, found out in three ways.
+"""The certificate of an extremal: the conditions of the maximum principle, evaluated in three ways.
 
 The reduced flight is compared with the 16 equations, flown by another integrator, and with Newton's law in
 inertial axes. The attitude is tested against (6) as the 16 equations carry it; lambda* and -lambda* are one
@@ -18,11 +18,8 @@ from pontryagin.rendezvous.reduced.flight import (
     Flight,
     switching,
 )
-from pontryagin.rendezvous.reduced.homotopy import (
-    Root,
-    scales,
-)
 from pontryagin.rendezvous.reduced.quadrature import energy
+from pontryagin.rendezvous.root import Root, scales
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     fly_cartesian,
@@ -32,7 +29,7 @@ from pontryagin.rendezvous.witness.cartesian import (
 
 SAMPLES = 201
 FAINT = 1e-3
-"""Share of the largest costate below which a running cost is no measure of H."""
+"""Share of the largest costate that H is measured by at least, whatever the running cost."""
 TINY = 1e-300
 
 
@@ -89,7 +86,7 @@ class RendezvousCertificate(MaximumPrinciple):
         return np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0)
 
 
-def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousCertificate:
+def certify(root: Root[Flight], weights: tuple[float, float], free: bool) -> RendezvousCertificate:
     """Evaluate every condition anew; weights are alpha1 and alpha2 in the solver's units."""
     flight = root.flight
     times = np.linspace(0, flight.duration, SAMPLES)
@@ -108,7 +105,7 @@ def certify(root: Root, weights: tuple[float, float], free: bool) -> RendezvousC
         hamiltonian=np.abs(values - (0.0 if free else values[-1])).max() / largest,
         maximality=np.asarray(np.max(maximality(flight, reduced, thrust, weights)) / largest),
         attitude=np.abs(product(conjugate(end[4:8]), goal[3:])[1:]).max(),
-        agreement=np.maximum(agreement(flight, reduced, whole), apart(flight, reduced, inertial)),
+        agreement=np.maximum(agreement(flight, reduced, whole), newton_agreement(flight, reduced, inertial)),
         cartesian=np.abs(inertial[-1, :6] - target_by_kepler(flight.scaled, flight.duration)).max(),
         cost=np.asarray(abs(energy(flight) - inertial[-1, 12]) / max(float(inertial[-1, 12]), TINY)),
         condition=np.asarray(condition(root)),
@@ -190,7 +187,7 @@ def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
     return float(max(np.abs(places).max(), np.abs(costates).max() / largest))
 
 
-def apart(flight: Flight, reduced: Array, inertial: Array) -> float:
+def newton_agreement(flight: Flight, reduced: Array, inertial: Array) -> float:
     """Largest difference of R, V and n from Newton's law, n relative to the largest costate."""
     attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - inertial[:, :6]
@@ -199,6 +196,6 @@ def apart(flight: Flight, reduced: Array, inertial: Array) -> float:
     return float(max(np.abs(places).max(), np.abs(n).max() / largest))
 
 
-def condition(root: Root) -> float:
+def condition(root: Root[Flight]) -> float:
     """Condition number, costates measured by the largest and the duration by itself."""
     return float(np.linalg.cond(root.equations.jacobian * scales(root.unknowns)))

@@ -8,20 +8,19 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.complex_step import jacobian
+from pontryagin.numerics.newton import Evaluated, newton_stack
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.estimate import require_rendezvous
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.homotopy import newton
+from pontryagin.rendezvous.reduced.conditions import SEEN, Setting
 from pontryagin.rendezvous.reduced.lanes import (
     Flights,
     fly_all,
 )
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import (
-    SEEN,
-    Setting,
-)
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import (
     Extremal,
     distinct,
@@ -30,9 +29,9 @@ from pontryagin.validation import positive, vectors
 
 ITERATIONS, HALVINGS = 30, 6
 FAINT = 1e-8
-"""In the place of nu = 0, which has no direction; the slopes change by as much."""
+"""nu3 of costates whose nu is 0 and has no direction; the derivatives change by as much."""
 NEAR = 1e-8
-"""Residual from which Newton's method for one flight does the rest."""
+"""Residual below which a start is left to Newton's method for one flight."""
 
 
 @dataclass(frozen=True)
@@ -110,22 +109,22 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
     >>> there.reached.tolist(), bool(np.abs(there.miss[0]).max() < 1e-12), there.slopes.shape
     ([True, True], True, (2, 6, 6))
     """
-    _require(problem)
+    require_rendezvous(problem)
     scaled = problem.scaled
     given = vectors("costates", costates, 6)
-    asked = problem.duration if durations is None else durations
-    if asked is None:
+    given_durations = problem.duration if durations is None else durations
+    if given_durations is None:
         raise ValueError("durations must be given where the problem leaves the duration free, got None")
-    wanted = positive("durations", asked)
+    ends_at = positive("durations", given_durations)
     try:
-        shape = np.broadcast_shapes(given.shape[:-1], wanted.shape)
+        shape = np.broadcast_shapes(given.shape[:-1], ends_at.shape)
     except ValueError:
         raise ValueError(
-            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {wanted.shape}"
+            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {ends_at.shape}"
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
-    times = np.broadcast_to(wanted / scaled.time, shape).ravel()
-    with np.errstate(all="ignore"):  # costates without measure are told by `reached`
+    times = np.broadcast_to(ends_at / scaled.time, shape).ravel()
+    with np.errstate(all="ignore"):  # `reached` says which costates are too large to be flown
         flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
     miss, slopes = misses(scaled, flights)
     speed = scaled.length / scaled.time
@@ -146,7 +145,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
 
 
 def _directed(costates: Array) -> Array:
-    """Those without nu are given a little of it along i3: the flight is the same, and chi has its axis."""
+    """Costates with a little nu along i3 where nu is 0: the flight is the same, and chi has an axis."""
     given = np.array(costates)
     given[~given[:, 3:].any(axis=1), 5] = FAINT
     return given
@@ -208,7 +207,7 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     >>> round(multistart(leap, starts)[0].cost, 6)
     0.023882
     """
-    _require(problem)
+    require_rendezvous(problem)
     if problem.duration is None:
         raise ValueError("problem must have a fixed duration, got one whose duration is free")
     starts = vectors("costates", costates, 6)
@@ -220,7 +219,7 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     found: list[Extremal] = []
     for unknowns in ends[sizes < NEAR]:
         try:
-            found.append(Extremal(problem, newton(setting, unknowns)))
+            found.append(Extremal(problem, meet(setting, unknowns)))
         except NotConverged:
             continue
     best, *others = distinct(found) or (None,)
@@ -236,36 +235,16 @@ def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:
 
     The size is inf where even the start cannot be flown.
     """
-    here = np.array(starts)
-    size, step = _evaluate(setting, here)
-    active, share = np.isfinite(size), np.ones(len(here))
-    for _ in range(ITERATIONS * HALVINGS):
-        rows = np.flatnonzero(active & (size > NEAR) & (share > 0.5**HALVINGS))
-        if not len(rows):
-            break
-        trial = here[rows] + share[rows, None] * step[rows]
-        there, onward = _evaluate(setting, trial)
-        better = there < size[rows]
-        taken = rows[better]
-        here[taken], size[taken], step[taken] = trial[better], there[better], onward[better]
-        share[taken], share[rows[~better]] = 1.0, share[rows[~better]] / 2
-    return here, size
 
+    def evaluate(_: NDArray[np.intp], costates: Array) -> Evaluated:
+        duration = setting.duration or 0.0
+        flights = fly_all(
+            setting.scaled, costates, duration, setting.peak, setting.bang, taylor=setting.taylor
+        )
+        miss, slopes = misses(setting.scaled, flights)
+        lost = ~(flights.reached & np.isfinite(slopes).all(axis=(1, 2)))
+        miss[lost] = np.nan
+        return Evaluated(miss, slopes)
 
-def _evaluate(setting: Setting, costates: Array) -> tuple[Array, Array]:
-    """Sizes of the residual (k,), inf where there is none, and Newton's steps (k, 6)."""
-    size, step = np.full(len(costates), np.inf), np.zeros((len(costates), 6))
-    flights = fly_all(
-        setting.scaled, costates, setting.duration or 0, setting.peak, setting.bang, taylor=setting.taylor
-    )
-    miss, slopes = misses(setting.scaled, flights)
-    usable = flights.reached & np.isfinite(slopes).all(axis=(1, 2))
-    size[usable] = np.linalg.norm(miss[usable], axis=1)
-    for i in np.flatnonzero(usable):
-        step[i] = np.linalg.lstsq(slopes[i], -miss[i])[0]
-    return size, step
-
-
-def _require(problem: Rendezvous) -> None:
-    if not isinstance(problem, Rendezvous):
-        raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")
+    found = newton_stack(evaluate, starts, tolerance=NEAR, iterations=ITERATIONS, halvings=HALVINGS)
+    return found.unknowns, found.residual

@@ -32,7 +32,7 @@ def energy(flight: Flight) -> float:
     return along(flight, lambda times: np.sum(flight.thrust(times) ** 2, axis=1))
 
 
-def turned(flight: Flight) -> float:
+def angle(flight: Flight) -> float:
     """The angle that the craft turns about the centre, in radians: the integral of c/r^2."""
 
     def rate(times: Array) -> Array:

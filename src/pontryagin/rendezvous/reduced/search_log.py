@@ -1,22 +1,22 @@
-"""What a search looked at, for whoever asks whether a better extremal may have been missed."""
+"""Where a search for extremals looked and what it gave up, which tells whether a better one may be missed."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass
 class Search:
-    """What was looked at: filled in as the search goes on.
+    """Where extremals were looked for; filled in as the search goes on.
 
     Attributes
     ----------
     durations : list of float
-        Of the first extremals, in the solver's unit.
+        Durations at which a first extremal was sought, in the solver's unit.
     revolutions : list of int
-        Of the extremals of the unbounded problem, more than the first one's.
+        Revolutions of the extremals of the unbounded problem, counted from those of the first.
     ends : list of str
-        Where each walk through the revolutions ended, and why.
+        Where the curve through the revolutions was left, each way, and why.
     given_up : list of str
-        What was not reached or not followed on, and why.
+        What could not be reached or was not taken on, and why.
     """
 
     durations: list[float] = field(default_factory=list)

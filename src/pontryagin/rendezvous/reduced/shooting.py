@@ -1,210 +1,145 @@
-"""The equations of a meeting, with their exact derivatives.
-
-Unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k where it is free. Equations: (5), the attitude (6) by nu
-and chi, and at a free time the terminal law, written for |n|: unsaturated it is 2 sqrt(alpha1 alpha2),
-saturated alpha1/p_max + alpha2 p_max.
-"""
+"""Newton's method for the conditions of a meeting, and the families of its solutions."""
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.numerics.complex_step import derivative, jacobian
-from pontryagin.numerics.rotation import about_third, product
-from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.numerics.continuation import Family, Point, follow
+from pontryagin.rendezvous.families import Shooting, fine_grid
+from pontryagin.rendezvous.reduced.conditions import Equations, Setting, equations
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
-    fly,
-    switching,
 )
+from pontryagin.rendezvous.root import Root, root, scales
 
-SEEN = [0, 1, 2, 7, 8, 9, 10]
-"""r, v1, c, nu and chi among the twelve states."""
-I3 = np.array([0.0, 0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True)
-class Setting:
-    """What is solved for, and under which constants; units of `Scaled`.
-
-    Parameters
-    ----------
-    scaled : Scaled
-        The problem.
-    ratio : float
-        alpha1/alpha2; inf for alpha2 = 0.
-    peak : float
-        p_max, inf for no bound.
-    lead : float
-        By how much the target's orbit is turned ahead in its plane, in radians: 0, or 2 pi for each
-        revolution that the craft is to make beyond those it makes at 0.
-    duration : float or None
-        t_k where fixed.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
-    rough : bool
-        Whether extremals are flown to 1e-10 only: along curves, from which `newton` starts anew.
-    """
-
-    scaled: Scaled
-    ratio: float
-    peak: float
-    lead: float = 0.0
-    duration: float | None = None
-    taylor: bool | None = None
-    rough: bool = False
-
-    @property
-    def bang(self) -> bool:
-        """Whether alpha2 = 0."""
-        return self.ratio == math.inf
-
-    @property
-    def free(self) -> bool:
-        """Whether t_k is an unknown."""
-        return self.duration is None
-
-    @property
-    def end_switching(self) -> float:
-        """|n(t_k)| by the terminal law."""
-        if self.bang:
-            return 1 / self.peak
-        root = math.sqrt(self.ratio)
-        return 2 * root if root <= self.peak else self.ratio / self.peak + self.peak
-
-    @property
-    def end_switching_slopes(self) -> tuple[float, float]:
-        """Its derivatives in log(alpha1/alpha2) and log p_max."""
-        root = math.sqrt(self.ratio)
-        if root <= self.peak:
-            return root, 0.0
-        return self.ratio / self.peak, self.peak - self.ratio / self.peak
-
-    def but(self, **changes) -> "Setting":
-        """The same with some of it changed."""
-        return replace(self, **changes)
+WITHIN = 5.0
+"""Factor by which a step of Newton's method may change a free duration."""
+ITERATIONS, HALVINGS = 12, 6
+"""Most steps of Newton's method, and how many lengths of each are tried."""
+PACES = {
+    "duration": (0.1, 0.5, 400),
+    "lead": (0.3, 1.5, 100),
+    "peak": (0.1, 1.0, 120),
+    "ratio": (0.3, 3.0, 80),
+}
+"""Along a curve over each number: the first step, the largest, and the most points."""
 
 
-@dataclass(frozen=True)
-class Equations:
-    """Residuals and derivatives at one point.
-
-    Attributes
-    ----------
-    flight : Flight
-        The extremal.
-    residual : (n,) array
-        n = 6, or 7 with the terminal law.
-    jacobian : (n, n) array
-        In the unknowns.
-    by_peak, by_ratio, by_lead : (n,) arrays
-        In log p_max, log(alpha1/alpha2) and the lead.
-    """
-
-    flight: Flight
-    residual: Array
-    jacobian: Array
-    by_peak: Array
-    by_ratio: Array
-    by_lead: Array
-
-    def scaled(self, scale: Array) -> "Equations":
-        """The same in unknowns divided by a scale."""
-        return replace(self, jacobian=self.jacobian * scale)
-
-
-def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
-    """(5) and (6) towards a goal r, v1, c, lambda0~ o lambda (7,): values (6,), slopes (6, 12) in the end
-    states, (6, 3) in nu at the start."""
-    inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x, flight.chart, *goal]), inputs)
-    by_state = np.zeros((6, 12))
-    by_state[:, SEEN] = slopes[:, :7]
-    return values, by_state, slopes[:, 7:]
-
-
-def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
-    """Derivative of `mismatch` when the goal moves in a direction."""
-    inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    return derivative(lambda x: kernels.mismatch(*[*inputs, flight.chart, *x]), goal, direction)[1]
-
-
-def end_rates(flight: Flight) -> Array:
-    """Rates of the twelve states at the end."""
-    kernel = getattr(kernels, flight.mode)
-    scale = flight.peak if flight.mode == "saturated" else 1.0
-    end = flight.end[:11]
-    return np.array([*kernel(*end, 1.0, 1.0, flight.scaled.eccentricity, 1.0, scale, flight.chart), 0.0])
-
-
-def goal_of(setting: Setting, anomaly: float) -> tuple[Array, Array]:
-    """The target at an anomaly, its orbit turned ahead by the lead, and its rate there."""
-    ahead = product(setting.scaled.orientation, about_third(setting.lead))
-    return setting.scaled.target(anomaly, ahead)
-
-
-def equations(setting: Setting, unknowns: Array) -> Equations:
-    """Residuals of a setting and their derivatives.
+def meet(setting: Setting, unknowns: Array) -> Root[Flight]:
+    """The meeting that Newton's method reaches, flown roughly until exact flights are worth it.
 
     Raises
     ------
     NotConverged
-        Where the extremal cannot be followed.
+        If it reaches none.
     """
-    costates = unknowns[:6]
-    duration = float(unknowns[6]) if setting.free else float(setting.duration or 0)
-    flight = fly(
-        setting.scaled,
-        costates,
-        duration,
-        setting.peak,
-        setting.bang,
-        taylor=setting.taylor,
-        rough=setting.rough,
-    )
-    goal, moving = goal_of(setting, float(flight.end[3]))
-    values, by_state, by_start = mismatch(flight, goal)
-    columns = by_state @ flight.slopes
-    columns[:, 3:6] += by_start
-    peak = setting.peak if setting.peak < math.inf else 0.0
-    turning = np.concatenate([np.zeros(3), product(goal[3:], I3) / 2])
-    by_lead = by_goal(flight, goal, turning)
-    if not setting.free:
-        zero = np.zeros(6)
-        return Equations(flight, values, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
-    rates = end_rates(flight)
-    by_time = by_state @ rates + by_goal(flight, goal, moving)
-    law, law_by_state = _terminal(setting, flight)
-    law_columns = law_by_state @ flight.slopes
-    jacobian = np.block(
-        [[columns[:, :6], by_time[:, None]], [law_columns[None, :6], np.array([[law_by_state @ rates]])]]
-    )
-    wanted = setting.end_switching
-    by_ratio, by_peak = (0.0, -1.0 / setting.peak) if setting.bang else setting.end_switching_slopes
-    share = (law + 1) / wanted
-    return Equations(
-        flight,
-        np.append(values, law),
-        jacobian,
-        np.append(columns[:, 6] * peak, law_columns[6] * peak - share * by_peak),
-        np.append(np.zeros(6), -share * by_ratio),
-        np.append(by_lead, 0.0),
+    rough = setting.replace(rough=True)
+    return root(
+        lambda x: equations(setting, x),
+        unknowns,
+        within=WITHIN,
+        rough=lambda x: equations(rough, x),
+        iterations=ITERATIONS,
+        halvings=HALVINGS,
     )
 
 
-def _terminal(setting: Setting, flight: Flight) -> tuple[float, Array]:
-    """|n|/|n|_wanted - 1 at the end, and its derivatives in the twelve states."""
-    used = [0, 2, 5, 6, 7]
-    square, by_used = jacobian(lambda x: [kernels.switching_square(*x)], flight.end[used])
-    size = math.sqrt(square[0])
-    slopes = np.zeros(12)
-    slopes[used] = by_used[0] / (2 * size) / setting.end_switching
-    return size / setting.end_switching - 1, slopes
+def family(setting: Setting, name: str) -> Family[Equations]:
+    """The equations as a family over one number of the setting.
+
+    Parameters
+    ----------
+    setting : Setting
+        The others.
+    name : "peak", "ratio", "duration" or "lead"
+        The parameter is the lead itself, or the logarithm of the others. Costates over "ratio" are divided by
+        |n(t_k)|, which keeps them of one size; over "duration" the unknowns are six, and the last of the
+        seven equations, the terminal law, is for the caller to look at.
+    """
+
+    def over_duration(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        duration = math.exp(parameter)
+        values = equations(setting.replace(duration=None), np.append(unknowns, duration))
+        return values, values.jacobian[:6, 6] * duration
+
+    def over_ratio(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        there = setting.replace(ratio=math.exp(parameter))
+        scale, growth = _end_scale(there), there.end_switching_slopes[0]
+        values = equations(there, unknowns * scale)
+        by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
+        return replace(values, jacobian=values.jacobian * scale), by_ratio
+
+    def over_peak(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(setting.replace(peak=math.exp(parameter)), unknowns)
+        return values, values.by_peak
+
+    def over_lead(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+        values = equations(setting.replace(lead=parameter), unknowns)
+        return values, values.by_lead
+
+    return {"duration": over_duration, "ratio": over_ratio, "peak": over_peak, "lead": over_lead}[name]
 
 
-def end_thrust(flight: Flight) -> float:
-    """|p| at the end of an unsaturated flight."""
-    return float(np.linalg.norm(switching(flight.end))) / 2
+def _end_scale(setting: Setting) -> Array:
+    """|n(t_k)| for the six costates, and 1 for t_k."""
+    return np.append(np.full(6, setting.end_switching), 1.0)
+
+
+def curve(setting: Setting, start: Root[Flight], name: str, towards: float) -> Iterator[Point[Equations]]:
+    """The curve of extremals through one as a number of the setting changes, by rough flights; see `family`.
+
+    Parameters
+    ----------
+    setting : Setting
+        What the start solves; its value of the number is where the curve begins.
+    start : Root
+        An extremal.
+    name : "peak", "ratio", "duration" or "lead"
+    towards : float
+        The value of the parameter in whose direction the curve is followed first.
+    """
+    rough = setting.replace(
+        rough=True, ratio=1.0 if name == "duration" and not setting.free else setting.ratio
+    )
+    begin = {
+        "peak": lambda: math.log(setting.peak),
+        "ratio": lambda: math.log(setting.ratio),
+        "duration": lambda: math.log(start.flight.duration),
+        "lead": lambda: setting.lead,
+    }[name]()
+    step, largest, steps = PACES[name]
+    unscaled = name == "ratio"
+    unknowns = start.unknowns / _end_scale(setting) if unscaled else start.unknowns
+    points = follow(
+        family(rough, name),
+        unknowns,
+        begin,
+        towards - begin,
+        scales=scales,
+        step=step,
+        largest=largest,
+        steps=steps,
+        rows=6 if name == "duration" else None,
+    )
+    for point in points:
+        scale = _end_scale(setting.replace(ratio=math.exp(point.parameter))) if unscaled else 1.0
+        yield replace(point, unknowns=point.unknowns * scale)
+
+
+def _thrust(flight: Flight) -> Array:
+    """|p| on a fine grid."""
+    return np.asarray(np.linalg.norm(flight.thrust(fine_grid(flight.duration)), axis=1))
+
+
+SHOOTING = Shooting(
+    meet=meet,
+    equations=equations,
+    curve=curve,
+    released=np.append,
+    law=lambda setting, point: float(point.equations.residual[-1]),
+    thrust=_thrust,
+)
+"""These equations, as `pontryagin.rendezvous.families` leads their extremals."""

@@ -1,41 +1,31 @@
-"""Solve a rendezvous: every extremal found, best first."""
+"""An extremal of a rendezvous in the user's units: its cost, its state at any time, its certificate."""
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.errors import Infeasible
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.certificate import (
     RendezvousCertificate,
     certify,
 )
-from pontryagin.rendezvous.reduced.first_extremal import require_apart
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     thrust,
 )
-from pontryagin.rendezvous.reduced.homotopy import (
-    Root,
-    newton,
-)
-from pontryagin.rendezvous.reduced.quadrature import (
-    energy,
-    turned,
-)
-from pontryagin.rendezvous.reduced.search import extremals
+from pontryagin.rendezvous.reduced.quadrature import angle, energy
 from pontryagin.rendezvous.reduced.search_log import Search
-from pontryagin.rendezvous.reduced.shooting import Setting
+from pontryagin.rendezvous.root import Root
 from pontryagin.validation import times
 
 SAME = 1e-7
-"""Extremals whose durations and costs agree to this are one."""
+"""Relative difference of durations and of costs below which two extremals count as one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,9 +35,9 @@ class Extremal:
     Attributes
     ----------
     problem : Rendezvous
-        What was asked for.
+        What is solved.
     root : Root
-        The roots of the shooting equations, in the solver's units.
+        The meeting, in the solver's units.
     others : tuple of Extremal
         The other extremals found, by cost; only the best one has them.
     searched : Search
@@ -68,7 +58,7 @@ class Extremal:
     """
 
     problem: Rendezvous
-    root: Root = field(repr=False)
+    root: Root[Flight] = field(repr=False)
     others: tuple["Extremal", ...] = field(default=(), repr=False)
     searched: Search | None = field(default=None, repr=False)
 
@@ -113,7 +103,7 @@ class Extremal:
     @cached_property
     def revolutions(self) -> float:
         """Angle that the craft turns about the centre, in revolutions."""
-        return turned(self.flight) / (2 * math.pi)
+        return angle(self.flight) / (2 * math.pi)
 
     @cached_property
     def certificate(self) -> RendezvousCertificate:
@@ -143,73 +133,6 @@ class Extremal:
         return thrust(self._sampled(t), self.flight.peak, self.flight.bang) * self.problem.scaled.acceleration
 
 
-def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
-    """The best extremal found of the rendezvous (1)-(7); the others found are its `others`.
-
-    Solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
-    From coasting the costates are led to a transfer without bound, by families over the duration and over
-    the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
-    saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
-    cheapest comes first, and `searched` tells where they were looked for.
-
-    Parameters
-    ----------
-    problem : Rendezvous
-        What is to be solved.
-    start : Extremal, optional
-        A solution of a problem close to this one; its costates are then taken as the start of Newton's
-        method, and nothing else is looked for.
-
-    Returns
-    -------
-    Extremal
-        The cheapest found. Without a bound all extremals that the search came upon are among its
-        ``others``; with one, those that could be brought under it.
-
-    Raises
-    ------
-    TypeError
-        If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
-    ValueError
-        If the duration is free and the craft is with the target at the start.
-    Infeasible
-        If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
-        bound: no extremal was reached, and on a family followed the costates grew beyond measure.
-    NotConverged
-        If no extremal was reached otherwise.
-
-    Examples
-    --------
-    >>> import math
-    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
-    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
-    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
-    ...                   peak=math.inf, duration=6.0)
-    >>> best = solve(leap)
-    >>> round(best.cost, 6), best.certificate.holds(1e-10)
-    (0.023882, True)
-    """
-    if not isinstance(problem, Rendezvous):
-        raise TypeError(f"problem must be of type Rendezvous, got {problem!r}")
-    if problem.free and problem.time_weight == 0:
-        raise Infeasible(
-            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
-            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
-            "fix the duration, or give time_weight a positive value"
-        )
-    scaled = problem.scaled
-    if problem.free:
-        require_apart(scaled)
-    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    if start is not None:
-        require_extremal("start", start)
-        return Extremal(problem, newton(setting, _unknowns(start, problem)))
-    log = Search()
-    found = [Extremal(problem, root) for root in extremals(setting, log)]
-    best, *others = distinct(found)
-    return replace(best, others=tuple(others), searched=log)
-
-
 def require_extremal(name: str, given: object) -> None:
     """Raise unless it is a solution by `solve`.
 
@@ -220,13 +143,6 @@ def require_extremal(name: str, given: object) -> None:
     """
     if not isinstance(given, Extremal):
         raise TypeError(f"{name} must be an Extremal, as solve returns, got {given!r}")
-
-
-def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
-    """The costates of a neighbour's solution in this problem's units, and its duration if one is needed."""
-    scaled = problem.scaled
-    costates = start.initial_costate / scaled.costate_units
-    return np.append(costates, start.duration / scaled.time) if problem.free else costates
 
 
 def distinct(found: Iterable[Extremal]) -> list[Extremal]:

@@ -1,8 +1,9 @@
-"""A first extremal out of nothing: from coasting, whose costates are zero, to a meeting at a fixed time.
+"""The first extremal of the problem without bound, from coasting, whose costates are zero.
 
-The goal moves from where the craft coasts to where the target will be, and the extremal with it: no thrust
+The goal is moved from where the craft coasts to where the target will be, and the extremal with it: no thrust
 at first, the whole transfer at last. The turn in the orbit's plane may be taken with whole revolutions more
-or less, which gives one family of extremals for each.
+or less, which gives one family of extremals for each. A fixed duration is reached so, or from a shorter one,
+which is then stretched; from a guess of a free one the family over the duration leads to the terminal law.
 """
 
 import math
@@ -11,32 +12,73 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics import kepler
 from pontryagin.numerics.rotation import about_third, conjugate, product
+from pontryagin.rendezvous.estimate import ballistic_lead, gap_duration, orbit_change_duration
+from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.reduced.conditions import I3, Setting, by_goal, goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
 )
-from pontryagin.rendezvous.reduced.homotopy import (
-    Root,
-    newton,
-)
-from pontryagin.rendezvous.reduced.shooting import (
-    I3,
-    Setting,
-    by_goal,
-    goal_of,
-    mismatch,
-)
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
+from pontryagin.rendezvous.root import Root
 
 SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
 """Costates of coasting; nu is not quite zero, so that it has a direction."""
 LEAST_STEP = 1 / 256
+"""Share of the goal's way below which a step is not halved again."""
 TRIES = 60
+"""Most steps of the goal that are tried."""
+TAU = 2 * math.pi
+SHORT = 0.5
+"""A free duration estimated by the gap between craft and target is tried first where it is below this."""
+STRETCHED = (1.0, 0.6, 0.4, 0.2)
+"""Parts of a fixed duration from which it is reached."""
+GUESSED = (1.0, 1.5, 0.7, 2.5, 0.4)
+"""Multiples of a guessed duration that are tried."""
+MORE_TURNS = (0, 1, -1, 2, -2)
+"""Revolutions more than half of the target's lead that are tried."""
 
 
-def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Root:
+def unbounded(setting: Setting, log: Search) -> Root[Flight]:
+    """An extremal of the unbounded problem, of the fixed duration or of a free one.
+
+    Raises
+    ------
+    NotConverged
+        If none is reached from any guess.
+    """
+    for duration in _durations(setting):
+        log.durations.append(duration)
+        for more in MORE_TURNS:
+            turns = _even_turns(setting.scaled, duration) + more
+            try:
+                fixed = cold_start(setting.replace(duration=duration), turns)
+                return (freed if setting.free else stretched)(SHOOTING, setting, fixed)
+            except NotConverged as reason:
+                users = duration * setting.scaled.time
+                log.given_up.append(f"start with the duration {users:.3g}, {turns} turns: {reason}")
+    raise NotConverged("no first extremal was found", float("inf"))
+
+
+def _durations(setting: Setting) -> list[float]:
+    """To start from: the fixed one and shorter ones, or guesses of a free one."""
+    if setting.duration is not None:
+        return [share * setting.duration for share in STRETCHED]
+    usual, short = (guess(setting.scaled, setting.ratio) for guess in (orbit_change_duration, gap_duration))
+    multiples = [usual * stretch for stretch in GUESSED]
+    return [short, *multiples] if short < SHORT else multiples
+
+
+def _even_turns(scaled: Scaled, duration: float) -> int:
+    """Revolutions that let the craft turn halfway between what it and the target would turn coasting."""
+    wanted = ballistic_lead(scaled, duration) / 2
+    return round((wanted - coasting_twist(scaled, duration)) / TAU)
+
+
+def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Root[Flight]:
     """The unbounded extremal of a fixed time, alpha2 = 1, that coasting leads to.
 
     Parameters
@@ -51,9 +93,9 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
     Raises
     ------
     NotConverged
-        When the goal gets no farther with the extremal behind it.
+        Where the extremal cannot follow the goal.
     """
-    loose = setting.but(peak=math.inf, ratio=1.0)
+    loose = setting.replace(peak=math.inf, ratio=1.0)
     scaled, duration = loose.scaled, float(loose.duration or 0)
     costates, done, step = seed, 0.0, 1.0
     first = fly(scaled, costates, duration, taylor=loose.taylor)
@@ -68,7 +110,7 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
             continue
         costates, done, step = moved, reached, min(1.0, 1.5 * step)
         if done == 1:
-            return newton(loose, costates)
+            return meet(loose, costates)
     raise NotConverged("the goal could not be led to the target", 1 - done)
 
 
@@ -111,7 +153,10 @@ def _path(flight: Flight, goal: Array, revolutions: int):
 
 
 def _chase(setting: Setting, costates: Array, done: float, reached: float, path) -> Array | None:
-    """Predict along the path, then Newton; None where it does not settle."""
+    """Costates that follow the goal from one share of its path to another; None where they cannot.
+
+    They are predicted along the path and corrected by Newton's method without damping.
+    """
     scaled, duration = setting.scaled, float(setting.duration or 0)
     goal, rate = path(done)
 
@@ -138,13 +183,3 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path)
     except (NotConverged, np.linalg.LinAlgError):
         pass
     return None
-
-
-def ballistic_lead(scaled: Scaled, duration: float) -> float:
-    """By how much the target turns farther than the coasting craft would, in radians."""
-    radius, radial, areal = scaled.start
-    along, across = areal**2 / radius - 1, areal * radial
-    anomaly, eccentricity = math.atan2(across, along), math.hypot(along, across)
-    craft = kepler.true_anomaly_after(anomaly, duration, areal**2, eccentricity) - anomaly
-    target = kepler.true_anomaly_after(scaled.anomaly, duration, 1.0, scaled.eccentricity) - scaled.anomaly
-    return float(target - craft)

@@ -1,0 +1,109 @@
+"""Estimates before any extremal is known: the gap between craft and target, durations, angles."""
+
+import math
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible
+from pontryagin.numerics import kepler
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
+
+TOGETHER = 1e-8
+"""Distance and difference of velocities, in units of the target's orbit, that rounding leaves nothing of."""
+LONGEST = 400.0
+"""Longest duration that is guessed, in units of sqrt(p*^3/fM)."""
+SHORTEST = 2.0
+"""Shortest duration in which one orbit is guessed to be changed into the other."""
+
+
+def gap(scaled: Scaled) -> tuple[float, float]:
+    """How far craft and target are from each other at t0, and the difference of their velocities."""
+    craft = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
+    between = target_by_kepler(scaled, 0.0) - craft
+    return float(np.linalg.norm(between[:3])), float(np.linalg.norm(between[3:]))
+
+
+def require_rendezvous(problem: object) -> None:
+    """Raise TypeError unless it is a rendezvous."""
+    if not isinstance(problem, Rendezvous):
+        raise ArgumentTypeError(f"problem must be of type Rendezvous, got {problem!r}", "problem")
+
+
+def require_solvable(problem: Rendezvous) -> None:
+    """Raise unless it is a rendezvous that has a best duration.
+
+    Raises
+    ------
+    TypeError
+        If it is none.
+    Infeasible
+        If the duration is free and costs nothing.
+    ValueError
+        If it is free and the craft is with the target at the start.
+    """
+    require_rendezvous(problem)
+    if not problem.free:
+        return
+    if problem.time_weight == 0:
+        raise Infeasible(
+            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
+            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
+            "fix the duration, or give time_weight a positive value"
+        )
+    _require_gap(problem.scaled)
+
+
+def _require_gap(scaled: Scaled) -> None:
+    """Raise unless there is something to be done before craft and target go on as one.
+
+    Raises
+    ------
+    ValueError
+        If they are at one place with one velocity at t0.
+    """
+    place, velocity = gap(scaled)
+    if max(place, velocity) < TOGETHER:
+        raise ArgumentValueError(
+            "chaser must not be with the target at t0 where the duration is free: the meeting is then at "
+            f"t0, and costs nothing; got a distance of {place:.3g} and velocities that differ by "
+            f"{velocity:.3g}, in units of the target's orbit",
+            "chaser",
+        )
+
+
+def orbit_change_duration(scaled: Scaled, ratio: float) -> float:
+    """A duration in which thrust of about sqrt(alpha1/alpha2) changes one orbit into the other."""
+    radius, radial, areal = scaled.start
+    energy_gap = abs(
+        math.sqrt(max(2 / radius - radial**2 - (areal / radius) ** 2, 1e-3))
+        - math.sqrt(1 - scaled.eccentricity**2)
+    )
+    tilt = 2 * math.asin(min(1.0, float(np.hypot(*scaled.orientation[1:3]))))
+    eccentricity, _ = _eccentricity(scaled.start)
+    speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
+    return min(max(SHORTEST, speed / math.sqrt(ratio)), LONGEST)
+
+
+def gap_duration(scaled: Scaled, ratio: float) -> float:
+    """A duration in which thrust of about sqrt(alpha1/alpha2) closes the gap as if nothing attracted."""
+    place, velocity = gap(scaled)
+    return 2 * math.sqrt(place / math.sqrt(ratio)) + velocity / math.sqrt(ratio)
+
+
+def ballistic_lead(scaled: Scaled, duration: float) -> float:
+    """By how much the target turns farther than the coasting craft would, in radians."""
+    eccentricity, anomaly = _eccentricity(scaled.start)
+    parameter = float(scaled.start[2]) ** 2
+    craft = kepler.true_anomaly_after(anomaly, duration, parameter, eccentricity) - anomaly
+    target = kepler.true_anomaly_after(scaled.anomaly, duration, 1.0, scaled.eccentricity) - scaled.anomaly
+    return float(target - craft)
+
+
+def _eccentricity(start: Array) -> tuple[float, float]:
+    """Eccentricity and true anomaly of the craft's orbit, from r, v1, c."""
+    radius, radial, areal = start
+    along, across = areal**2 / radius - 1, areal * radial
+    return math.hypot(along, across), math.atan2(across, along)

@@ -1,0 +1,234 @@
+"""The families of extremals that lead from one without a bound to the one that a problem asks for.
+
+Over the duration: to a fixed one, or until the terminal law holds. Over the bound: from the largest thrust
+down to p_max. Over alpha1/alpha2: up to where the thrust is saturated throughout, then to least time. The
+equations are arguments: those of reduced dimension and those in Sapunkov's elements are led the same ways.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, Self, TypeVar
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.numerics.continuation import Point, crossings, reach
+from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.root import COSTATES, Conditions, Root
+
+END_SHARES = (2.5, 1.5, 0.7)
+"""Thrust in units of p_max at the end of the unbounded problems from which least time is sought.
+
+From one of them alone the curve may turn back before the thrust is saturated, or lead to a slower extremal.
+"""
+RUNAWAY = 1e4
+"""Growth of the costates at which a bound is taken to be the least for the duration."""
+STEEPEST = 1e12
+"""alpha1/alpha2, in units of p_max^2, at which the thrust must be saturated throughout."""
+LONGEST = 10.0
+"""Logarithm of the factor by which durations are changed in search of the terminal law."""
+ROOM = 1.001
+"""The bound that a family starts from, in units of the largest thrust without a bound."""
+
+
+class Flown(Protocol):
+    """A flight, as far as its families look at it."""
+
+    @property
+    def duration(self) -> float:
+        """Time at its end."""
+
+    @property
+    def pieces(self) -> Sequence[Any]:
+        """Its arcs, each with a ``mode``."""
+
+
+class Posed(Protocol):
+    """What is solved for, as far as its families look at it."""
+
+    @property
+    def scaled(self) -> Scaled:
+        """The problem."""
+
+    @property
+    def ratio(self) -> float:
+        """alpha1/alpha2; inf for alpha2 = 0."""
+
+    @property
+    def peak(self) -> float:
+        """p_max; inf without a bound."""
+
+    @property
+    def duration(self) -> float | None:
+        """t_k where it is fixed."""
+
+    @property
+    def end_switching(self) -> float:
+        """|n(t_k)| by the terminal law."""
+
+    def replace(self, **changes: Any) -> Self:
+        """The same with some of it changed."""
+
+
+S = TypeVar("S", bound=Posed)
+F = TypeVar("F", bound=Flown)
+
+
+@dataclass(frozen=True)
+class Shooting(Generic[S, F]):
+    """A set of equations for the meeting, as the families need it.
+
+    Attributes
+    ----------
+    meet : function of a setting and unknowns
+        Newton's method.
+    equations : function of a setting and unknowns
+        The conditions.
+    curve : function of a setting, a root, a name and a value
+        Points of the family through the root over the logarithm of "peak", "ratio" or "duration", towards
+        the value of that logarithm.
+    released : function of unknowns of a fixed duration and that duration
+        Unknowns of the free one.
+    law : function of a setting and a point of the curve over "duration"
+        By what the terminal law is missed, relative.
+    thrust : function of a flight
+        |p| on a fine grid.
+    """
+
+    meet: Callable[[S, Array], Root[F]]
+    equations: Callable[[S, Array], Conditions[F]]
+    curve: Callable[[S, Root[F], str, float], Iterator[Point[Any]]]
+    released: Callable[[Array, float], Array]
+    law: Callable[[S, Point[Any]], float]
+    thrust: Callable[[F], Array]
+
+
+def fine_grid(end: float) -> Array:
+    """Values of the independent variable of a flight at which its thrust is looked at."""
+    return np.linspace(0.0, end, 200 + int(40 * end))
+
+
+def stretched(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
+    """The extremal of the fixed duration on the family through one of another duration.
+
+    Raises
+    ------
+    NotConverged
+        Where the family ends before.
+    """
+    wanted = float(setting.duration or 0.0)
+    if root.flight.duration == wanted:
+        return root
+    end = math.log(wanted)
+    points = shooting.curve(setting, root, "duration", end)
+    reason = "the duration could not be stretched"
+    return reach(points, end, lambda unknowns: shooting.meet(setting, unknowns), reason)
+
+
+def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
+    """The extremal of a free duration on the family through one of a fixed duration: the terminal law holds.
+
+    Raises
+    ------
+    NotConverged
+        Where it does not within the durations looked at.
+    """
+    duration = root.flight.duration
+    start = shooting.released(root.unknowns, duration)
+    missed = float(shooting.equations(setting, start).residual[-1])
+    towards = math.log(duration) + math.copysign(LONGEST, missed)
+    points = shooting.curve(setting, root, "duration", towards)
+    for unknowns, logarithm in crossings(points, lambda point: shooting.law(setting, point)):
+        return shooting.meet(setting, shooting.released(unknowns, math.exp(logarithm)))
+    raise NotConverged("the terminal law was not met along the durations", abs(missed))
+
+
+def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Root[F]:
+    """The extremal under the bound of a setting, from one without bound; under alpha2 = 0 if that is posed.
+
+    Parameters
+    ----------
+    setting : Setting
+        What is posed.
+    loose : Setting
+        What the root solves: no bound, and a finite alpha1/alpha2.
+    root : Root
+        The extremal.
+
+    Raises
+    ------
+    Infeasible
+        Where the costates run away: there the bound is the least with which this family makes its duration.
+    NotConverged
+        Where the family turns back, or cannot be followed.
+    """
+    under = _lowered(shooting, loose, root, setting.peak)
+    if setting.ratio < math.inf:
+        return under
+    return _least_time(shooting, loose.replace(peak=setting.peak), under)
+
+
+def _lowered(shooting: Shooting[S, F], loose: S, root: Root[F], peak: float) -> Root[F]:
+    """The bound brought down from the largest thrust to p_max."""
+    if peak == math.inf:
+        return root
+    wanted, highest = loose.replace(peak=peak), ROOM * float(shooting.thrust(root.flight).max())
+    if highest < peak:
+        return shooting.meet(wanted, root.unknowns)
+    start, end = math.log(highest), math.log(peak)
+    least = start
+
+    def reached() -> str:
+        bounds = (math.exp(x) * loose.scaled.acceleration for x in (least, end))
+        return "the bound went down to {:.6g}, not to {:.6g}".format(*bounds)
+
+    def falling() -> Iterator[Point[Any]]:
+        nonlocal least
+        for point in shooting.curve(loose.replace(peak=highest), root, "peak", end):
+            yield point
+            if _largest_costate(point.unknowns) > RUNAWAY * _largest_costate(root.unknowns):
+                raise Infeasible(f"{reached()}: the costates grow beyond measure")
+            if point.parameter > start:
+                return
+            least = min(least, point.parameter)
+
+    for unknowns, _ in crossings(falling(), lambda point: point.parameter - end):
+        return shooting.meet(wanted, unknowns)
+    raise NotConverged(f"{reached()}: the family turns back or ends", least - end)
+
+
+def _largest_costate(unknowns: Array) -> float:
+    return float(np.abs(unknowns[:COSTATES]).max())
+
+
+def _least_time(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
+    """alpha1/alpha2 raised until everything is saturated, or as far as it goes; then alpha2 = 0.
+
+    Costates are in units of alpha2 before and of alpha1 after, so that |n(t_k)| tells how they change.
+    """
+    start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
+    reason = "alpha1/alpha2 could not be raised until the thrust is saturated throughout"
+    unknowns, reached = root.unknowns, start
+    for point in shooting.curve(setting, root, "ratio", end):
+        unknowns, reached = point.unknowns, point.parameter
+        if [piece.mode for piece in point.equations.flight.pieces] == ["saturated"]:
+            break
+        if reached > end:
+            reason = "the thrust vanishes on the way"
+            break
+        if reached < start:
+            reason = "the family turns back"
+            break
+    bang = setting.replace(ratio=math.inf)
+    change = bang.end_switching / setting.replace(ratio=math.exp(reached)).end_switching
+    try:
+        return shooting.meet(bang, np.append(change * unknowns[:COSTATES], unknowns[COSTATES:]))
+    except NotConverged as failure:
+        raise NotConverged(reason, failure.residual) from failure
+
+
+def loose_ratios(ratio: float, peak: float) -> list[float]:
+    """alpha1/alpha2 of the unbounded problems that are solved first; several for least time."""
+    return [(share * peak) ** 2 for share in END_SHARES] if ratio == math.inf else [ratio]

@@ -1,0 +1,136 @@
+"""Solve a rendezvous: from the problem without bound to the bound, and for least time to alpha2 = 0.
+
+Every step follows a family of true rendezvous problems: over the duration and over the revolutions without
+bound, then over the bound, then over alpha1/alpha2. All extremals reached come back, cheapest first.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.rendezvous.estimate import require_solvable
+from pontryagin.rendezvous.families import bounded, loose_ratios
+from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.conditions import Setting
+from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
+from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
+from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
+from pontryagin.rendezvous.reduced.start import unbounded
+from pontryagin.rendezvous.root import Root
+
+KEPT = 4
+"""How many extremals of the unbounded problem are taken on to the bound; for least time, two."""
+
+
+def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
+    """The best extremal found of the rendezvous (1)-(7); the others found are its `others`.
+
+    Solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
+    From coasting the costates are led to a transfer without bound, by families over the duration and over
+    the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
+    saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
+    cheapest comes first, and `searched` tells where they were looked for.
+
+    Parameters
+    ----------
+    problem : Rendezvous
+        What is to be solved.
+    start : Extremal, optional
+        A solution of a problem close to this one; its costates are then taken as the start of Newton's
+        method, and nothing else is looked for.
+
+    Returns
+    -------
+    Extremal
+        The cheapest found. Without a bound all extremals that the search came upon are among its
+        ``others``; with one, those that could be brought under it.
+
+    Raises
+    ------
+    TypeError
+        If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
+    ValueError
+        If the duration is free and the craft is with the target at the start.
+    Infeasible
+        If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
+        bound: no extremal was reached, and on a family followed the costates grew beyond measure.
+    NotConverged
+        If no extremal was reached otherwise.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
+    >>> target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
+    >>> leap = Rendezvous(Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0]), target, time_weight=0, energy_weight=1,
+    ...                   peak=math.inf, duration=6.0)
+    >>> best = solve(leap)
+    >>> round(best.cost, 6), best.certificate.holds(1e-10)
+    (0.023882, True)
+    """
+    require_solvable(problem)
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    if start is not None:
+        require_extremal("start", start)
+        return Extremal(problem, meet(setting, _unknowns(start, problem)))
+    log = Search()
+    found = [Extremal(problem, root) for root in extremals(setting, log)]
+    best, *others = distinct(found)
+    return replace(best, others=tuple(others), searched=log)
+
+
+def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
+    """The costates of a neighbour's solution in this problem's units, and its duration if one is needed."""
+    scaled = problem.scaled
+    costates = start.initial_costate / scaled.costate_units
+    return np.append(costates, start.duration / scaled.time) if problem.free else costates
+
+
+def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
+    """All extremals found of a problem, in no order.
+
+    Raises
+    ------
+    NotConverged
+        If none was reached.
+    Infeasible
+        If none was, and on a curve followed the bound came to the least for the fixed duration.
+    """
+    roots: list[Root[Flight]] = []
+    too_short = False
+    for ratio in loose_ratios(setting.ratio, setting.peak):
+        loose = setting.replace(peak=math.inf, ratio=ratio)
+        for number, known in enumerate(_without_bound(setting, loose, log), start=1):
+            try:
+                roots.append(bounded(SHOOTING, setting, loose.replace(lead=known.lead), known.root))
+            except (NotConverged, Infeasible) as reason:
+                too_short = too_short or isinstance(reason, Infeasible)
+                log.given_up.append(f"extremal {number} of the unbounded problem: {reason}")
+    if roots:
+        return roots
+    reasons = "; ".join(log.given_up)
+    if too_short and not setting.free:
+        raise Infeasible(f"no extremal of this duration stays within the peak: {reasons}")
+    raise NotConverged(f"no extremal was reached: {reasons}", float("inf"))
+
+
+def _without_bound(setting: Setting, loose: Setting, log: Search) -> list[UnboundedExtremal]:
+    """The extremals without bound that are taken on to the bound, cheapest first; without one all of them."""
+    try:
+        found = sorted(through_revolutions(loose, unbounded(loose, log), log), key=lambda one: one.cost)
+    except NotConverged as reason:
+        log.given_up.append(f"the unbounded problem: {reason}")
+        return []
+    most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
+    if most < len(found):
+        log.given_up.append(
+            f"{len(found) - most} extremals of the unbounded problem were not taken to the bound: of it they "
+            "are the dearest"
+        )
+    return found[:most]
