@@ -1,4 +1,4 @@
-"""Problems and solutions of every paper are values: they pickle, copy, compare and hash; arrays are read-only."""
+"""Problems and solutions are values: they pickle, copy, compare and hash, and their arrays are read-only."""
 
 import copy
 import inspect

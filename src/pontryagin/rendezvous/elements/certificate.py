@@ -35,11 +35,13 @@ from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,
 )
+from pontryagin.value import value_class
 
 SAMPLES = 201
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class ElementsCertificate(MaximumPrinciple):
     """Residuals of a rendezvous in the elements, in units with p* = c* = fM = 1; no bound on other costs.
 

@@ -10,12 +10,14 @@ from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.validation import common_shape, finite, positive, vectors
+from pontryagin.value import value_class
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
 RELATED = 1e-6
 """Largest residual of the bilinear relation that is accepted, relative to A^2 + B^2."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Elements:
     """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.

@@ -35,6 +35,7 @@ from pontryagin.rendezvous.elements.elements import (
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
+from pontryagin.value import value_class
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
@@ -43,7 +44,8 @@ GRAZING = 1e-7
 STEP = 1e-30
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One arc: phi where it begins, its mode, states and derivatives there."""
 
@@ -52,6 +54,7 @@ class Piece:
     whole: Array
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ElementFlight:
     """An extremal in the units of `Scaled`.

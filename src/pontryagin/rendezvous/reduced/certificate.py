@@ -26,6 +26,7 @@ from pontryagin.rendezvous.witness.cartesian import (
     integrate,
     target_by_kepler,
 )
+from pontryagin.value import value_class
 
 SAMPLES = 201
 FAINT = 1e-3
@@ -33,7 +34,8 @@ FAINT = 1e-3
 TINY = 1e-300
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class RendezvousCertificate(MaximumPrinciple):
     """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on other controls' cost.
 

@@ -17,12 +17,14 @@ from pontryagin.rendezvous.reduced.arcs import (
     arc,
     identity,
 )
+from pontryagin.value import value_class
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One arc: where it begins, in which mode."""
 
@@ -31,7 +33,8 @@ class Piece:
     whole: Array
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Flight:
     """An extremal in the units of `Scaled`.
 
