@@ -1,6 +1,7 @@
 """Sapunkov's elements A, B and phi of a place and a velocity, and back."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,10 +51,16 @@ class Elements:
     array([0., 1., 0.])
     """
 
-    A: ArrayLike
-    B: ArrayLike
-    phi: ArrayLike = 0.0
+    A: Array
+    B: Array
+    phi: Array = 0.0  # type: ignore[assignment]
     gravity: float = 1.0
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, A: ArrayLike, B: ArrayLike, phi: ArrayLike = 0.0, gravity: float = 1.0
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         A, B = vectors("A", self.A, 4), vectors("B", self.B, 4)
