@@ -91,7 +91,7 @@ def test_a_users_script_has_no_type_error(answers):
 
 @pytest.mark.parametrize(
     ("line", "kind"),
-    [(i, line.split("  # ")[1]) for i, line in enumerate(SCRIPT.splitlines(), 1) if "  # " in line],
+    [(i, line.split("  # ")[1]) for i, line in enumerate(SCRIPT.splitlines(), 1) if line[:6] == "reveal"],
 )
 def test_a_public_name_has_the_type_of_what_it_makes(answers, line, kind):
     (said,) = (text for text in answers[line] if "Revealed type" in text)
