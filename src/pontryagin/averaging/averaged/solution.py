@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.solve import extremals
 from pontryagin.averaging.system.anomaly import (
     anomaly_at,
     phase_at,
@@ -17,9 +16,9 @@ from pontryagin.averaging.system.anomaly import (
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.collocation import evaluate as evaluate_series
-from pontryagin.validation import finite, times, vectors
+from pontryagin.validation import finite, times
 from pontryagin.value import value_class
 
 if TYPE_CHECKING:
@@ -225,120 +224,8 @@ class AveragedSolution:
         return evaluate_series(self.edges, self.series, share)
 
 
-def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
-    """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
-
-    The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
-    target along its straight line, or that continues the extremals to nearer levels of the target. It
-    satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
-    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
-
-    Parameters
-    ----------
-    system : PhaseSystem
-        Its numbers may be arrays.
-    start : (..., n) array
-        a_0; leading axes, with those of the numbers and of kappa, make a stack of problems.
-    kappa : (...) array
-        Member of the family of (2.11); other than zero to explore it.
-
-    Raises
-    ------
-    ValueError
-        If the frequency is not positive all the way, the running cost is not positive on average, or an
-        input is not finite or wrongly shaped.
-    Infeasible
-        If the target cannot be reached: the mean drift opposes every control and exceeds it.
-    NotConverged
-        If no extremal was found, with what was left of the target.
-
-    Examples
-    --------
-    The rotating pendulum of `PhaseSystem` is sped up from the energy 2 to 5:
-
-    >>> import sympy as sp
-    >>> from pontryagin.averaging import PhaseSystem, Quadratic, solve_averaged
-    >>> a, x, u = sp.symbols("a x u", real=True)
-    >>> speed = sp.sqrt(2 * (a + sp.cos(x)))
-    >>> pendulum = PhaseSystem(f=[speed * (u - speed / 5)], anomaly_rate=speed, control_set=Quadratic(),
-    ...                        slow=[a], control=[u], phase=x, target=[a - 5])
-    >>> solution = solve_averaged(pendulum, [2.0])
-    >>> solution.certificate.holds(1e-10)
-    True
-    """
-    from pontryagin.averaging.system.phase_system import PhaseSystem
-
-    if not isinstance(system, PhaseSystem):
-        raise ArgumentTypeError(f"system must be a PhaseSystem, got {system!r}", "system")
-    begin = vectors("start", start, len(system.slow))
-    names = tuple(str(symbol) for symbol in system.slow)
-    numbers = tuple(np.asarray(value) for value in system.numbers.values())
-    return solved(
-        system.model,
-        names,
-        begin,
-        numbers,
-        partial(_identity, system),
-        kappa=kappa,
-    )
-
-
-def solved(
-    model: Model,
-    names: tuple[str, ...],
-    start: Array,
-    numbers: tuple[Array, ...],
-    make_system: Callable[[], "PhaseSystem"],
-    *,
-    kappa: ArrayLike = 0.0,
-    initial_phase: ArrayLike = 0.0,
-    frame: Callable[[AveragedSolution], "ReferenceExtremal"] | None = None,
-) -> AveragedSolution:
-    """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
-    family = finite("kappa", kappa, "a number or an array (...)")
-    phase = np.asarray(initial_phase, dtype=float)
-    try:
-        shape = np.broadcast_shapes(
-            start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
-        )
-    except ValueError:
-        raise ArgumentValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
-    n = len(names)
-    each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
-    begin = np.broadcast_to(start, (*shape, n))
-    *flat_numbers, flat_kappa = (number.reshape(-1) for number in each)
-    found = extremals(model, names, begin.reshape(-1, n), tuple(flat_numbers), flat_kappa)
-    residuals = (
-        found.certificate.boundary,
-        found.certificate.transversality,
-        found.certificate.hamiltonian,
-        found.certificate.maximality,
-    )
-    return AveragedSolution(
-        duration=found.duration.reshape(shape),
-        cost=found.cost.reshape(shape),
-        start=begin,
-        multipliers=found.multipliers.reshape(*shape, model.target),
-        kappa=each[-1],
-        certificate=MaximumPrinciple(*(residual.reshape(shape) for residual in residuals)),
-        names=names,
-        initial_phase=np.broadcast_to(phase, shape),
-        numbers=tuple(each[:-1]),
-        model=model,
-        edges=found.edges.reshape(*shape, -1),
-        series=found.series.reshape(*shape, *found.series.shape[1:]),
-        make_system=make_system,
-        frame=frame,
-    )
-
-
 def _positive_epsilon(epsilon: float) -> float:
     value = finite("epsilon", epsilon, "a positive number")
     if value.shape or not value > 0:
         raise ArgumentValueError(f"epsilon must be a positive number, got {epsilon!r}", "epsilon")
     return float(value)
-
-
-def _identity(system: "PhaseSystem") -> "PhaseSystem":
-    return system

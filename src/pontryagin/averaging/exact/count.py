@@ -14,10 +14,8 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.exact.arrivals import fixed_ending
 from pontryagin.averaging.exact.canonical import (
     Canonical,

@@ -23,7 +23,8 @@ from pontryagin.averaging.exact.canonical import (
 )
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import TOLERANCE, Ends, ends
+from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics.lanes import Ends, ends
 from pontryagin.numerics.newton import solved
 
 ROUGH = 1e-9

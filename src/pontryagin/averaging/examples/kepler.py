@@ -5,10 +5,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive

@@ -6,10 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive
 

@@ -4,10 +4,8 @@ from functools import partial
 
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.validation import finite, positive
 

@@ -6,10 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import positive, vectors
