@@ -22,12 +22,9 @@ from pontryagin.averaging.exact.canonical import (
     y,
 )
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    compact,
-    ends,
-    has_heyoka,
-    heyoka_system,
-)
+from pontryagin.numerics.equations import compact, heyoka_system
+from pontryagin.numerics.flow import has_heyoka
+from pontryagin.numerics.lanes import ends
 
 TOLERANCE = 1e-12
 EPSILON = 0.01
@@ -129,7 +126,7 @@ def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
 
 
 def by_heyoka(path: Trajectory, sensitivities: bool, count: int) -> Array:
-    """Ours: `pontryagin.numerics.flow.ends`, which compiles the equations once; of the first trajectory."""
+    """Ours: `pontryagin.numerics.lanes.ends`, which compiles the equations once; of the first trajectory."""
     e = path.equations
     wrt = path.wrt if sensitivities else ()
     carry = ends(e.states, e.rates, e.parameters, e.anomaly, wrt, tolerance=TOLERANCE)

@@ -1,14 +1,16 @@
-"""Low-thrust rendezvous: forms of the equations, ways to a solution, many flights at once.
+"""Benchmarks of the low-thrust rendezvous: forms of the equations, solve times, stacks of flights.
 
-problems    the problems measured
-systems     a form of the equations compiled, with or without derivatives, and what a flight of it says
-forms       operations and times of the right-hand sides with 16, 14, 11 and 10 equations
-starts      Newton's method from random starts in each form, and the condition of each Jacobian
-collocated  SciPy's solve_bvp on the repaired form, given its Jacobian
-elsewhere   pykep's least-time problem, in an interpreter of its own
-solves      solve times side by side
-aims        our solver against the aims
-stacks      flights one by one and in heyoka's vector mode
-figures     its plots
-measure     everything at once
+problems          the problems that are measured
+systems           the forms of the equations, compiled with or without derivatives, and their residuals
+forms             operations and times of the right-hand sides with 16, 14, 11 and 10 equations
+starts            Newton's method from random starts in each form, and the condition of each Jacobian
+collocation       SciPy's solve_bvp on the repaired form, with its Jacobian
+pykep_peer        pykep's least-time problem, in an interpreter of its own
+pykep_least_time  the program that this interpreter runs
+integrators       Taylor series and DOP853
+solves            solve times of several methods
+aims              our solver against the aims
+stacks            flights one by one and in heyoka's vector mode
+figures           the plots
+measure           all tables and plots
 """

@@ -1,4 +1,4 @@
-"""Our solver against the aims: warm solves, the homotopy from coasting to least time, the whole search."""
+"""Our solver against the aims: warm solves, the homotopy from coasting to least time, the full search."""
 
 from time import process_time
 
@@ -19,19 +19,20 @@ from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root
 
 WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
-"""Seconds on one core."""
+"""The aims, in seconds on one core."""
 MESH = 60
+"""Number of intervals of the direct method."""
 
 
 def homotopy(problem: Rendezvous) -> Root[Flight]:
-    """One curve: coasting, energy at a fixed time, the mixed problem, the bound, least time."""
+    """One homotopy: coasting, least energy at a fixed time, the mixed problem, the bound, least time."""
     setting = problems.setting(problem)
     loose = setting.replace(peak=float("inf"), ratio=loose_ratios(setting.ratio, setting.peak)[0])
     return bounded(SHOOTING, setting, loose, unbounded(loose, Search()))
 
 
 def warm(quick: bool) -> dict[str, list]:
-    """Warm solves of fixed durations beside the aim."""
+    """Times of warm solves of problems with a fixed duration, and the aim."""
     rows = []
     for name in problems.FIXED[:1] if quick else problems.FIXED:
         problem, start = problems.neighbour(name), problems.solved(name)
@@ -48,7 +49,7 @@ def warm(quick: bool) -> dict[str, list]:
 
 
 def least_time(quick: bool) -> dict[str, list]:
-    """The homotopy to least time and the whole search, beside the direct method, all from nothing."""
+    """Times of the homotopy to least time, the full search and the direct method, each from a cold start."""
     rounds = 1 if quick else 3
     rows = []
     for name in ("inclined-10",) if quick else problems.LEAST:
@@ -60,7 +61,7 @@ def least_time(quick: bool) -> dict[str, list]:
 
         root = homotopy(case.problem)
         timing = take_turns({name: curve}, rounds)[name]
-        best, searched = problems.searched(name)
+        best, searched = problems.timed_search(name)
         rows.append(
             (
                 name,
@@ -88,7 +89,7 @@ def least_time(quick: bool) -> dict[str, list]:
 
 
 def _direct(case: Case, best: float) -> tuple[float, float]:
-    """Seconds of the direct method from its cold start, and its cost over ours; nan where there is none."""
+    """Seconds of the direct method from its cold start, and its cost over ours; nan if it failed."""
     if absent("casadi"):
         return float("nan"), float("nan")
     from pontryagin.rendezvous.judge.collocation import direct

@@ -1,6 +1,7 @@
-"""Plots: what the forms cost, where random starts end, and solve times beside other methods."""
+"""Plots: operations of the forms, outcomes of random starts, solve times, stacks of flights."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -9,7 +10,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
-    INK,
+    GREY,
     ORANGE,
     PURPLE,
     RED,
@@ -18,8 +19,10 @@ from pontryagin.display.plotting import (
     subplots,
 )
 
-Table = Mapping[str, Sequence]
+Table = Mapping[str, Sequence[Any]]
+"""Columns of a table by their headings."""
 FLOOR = 1e-16
+"""Value at which a smaller error is drawn."""
 MARKS = {
     "pontryagin": ("o", BLUE),
     "solve_bvp": ("v", PURPLE),
@@ -30,7 +33,7 @@ MARKS = {
 
 @styled
 def form_costs(table: Table) -> Figure:
-    """Operations of the right-hand side and time of a flight, by the number of equations."""
+    """Operations of the right-hand side and time of a flight over the number of equations."""
     figure, axes = subplots(1, 2, height=3.0)
     columns = (
         ("operations", "operations a right-hand side", 1.0),
@@ -59,13 +62,13 @@ def form_costs(table: Table) -> Figure:
 
 @styled
 def starts(table: Table) -> Figure:
-    """Shares of starts that end at a meeting, at a false one, and at none; a panel an inclination."""
+    """Shares of starts that lead to a true meeting, to a false one, and to none, for each inclination."""
     panels = list(dict.fromkeys(table["inclination"]))
     figure, axes = subplots(1, len(panels), height=2.6, sharey=True, squeeze=False)
     parts = (
         ("meetings", BLUE, "meeting"),
         ("false meetings", RED, "false meeting"),
-        ("no convergence", "#cccccc", "none"),
+        ("no convergence", GREY, "none"),
     )
     for axis, panel in zip(axes.flat, panels, strict=True):
         chosen = [i for i, at in enumerate(table["inclination"]) if at == panel]
@@ -76,8 +79,7 @@ def starts(table: Table) -> Figure:
             axis.barh(names, share, left=left, color=colour, label=label, height=0.7)
             for k, (begin, width) in enumerate(zip(left, share, strict=True)):
                 if width >= 12:
-                    ink = INK if colour == "#cccccc" else "white"
-                    axis.text(begin + width / 2, k, f"{width:.0f}", ha="center", va="center", color=ink)
+                    axis.text(begin + width / 2, k, f"{width:.0f}", ha="center", va="center", color="white")
             left += share
         axis.grid(visible=False)
         axis.set(xlim=(0, 100), title=panel.replace(" deg", "°"), xlabel="starts, %")
@@ -88,7 +90,7 @@ def starts(table: Table) -> Figure:
 
 @styled
 def solve_times(table: Table, aim: float) -> Figure:
-    """Error of the cost against time of a warm solve, a panel a problem; the aim is a line."""
+    """Error of the cost over the time of a warm solve, for each problem, with a line for the aim."""
     panels = list(dict.fromkeys(table["problem"]))
     lines = (len(panels) + 1) // 2
     figure, axes = subplots(lines, 2, height=1.9 * lines + 0.5, sharex=True, sharey=True, squeeze=False)
@@ -118,7 +120,7 @@ def solve_times(table: Table, aim: float) -> Figure:
 
 @styled
 def stacks(table: Table) -> Figure:
-    """Flights a second, one by one and many at once."""
+    """Flights per second, one by one and in vector mode."""
     figure, axis = subplots(height=2.6)
     places = np.arange(len(table["flights"]))
     ways = (

@@ -1,6 +1,7 @@
 """Operations and times of the right-hand sides with 16, 14, 11 and 10 equations."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -8,33 +9,37 @@ import sympy as sp
 from benchmarks.clock import repeated, take_turns
 from benchmarks.rendezvous import problems, systems
 from benchmarks.rendezvous.systems import SYSTEMS
-from pontryagin.numerics.flow import heyoka_system
+from pontryagin.arrays import Array
+from pontryagin.numerics.equations import heyoka_system
 from pontryagin.rendezvous.derivation.principle import Mode
 
 REFERENCE = "inclined-energy"
+"""The case whose flight is timed."""
 SCALES: dict[Mode, float] = {"unsaturated": 1.0, "saturated": 0.05}
-"""alpha2 of unsaturated arcs, p_max of saturated ones."""
+"""alpha2 on unsaturated arcs, p_max on saturated ones."""
 MODES: tuple[Mode, ...] = ("unsaturated", "saturated")
 
 
 def operations(size: str, mode: Mode, derivatives: bool) -> int:
-    """Arithmetic of one right-hand side, common subexpressions counted once."""
+    """Number of operations of one right-hand side, with common subexpressions counted once."""
     form, columns = systems.expressions(size, mode)
-    whole = [*form.rates, *(columns if derivatives else ())]
-    shared, reduced = sp.cse(whole)
+    rates = [*form.rates, *(columns if derivatives else ())]
+    shared, reduced = sp.cse(rates)
     return int(sp.count_ops([value for _, value in shared]) + sp.count_ops(reduced))
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Every form, unsaturated and saturated, without and with six columns of derivatives."""
+    """Operations and times of every form on both kinds of arcs, with and without derivatives."""
     count, rounds = (200, 1) if quick else (20_000, 7)
     rows = []
     for mode in MODES[:1] if quick else MODES:
         for derivatives in (False, True):
             calls = {size: _evaluate(size, mode, derivatives, count) for size in SYSTEMS}
-            called = take_turns(calls, rounds)
+            call_times = take_turns(calls, rounds)
             flights = {size: _fly(size, mode, derivatives) for size in SYSTEMS}
-            flown = take_turns({size: repeated(run, 5) for size, (run, _, _) in flights.items()}, rounds)
+            flight_times = take_turns(
+                {size: repeated(run, 5) for size, (run, _, _) in flights.items()}, rounds
+            )
             reference = flights["11"][2]
             for size in SYSTEMS:
                 _, steps, end = flights[size]
@@ -45,10 +50,10 @@ def table(quick: bool) -> dict[str, list]:
                         len(SYSTEMS[size](mode).states) * (7 if derivatives else 1),
                         size,
                         operations(size, mode, derivatives),
-                        1e9 * called[size].typical,
+                        1e9 * call_times[size].typical,
                         steps,
-                        1e6 * flown[size].typical,
-                        1e6 * flown[size].least,
+                        1e6 * flight_times[size].typical,
+                        1e6 * flight_times[size].least,
                         float(np.abs(end[:4] - reference[:4]).max()),
                     )
                 )
@@ -68,7 +73,7 @@ def table(quick: bool) -> dict[str, list]:
 
 
 def _evaluate(size: str, mode: Mode, derivatives: bool, count: int) -> Callable[[], int]:
-    """The right-hand side alone, compiled by heyoka, at many states in one call."""
+    """A function that evaluates the right-hand side, compiled by heyoka, at many states in one call."""
     import heyoka as hy
 
     form = SYSTEMS[size](mode)
@@ -89,18 +94,18 @@ def _evaluate(size: str, mode: Mode, derivatives: bool, count: int) -> Callable[
     return run
 
 
-def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], int, np.ndarray]:
-    """The reference case's flight: what runs it, its steps, its end."""
+def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], int, Array]:
+    """A function that runs the reference case's flight, the number of its steps, and its end."""
     best = problems.solved(REFERENCE)
     scaled, duration = best.problem.scaled, best.flight.duration
-    start = systems.begin(size, scaled, best.flight.costates)
+    start = systems.initial_state(size, scaled, best.flight.costates)
     integrator = systems.compiled(size, mode, derivatives)
     rest = systems.identity(size).ravel() if derivatives else np.empty(0)
-    whole, parameters = np.concatenate([start, rest]), systems.parameters(size, scaled, SCALES[mode], start)
+    state, parameters = np.concatenate([start, rest]), systems.parameters(size, scaled, SCALES[mode], start)
 
-    def fly():
+    def fly() -> Any:
         integrator.time = 0.0
-        integrator.state[:] = whole
+        integrator.state[:] = state
         integrator.pars[:] = parameters
         return integrator.propagate_until(duration)
 

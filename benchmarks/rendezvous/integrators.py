@@ -12,7 +12,7 @@ CASES = (*problems.FIXED, "inclined-10", "inclined-60", "glonass")
 
 
 def table(quick: bool) -> dict[str, list]:
-    """The cases' extremals flown once with their derivatives, switches located, by either integrator."""
+    """Times and derivatives of one flight of each case by both integrators, with switches located."""
     rows = []
     for name in CASES[:1] if quick else CASES:
         best = problems.solved(name)
@@ -31,7 +31,7 @@ def table(quick: bool) -> dict[str, list]:
         )
         ours, theirs = (equations(setting, unknowns).jacobian for setting in settings.values())
         taylor, runge = (1e3 * timings[str(key)].typical for key in (True, False))
-        apart = float(np.abs(ours - theirs).max() / np.abs(ours).max())
-        rows.append((name, len(best.switch_times), taylor, runge, runge / taylor, apart))
+        difference = float(np.abs(ours - theirs).max() / np.abs(ours).max())
+        rows.append((name, len(best.switch_times), taylor, runge, runge / taylor, difference))
     headings = ("case", "switches", "Taylor, ms", "DOP853, ms", "times slower", "difference of derivatives")
     return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}

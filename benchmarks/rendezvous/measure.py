@@ -1,13 +1,13 @@
-"""Everything that is measured about the fourth paper's solver."""
+"""All tables and plots of the rendezvous benchmark."""
 
 from benchmarks.papers import Measured
 from benchmarks.rendezvous import (
     aims,
-    elsewhere,
     figures,
     forms,
     integrators,
     problems,
+    pykep_peer,
     solves,
     stacks,
     starts,
@@ -41,7 +41,7 @@ NOTES = (
 
 def measure(quick: bool) -> Measured:
     """All tables and plots."""
-    if line := elsewhere.absent():
+    if line := pykep_peer.absent():
         print(line)
     costs, ends = forms.table(quick), starts.table(quick)
     times, flights = solves.table(quick), stacks.flights(quick)

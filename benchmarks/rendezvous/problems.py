@@ -1,4 +1,4 @@
-"""The problems measured: cases of the report, and the neighbours that warm solves solve."""
+"""The problems that are measured: cases of the report, and neighbouring problems for warm solves."""
 
 import math
 from dataclasses import replace
@@ -7,13 +7,14 @@ from time import process_time
 
 import numpy as np
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 
 SEED = 2014
 NEIGHBOUR = 1.02
-"""A warm solve starts from the problem whose duration, or bound, is this many times larger."""
+"""Factor of the duration, or of the bound, by which a neighbouring problem differs from a case."""
 
 FIXED = ("circle-energy", "inclined-energy", "energy-bounded")
 LEAST = (
@@ -29,14 +30,14 @@ LEAST = (
 
 
 def leap(degrees: float) -> Rendezvous:
-    """From a circle to an ellipse inclined by an angle, least energy in the time 6 without bound."""
+    """From a circle to an ellipse inclined by an angle, with least energy in the time 6 and no bound."""
     target = Orbit.from_angles(1.5, 0.1, 0.0, math.radians(degrees), 0.0, 0.6)
     craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
     return Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0)
 
 
 @cache
-def searched(name: str) -> tuple[Extremal, float]:
+def timed_search(name: str) -> tuple[Extremal, float]:
     """The best extremal found of a case, and the processor time of the search."""
     begun = process_time()
     best = solve(cases()[name].problem)
@@ -45,17 +46,17 @@ def searched(name: str) -> tuple[Extremal, float]:
 
 def solved(name: str) -> Extremal:
     """The best extremal found of a case."""
-    return searched(name)[0]
+    return timed_search(name)[0]
 
 
 @cache
-def leapt(degrees: float) -> Extremal:
-    """The best extremal found of a leap."""
+def solved_leap(degrees: float) -> Extremal:
+    """The best extremal found of a `leap`."""
     return solve(leap(degrees))
 
 
 def neighbour(name: str) -> Rendezvous:
-    """The problem that is solved warm, from the case's own solution."""
+    """The neighbouring problem of a case, which is solved from the solution of the case."""
     problem = cases()[name].problem
     if problem.duration is None:
         return replace(problem, peak=problem.peak * NEIGHBOUR)
@@ -63,11 +64,11 @@ def neighbour(name: str) -> Rendezvous:
 
 
 def setting(problem: Rendezvous) -> Setting:
-    """The problem as the solver sees it."""
+    """The setting of the problem for the shooting equations."""
     scaled = problem.scaled
     return Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
 
 
-def draws(count: int, spread: float) -> np.ndarray:
-    """Normal deviations (count, 6)."""
+def deviations(count: int, spread: float) -> Array:
+    """Normally distributed deviations with a standard deviation `spread`, (count, 6)."""
     return spread * np.random.default_rng(SEED).standard_normal((count, 6))

@@ -1,9 +1,9 @@
-"""Newton's method on pykep's least-time problem, for an interpreter of its own: JSON in, JSON out.
+"""Newton's method on pykep's least-time problem, run by another interpreter: it reads and writes JSON.
 
-pykep pins a version of heyoka other than ours. Its wheel of version 3.0.1 lacks the data of its gallery
-``pykep.trajopt.gym``, without which it cannot be imported; nothing here needs the gallery, so an empty module
-stands in for it. Its gradient hands two parameters to a function of three, and raises: the third is supplied.
-The mass is kept as good as constant by an exhaust velocity of 1e15 and more.
+pykep requires a version of heyoka other than ours. The wheel of its version 3.0.1 lacks the data of the
+module ``pykep.trajopt.gym``, without which it cannot be imported; that module is not needed here, so an empty
+one replaces it. The gradient of pykep passes two parameters to a function of three, which raises an error:
+the third one is supplied here. An exhaust velocity of 1e15 keeps the mass practically constant.
 """
 
 import json
@@ -11,6 +11,7 @@ import statistics
 import sys
 import time
 import types
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ EXACT, ITERATIONS = 1e-11, 20
 
 
 def main() -> None:
-    """Read a problem in units with fM = 1 and the target's p* = 1, solve it, write what came of it."""
+    """Read a problem in units with fM = 1 and p* = 1, solve it, and write the solution and the times."""
     sys.modules["pykep.trajopt.gym"] = types.ModuleType("pykep.trajopt.gym")
     import pykep as pk
 
@@ -27,7 +28,7 @@ def main() -> None:
     unit = np.sqrt(length**3 / gravity)
     speed = length / unit
 
-    def planet(place, velocity):
+    def planet(place: list[float], velocity: list[float]) -> Any:
         posvel = [[x * length for x in place], [x * speed for x in velocity]]
         return pk.planet(pk.udpla.keplerian(when=pk.epoch(0), posvel=posvel, mu_central_body=gravity))
 
@@ -47,7 +48,7 @@ def main() -> None:
     costates = -np.array(given["costates"])
     start = np.array([*costates / np.linalg.norm(costates), 0.0, given["duration"]])
 
-    def newton():
+    def newton() -> tuple[np.ndarray, float]:
         x = start.copy()
         for _ in range(ITERATIONS):
             residual = np.array(problem.fitness(x)[1:])

@@ -1,11 +1,12 @@
-"""Warm solves side by side: a neighbour's solution in, the extremal out."""
+"""Warm solves by several methods, each from the solution of a neighbouring problem."""
 
 from collections.abc import Callable
+from typing import Any
 
 from benchmarks.clock import Timing, repeated, take_turns
 from benchmarks.peers import absent
-from benchmarks.rendezvous import elsewhere, problems
-from benchmarks.rendezvous.collocated import collocated, cost
+from benchmarks.rendezvous import problems, pykep_peer
+from benchmarks.rendezvous.collocation import collocate, cost
 from pontryagin.rendezvous import solve
 from pontryagin.rendezvous.problem.cases import cases
 
@@ -15,8 +16,8 @@ TOLERANCES = (1e-3, 1e-6, 1e-9)
 MESHES = (60, 120)
 
 
-def table(quick: bool) -> dict[str, list]:
-    """Milliseconds of every method on every problem, and how far its cost is from the certified one."""
+def table(quick: bool) -> dict[str, list[Any]]:
+    """Milliseconds of every method on every problem, and the relative error of its cost."""
     rounds = 1 if quick else 3
     rows = []
     for name in ("inclined-energy",) if quick else WARM:
@@ -25,8 +26,8 @@ def table(quick: bool) -> dict[str, list]:
         runs, errors = _peers(name, ours.cost)
         runs[OURS], errors[OURS] = _ours(name), ours.certificate.residual.item()
         timings = take_turns(runs, rounds)
-        if problem.energy_weight == 0 and not elsewhere.absent():
-            found = elsewhere.by_pykep(problem, start, rounds)
+        if problem.energy_weight == 0 and not pykep_peer.absent():
+            found = pykep_peer.solve(problem, start, rounds)
             label = f"pykep {found['version']}"
             timings[label] = Timing(found["typical"], found["least"], 1)
             errors[label] = abs(found["duration"] / ours.flight.duration - 1)
@@ -58,19 +59,19 @@ def _ours(name: str) -> Callable[[], int]:
 
 
 def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[str, float]]:
-    """What runs each peer, and the relative difference of its cost from ours."""
+    """A function that runs each peer, and the relative difference of its cost from ours."""
     problem, start = problems.neighbour(name), problems.solved(name)
     runs: dict[str, Callable[[], int]] = {}
     errors: dict[str, float] = {}
     for tolerance in TOLERANCES:
         label = f"solve_bvp, tolerance {tolerance:.0e}"
 
-        def collocate(tolerance: float = tolerance) -> int:
-            collocated(problem, start, tolerance)
+        def run(tolerance: float = tolerance) -> int:
+            collocate(problem, start, tolerance)
             return 1
 
-        runs[label] = collocate
-        errors[label] = abs(cost(problem, collocated(problem, start, tolerance)) / best - 1)
+        runs[label] = run
+        errors[label] = abs(cost(problem, collocate(problem, start, tolerance)) / best - 1)
     if absent("casadi"):
         return runs, errors
     from pontryagin.rendezvous.judge.collocation import direct

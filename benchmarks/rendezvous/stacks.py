@@ -1,4 +1,4 @@
-"""Flights one by one and many at once, and Newton's method from many starts both ways."""
+"""Flights one by one and in vector mode, and Newton's method from many starts in both ways."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,9 @@ import numpy as np
 from benchmarks.clock import take_turns
 from benchmarks.contest import worst
 from benchmarks.rendezvous import problems
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import fly
 from pontryagin.rendezvous.reduced.lanes import fly_all
 from pontryagin.rendezvous.reduced.multistart import (
@@ -17,18 +19,20 @@ from pontryagin.rendezvous.reduced.multistart import (
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 
 COUNT, NEARBY = 512, 0.02
+"""Number of flights, and the standard deviation of their costates."""
 DEGREES, SPREAD, STARTS = 20, 0.05, 64
+"""Inclination, standard deviation of the starts' costates, and number of starts."""
 BOUND = 0.6
-"""The bound, where there is one, in units of the largest thrust without it."""
+"""The bound on the thrust, in units of the largest thrust without a bound."""
 ARCS = ("unsaturated", "saturated", "with switches")
 
 
 def flights(quick: bool) -> dict[str, list]:
-    """Microseconds a flight, with derivatives and without, and the largest difference between both ways."""
+    """Microseconds per flight with and without derivatives, and the largest difference of the ends."""
     count, rounds = (16, 1) if quick else (COUNT, 5)
-    best = problems.leapt(DEGREES)
+    best = problems.solved_leap(DEGREES)
     scaled, duration = best.problem.scaled, best.flight.duration
-    costates = best.flight.costates + problems.draws(count, NEARBY)
+    costates = best.flight.costates + problems.deviations(count, NEARBY)
     rows = []
     peaks = dict.fromkeys(ARCS, BOUND * float(SHOOTING.thrust(best.flight).max())) | {"unsaturated": np.inf}
     for arcs, peak in peaks.items():
@@ -73,10 +77,10 @@ def flights(quick: bool) -> dict[str, list]:
 
 
 def multistarts(quick: bool) -> dict[str, list]:
-    """Newton's method from random starts, one by one and side by side."""
-    best = problems.leapt(DEGREES)
+    """Times of Newton's method from random starts, one by one and in vector mode."""
+    best = problems.solved_leap(DEGREES)
     setting = problems.setting(best.problem)
-    starts = problems.draws(8 if quick else STARTS, SPREAD)
+    starts = problems.deviations(8 if quick else STARTS, SPREAD)
 
     def alone() -> int:
         return len([_newton(setting, z) for z in starts])
@@ -98,7 +102,8 @@ def multistarts(quick: bool) -> dict[str, list]:
     }
 
 
-def _newton(setting, start: np.ndarray) -> bool:
+def _newton(setting: Setting, start: Array) -> bool:
+    """Whether Newton's method converges from a start."""
     try:
         meet(setting, start)
     except (NotConverged, np.linalg.LinAlgError):

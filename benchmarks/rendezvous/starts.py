@@ -1,8 +1,7 @@
 """Newton's method from the same random starts in each form of one fixed-time problem.
 
-Where a form's own residual vanishes, the extremal is flown anew and tested against (5) and (6): a meeting, or
-a false one. With the gauge nu0 kept, 16, 14 and 11 equations are three ways to compute one map, and differ by
-rounding alone.
+Where a form's own residual vanishes, the extremal is tested against (5) and (6): it is a true meeting or a
+false one. With nu0 = 0, 16, 14 and 11 equations define the same map and differ only by rounding.
 """
 
 from dataclasses import dataclass
@@ -19,20 +18,24 @@ from pontryagin.rendezvous.reduced.conditions import goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import fly
 
 ITERATIONS, HALVINGS = 30, 6
-EXACT, TRUE = 1e-9, 1e-7
-"""Residual at which Newton's method has arrived, and up to which (5) and (6) hold."""
+"""Most steps of Newton's method, and most halvings of a step."""
+EXACT = 1e-9
+"""Residual at which Newton's method has converged."""
+TRUE = 1e-7
+"""Residual up to which (5) and (6) hold."""
 SPREAD = 0.05
+"""Standard deviation of the costates of a start."""
 DEGREES = (0, 20, 60)
 COUNT = 40
 ZERO = 1e-10
-"""Singular values below this share of the largest count as zero."""
+"""Share of the largest singular value below which one counts as zero."""
 CUTOFF = 1e-12
-"""The same, in a step."""
+"""Share of the largest singular value below which one is dropped in a Newton step."""
 
 
 @dataclass(frozen=True)
 class Ends:
-    """What became of the starts: shares, and flights and processor time per start."""
+    """Shares of the starts by their outcome, and flights and seconds of processor time per start."""
 
     true: float
     false: float
@@ -42,7 +45,7 @@ class Ends:
 
 
 def newton(problem: Problem, scaled: Scaled, six: Array, duration: float) -> tuple[Array | None, int]:
-    """Where Newton's method with halved steps arrives, and how many flights it took."""
+    """The solution by Newton's method with halved steps, or None, and the number of flights."""
     unknowns, flights = problem.start(six), 1
     here = problem.residual(scaled, unknowns, duration)
     for _ in range(ITERATIONS):
@@ -66,23 +69,23 @@ def newton(problem: Problem, scaled: Scaled, six: Array, duration: float) -> tup
 
 
 def is_meeting(extremal: Extremal, six: Array) -> bool:
-    """Whether the extremal of these costates meets (5) and (6)."""
+    """Whether the extremal of these costates satisfies (5) and (6)."""
     scaled, setting = extremal.problem.scaled, problems.setting(extremal.problem)
     flight = fly(scaled, six, float(setting.duration or 0))
     return bool(np.abs(mismatch(flight, goal_of(setting, float(flight.end[3]))[0])[0]).max() < TRUE)
 
 
 def ends(extremal: Extremal, starts: Array) -> dict[str, Ends]:
-    """All starts in every form; the forms take turns at each start."""
+    """The outcome of all starts in every form."""
     scaled, duration = extremal.problem.scaled, extremal.flight.duration
     found: dict[str, list[Array]] = {problem.name: [] for problem in PROBLEMS}
     flights, seconds = dict.fromkeys(found, 0), dict.fromkeys(found, 0.0)
     for six in starts:
         for problem in PROBLEMS:
             begun = process_time()
-            unknowns, flown = newton(problem, scaled, six, duration)
+            unknowns, used = newton(problem, scaled, six, duration)
             seconds[problem.name] += process_time() - begun
-            flights[problem.name] += flown
+            flights[problem.name] += used
             if unknowns is not None:
                 found[problem.name].append(problem.six(unknowns))
     count = len(starts)
@@ -95,7 +98,7 @@ def ends(extremal: Extremal, starts: Array) -> dict[str, Ends]:
 
 
 def singular_values(problem: Problem, extremal: Extremal) -> Array:
-    """Of the form's Jacobian at the solution, costates measured by the largest, as many as unknowns."""
+    """Singular values of the form's Jacobian at the solution, for costates in units of the largest one."""
     six = extremal.flight.costates
     unknowns = problem.start(six)
     residual = problem.residual(extremal.problem.scaled, unknowns, extremal.flight.duration)
@@ -105,12 +108,12 @@ def singular_values(problem: Problem, extremal: Extremal) -> Array:
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Every form of every leap."""
-    starts = problems.draws(4 if quick else COUNT, SPREAD)
+    """The outcomes and the singular values of every form at every inclination."""
+    starts = problems.deviations(4 if quick else COUNT, SPREAD)
     rows = []
     for degrees in DEGREES[:2] if quick else DEGREES:
-        extremal = problems.leapt(degrees)
-        for problem in PROBLEMS:  # compiled before anything is timed
+        extremal = problems.solved_leap(degrees)
+        for problem in PROBLEMS:  # Everything is compiled before anything is timed.
             problem.residual(extremal.problem.scaled, problem.start(starts[0]), 1.0)
         found = ends(extremal, starts)
         for problem in PROBLEMS:

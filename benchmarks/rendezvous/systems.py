@@ -1,7 +1,7 @@
-"""Four forms of one system, compiled alike by heyoka, and what their ends say of a meeting.
+"""Four forms of one system, compiled by heyoka in the same way, and their residuals at a meeting.
 
-Costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu is nu, and nu0 = 0. The form with
-all eight costates has Phi* and mu0 free as well.
+The costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu equals nu, and nu0 = 0. In the
+form with eight costates Phi* and mu0 are free as well.
 """
 
 from dataclasses import dataclass
@@ -13,10 +13,8 @@ import sympy as sp
 
 from pontryagin.arrays import Array
 from pontryagin.numerics import complex_step
-from pontryagin.numerics.flow import (
-    TOLERANCE,
-    heyoka_system,
-)
+from pontryagin.numerics.equations import heyoka_system
+from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
@@ -27,6 +25,7 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 STEPS = 2000
+"""Most steps of a flight."""
 
 EIGHT, FULL, LONG, REPAIRED, REDUCED = (
     "16, eight costates",
@@ -35,6 +34,9 @@ EIGHT, FULL, LONG, REPAIRED, REDUCED = (
     "11, with chi",
     "10, with (15)",
 )
+
+
+Symbols = tuple[sp.Symbol, ...]
 
 
 def _repaired(mode: Mode) -> Form:
@@ -50,7 +52,7 @@ EIGHT_COSTATES = tuple(principle.COSTATE)
 
 
 def costates_of(size: str) -> tuple[sp.Symbol, ...]:
-    """The initial values in which a form is differentiated."""
+    """The initial values by which a form is differentiated."""
     if size == "16":
         return (principle.rho, principle.s1, principle.e, *principle.COSTATE[5:])
     return SIX
@@ -58,7 +60,7 @@ def costates_of(size: str) -> tuple[sp.Symbol, ...]:
 
 @cache
 def expressions(size: str, mode: Mode) -> tuple[Form, tuple[sp.Expr, ...]]:
-    """A form, and its variational equations in six columns, in symbols of their own."""
+    """A form and the six columns of its variational equations, with symbols for the derivatives."""
     form = SYSTEMS[size](mode)
     states = sp.Matrix(form.states)
     columns = sp.Matrix(len(form.states), 6, lambda i, j: sp.Symbol(f"w{i}_{j}"))
@@ -66,8 +68,8 @@ def expressions(size: str, mode: Mode) -> tuple[Form, tuple[sp.Expr, ...]]:
 
 
 @cache
-def compiled(size: str, mode: Mode, derivatives: bool, wrt: tuple = ()) -> Any:
-    """heyoka's Taylor integrator of a form, with derivatives in the initial values ``wrt``."""
+def compiled(size: str, mode: Mode, derivatives: bool, wrt: Symbols = ()) -> Any:
+    """heyoka's Taylor integrator of a form, with derivatives by the initial values ``wrt``."""
     import heyoka as hy
 
     form = SYSTEMS[size](mode)
@@ -83,7 +85,7 @@ def compiled(size: str, mode: Mode, derivatives: bool, wrt: tuple = ()) -> Any:
     )
 
 
-def begin(size: str, scaled: Scaled, costates: Array) -> Array:
+def initial_state(size: str, scaled: Scaled, costates: Array) -> Array:
     """The state at t0 of a form for costates rho, s1, e, nu, or rho, s1, e, Phi*, mu."""
     one = [1.0, 0.0, 0.0, 0.0]
     place = [*scaled.start, scaled.anomaly]
@@ -95,9 +97,9 @@ def begin(size: str, scaled: Scaled, costates: Array) -> Array:
 
 
 def fly(
-    size: str, mode: Mode, scaled: Scaled, start: Array, duration: float, scale: float, wrt: tuple = ()
+    size: str, mode: Mode, scaled: Scaled, start: Array, duration: float, scale: float, wrt: Symbols = ()
 ) -> tuple[Array, Array, int] | None:
-    """The end of a flight of a form, its derivatives and the steps taken; None where it stops short."""
+    """The end of a flight of a form, its derivatives and the number of steps; None if it stops early."""
     integrator = compiled(size, mode, True, wrt)
     n = len(start)
     integrator.time = 0.0
@@ -105,33 +107,33 @@ def fly(
     integrator.state[n:] = identity(size, wrt).ravel()
     integrator.pars[:] = parameters(size, scaled, scale, start)
     outcome, _, _, steps, *_ = integrator.propagate_until(duration, max_steps=STEPS)
-    whole = integrator.state
-    if "time_limit" not in str(outcome) or not np.isfinite(whole).all():
+    state = integrator.state
+    if "time_limit" not in str(outcome) or not np.isfinite(state).all():
         return None
-    return whole[:n].copy(), whole[n:].reshape(n, -1).copy(), steps
+    return state[:n].copy(), state[n:].reshape(n, -1).copy(), steps
 
 
 def parameters(size: str, scaled: Scaled, scale: float, start: Array) -> list[float]:
-    """fM, p*, e*, c*, alpha2 or p_max, and for 11 equations the chart."""
+    """fM, p*, e*, c*, alpha2 or p_max, and for 11 equations the sign of the chart."""
     own = [float(chart_of(start[4:10]))] if size == "11" else []
     return [1.0, 1.0, scaled.eccentricity, 1.0, scale, *own]
 
 
 @cache
-def identity(size: str, wrt: tuple = ()) -> Array:
-    """Derivatives at t0."""
+def identity(size: str, wrt: Symbols = ()) -> Array:
+    """Derivatives of the state at t0 by its initial values."""
     form = SYSTEMS[size]("unsaturated")
     return np.array([[float(x == y) for y in wrt or costates_of(size)] for x in form.states])
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One form of the boundary value problem: which system, which unknowns.
+    """One form of the boundary value problem.
 
     Attributes
     ----------
     name : str
-        Its label.
+        The label, which determines the unknowns.
     size : str
         Number of equations.
     """
@@ -153,8 +155,8 @@ class Problem:
         return np.delete(unknowns, [3, 4]) if self.name == EIGHT else unknowns
 
     def residual(self, scaled: Scaled, unknowns: Array, duration: float) -> tuple[Array, Array] | None:
-        """What is zero at a meeting as this form sees it, and its derivatives in the unknowns."""
-        start = begin(self.size, scaled, unknowns)
+        """The residual of this form's conditions at t_k, and its derivatives by the unknowns."""
+        start = initial_state(self.size, scaled, unknowns)
         flown = fly(self.size, "unsaturated", scaled, start, duration, 1.0, self.unknowns)
         if flown is None:
             return None
@@ -180,14 +182,14 @@ PROBLEMS = (
 
 
 def _ends(problem: Problem, scaled: Scaled, inputs: Array, count: int) -> Array:
-    """(5), and (6) or (15), and with eight costates (16), for complex inputs: the end and the unknowns."""
+    """The residuals of (5), of (6) or (15), and with eight costates of (16), for real or complex inputs."""
     end, unknowns = inputs[:count], inputs[count:]
     goal = np.array(kernels.target(end[3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation), dtype=complex)
     place, attitude = end[:3] - goal[:3], goal[4:]
     if problem.size == "10":
         nu, first = (np.concatenate([[0.0], x]) for x in (end[7:10], unknowns[3:]))
-        turned = product(product(attitude, nu), conjugate(attitude))
-        return np.concatenate([place, (turned - first)[1:]])
+        invariant = product(product(attitude, nu), conjugate(attitude))
+        return np.concatenate([place, (invariant - first)[1:]])
     if problem.size == "11":
         nu = [*end[7:10], end[10], *unknowns[3:]]
         goals = [*goal[:3], *attitude]

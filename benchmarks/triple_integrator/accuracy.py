@@ -1,4 +1,4 @@
-"""Worst miss and worst gap of our stacks over a million problems and more, degenerate classes among them."""
+"""Worst miss and worst gap of our stacks over a million problems or more, including degenerate classes."""
 
 import numpy as np
 
@@ -13,10 +13,10 @@ HEADINGS = ("problem", "class", "problems", "unsolved", "worst miss", "worst gap
 
 
 def table(quick: bool) -> dict[str, list]:
-    """For each solver and class of problems.
+    """Worst miss and worst gap for each solver and class of problems.
 
-    The miss is that of the control handed out, propagated piece by piece in extended precision, relative to
-    the largest term on the way; the gap is 1 - dual bound / cost.
+    The miss is that of the returned control, propagated piece by piece in extended precision, relative to
+    the largest term of the propagation; the gap is 1 - dual bound / cost.
     """
     count = 2_000 if quick else 200_000
     rows = [row for name in MOMENT_CLASSES for row in _fixed_time(name, count)]

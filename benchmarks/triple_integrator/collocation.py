@@ -13,7 +13,7 @@ NODES = 100
 
 
 def boundary_value_problem(tolerance: float) -> Solver:
-    """Least L2 norm from the maximum principle's linear boundary value problem, Jacobians supplied."""
+    """Least L2 norm from the linear boundary value problem of the maximum principle, with its Jacobians."""
     flow = np.zeros((6, 6))
     for row, column, value in ((0, 1, 1), (1, 2, 1), (2, 5, 1), (4, 3, -1), (5, 4, -1)):
         flow[row, column] = value
@@ -66,7 +66,7 @@ def direct(energy: bool) -> Solver:
 
 
 def peers(problem: str, quick: bool) -> dict[str, Peer]:
-    """The generic tools that fit a problem, with how many problems each gets."""
+    """The generic tools that can solve a problem, with the number of problems for each."""
     size = 5 if quick else 20
     found: dict[str, Peer] = {}
     if problem == "least energy":

@@ -1,4 +1,4 @@
-"""Plots of its own: time against the size of the stack, ruckig against scale."""
+"""Plots: time against the size of the stack, and failures of ruckig against the scale."""
 
 from collections.abc import Mapping, Sequence
 
@@ -11,7 +11,7 @@ from pontryagin.display.plotting import INK, SEQUENTIAL, styled, subplots
 
 @styled
 def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
-    """Time per problem against the number of problems handed over at once."""
+    """Time per problem against the number of problems in one call."""
     figure, axis = subplots(height=3.2)
     sizes, *times = table.values()
     for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=False):
@@ -33,7 +33,7 @@ def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
 
 @styled
 def failures_by_scale(cells: Sequence[Cell]) -> Figure:
-    """Share of least-time inputs that each side fails on, over the scales of the states and of the jerk."""
+    """Share of least-time inputs on which each solver fails, over the scales of states and jerk."""
     figure, axes = subplots(1, 2, sharey=True, height=3.3)
     shown = [c for c in cells if c.ends == "full states" and not c.states.startswith("each")]
     states = list(dict.fromkeys(cell.states for cell in shown))

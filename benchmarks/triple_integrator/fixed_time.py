@@ -1,4 +1,4 @@
-"""Least energy, peak and impulse for a given time: ours, certified, against whatever solver."""
+"""Least energy, peak and impulse for a given time: our solvers, certified, and any other solver."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,21 +12,21 @@ from benchmarks.triple_integrator import problems
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 
 Solver = Callable[[NDArray, NDArray], float]
-"""Both ends (3,) of a manoeuvre of unit duration -> least cost, nan where the solver gives up."""
+"""Both ends (3,) of a manoeuvre of unit duration -> least cost, or nan where the solver fails."""
 
 OURS = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A solver and how many problems it gets: fewer where it is slow."""
+    """A solver and the number of problems for it, which is smaller where it is slow."""
 
     solve: Solver
     count: int
 
 
 def rows(problem: str, peers: Mapping[str, Peer], count: int, large: int, rounds: int) -> list[Row]:
-    """One of `OURS`, call by call and in a stack of `large`, and the peers, all on the same problems."""
+    """One of `OURS` in single calls and in a stack of `large`, and the peers, all on the same problems."""
     exact = OURS[problem]
     x0, xf = problems.ends(problem, large)
     starts, targets = x0[:count].tolist(), xf[:count].tolist()

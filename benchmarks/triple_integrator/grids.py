@@ -1,8 +1,8 @@
 """Least peak and least impulse as linear programmes on a grid: Clarabel and HiGHS, each in its fastest form.
 
 The grid's optimum is that of controls constant on its cells (peak) or of impulses at its nodes (impulse), so
-it lies above the exact one by what the grid costs, and a solver's tolerance comes on top. Matrices, which
-are the same for every problem in time as a share of T, are built once and not timed.
+it lies above the exact one by the error of the grid, to which the tolerance of the solver is added. The
+matrices are the same for every problem in time as a share of T; they are built once and not timed.
 """
 
 import numpy as np
@@ -76,7 +76,7 @@ def _clarabel(cost: NDArray, constraints: sparse.csc_matrix, right: NDArray, equ
 
 
 def highs_peak(cells: int) -> Solver:
-    """The same programme through SciPy's `milp`, its shortest way to HiGHS."""
+    """The programme of `clarabel_peak` through SciPy's `milp`, its shortest way to HiGHS."""
     rows, identity, one = peak_rows(cells), np.eye(cells), np.ones((cells, 1))
     constraints = sparse.csc_matrix(
         np.block([[rows, np.zeros((3, 1))], [identity, one], [identity, -one]]),
@@ -108,7 +108,7 @@ def highs_impulse(cells: int) -> Solver:
 
 
 def peers(problem: str, quick: bool) -> dict[str, Peer]:
-    """Clarabel and HiGHS on grids of each size, with how many problems each gets."""
+    """Clarabel and HiGHS on grids of each size, with the number of problems for each."""
     sizes = {100: 50} if quick else {100: 200, 400: 50, 1600: 10}
     found: dict[str, Peer] = {}
     peak = problem == "least peak"
@@ -117,7 +117,7 @@ def peers(problem: str, quick: bool) -> dict[str, Peer]:
         found |= {f"Clarabel, {cells} cells": Peer(build(cells), size) for cells, size in sizes.items()}
     build = highs_peak if peak else highs_impulse
     for cells, size in sizes.items():
-        if not (peak and cells > 400):  # a second and more per problem
+        if not (peak and cells > 400):  # These take a second or more per problem.
             found[f"HiGHS, {cells} cells"] = Peer(build(cells), size // 5 if peak else size)
     return found
 

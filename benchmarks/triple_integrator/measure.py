@@ -1,4 +1,4 @@
-"""Everything that is measured about the first paper's solvers."""
+"""All measurements of the solvers of the first paper."""
 
 from benchmarks import peers, table
 from benchmarks.contest import Row
@@ -48,7 +48,7 @@ def measure(quick: bool) -> Measured:
 
 
 def side_by_side(quick: bool) -> list[Row]:
-    """All problems and methods."""
+    """All problems and all methods, side by side."""
     count, large, rounds = (50, 20_000, 2) if quick else (500, stacks.STACK_SIZE, 5)
     result = transfers.rows(quick)
     for problem in fixed_time.OURS:

@@ -1,4 +1,4 @@
-"""Seeded random problems: ordinary ones, and the degenerate classes on which solvers break."""
+"""Seeded random problems: ordinary ones, and degenerate classes on which solvers tend to fail."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Where a control given by its pieces leads: one constant piece after the other, in extended precision."""
+"""The state after a control of constant pieces, propagated piece by piece in extended precision."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +17,8 @@ def miss(
     """Distance from the target over the size of the motion, worst of the three states.
 
     Both are in the units of the angle: rates times T, accelerations times T^2. The size is the sum of the
-    moduli of all terms met on the way, so that a miss of one rounding error is that of data changed by one.
+    moduli of all terms of the propagation, so that a miss of one rounding error corresponds to a change of
+    the data by one.
 
     Parameters
     ----------

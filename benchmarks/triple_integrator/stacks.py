@@ -1,4 +1,4 @@
-"""Throughput of our solvers: against the aims, and against the size of the stack."""
+"""Throughput of our solvers against the aims and against the size of the stack."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ AIMS = {"least peak": 2.0, "least impulse": 20.0, "least time": 1.0}
 """Million problems a second on one core."""
 
 STACK_SIZE = 100_000
-"""Problems in a stack where throughput is measured: enough to forget the call, few enough for the cache."""
+"""Size of the stack for the throughput: large beside the cost of a call, small enough for the cache."""
 
 AIM_CALL = 30.0
 """Microseconds for one call from Python."""

@@ -1,4 +1,4 @@
-"""What the first call costs in a fresh process: imports, compilation, command line."""
+"""Cost of the first call in a fresh process: imports, compilation, command line."""
 
 import json
 import os
@@ -55,7 +55,7 @@ COMMAND = "solve triple-integrator --norm inf --x0 0,0,0 --xf 1,0,0 --duration 2
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Processor seconds of each step; of the command line also seconds by the clock."""
+    """Processor seconds of each step; for the command line also seconds by the clock."""
     repeats = 1 if quick else 5
     steps = _fastest(_phases(FIRST_CALL) for _ in range(repeats))
     with tempfile.TemporaryDirectory(prefix="pontryagin-bench-") as cache:

@@ -1,4 +1,4 @@
-"""Least time: ours and ruckig on the same work, jerk-limited only, both sides including input set-up."""
+"""Least time by our solver and by ruckig with a bound on the jerk alone, including the set-up of inputs."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -23,12 +23,12 @@ SAME = 1e-7
 """Relative difference of durations that counts as longer."""
 
 AXES = 100
-"""Axes that ruckig gets in one call where it is timed on stacks."""
+"""Number of axes in one call of ruckig where it is timed on stacks."""
 
 
 @dataclass(frozen=True)
 class Answers:
-    """What one side returned: whether anything, the duration, and its miss by propagation, all (n,)."""
+    """Answers of one solver: whether there is one, its duration, and its miss by propagation, all (n,)."""
 
     returned: NDArray[np.bool_]
     duration: Array
@@ -41,7 +41,7 @@ class Answers:
 
 
 def by_pontryagin(work: Transfers) -> Answers:
-    """Our answers, problem by problem, with those that did not converge told apart."""
+    """Our answers, problem by problem; nan where the solver did not converge."""
     columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
     result = least_time.solve_stack(*columns, work.force, work.peak)
     returned = result[:, 0] < least_time.NEVER
@@ -186,7 +186,7 @@ def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int
 
 
 def _quietly(call, *arguments) -> None:
-    """A failed call takes its time like any other; failures are counted elsewhere."""
+    """Make a call and ignore its failure: the time counts, and failures are counted elsewhere."""
     import ruckig
 
     try:
@@ -197,10 +197,10 @@ def _quietly(call, *arguments) -> None:
 
 @dataclass(frozen=True)
 class Cell:
-    """Both sides on inputs of one kind and scale.
+    """Both solvers on inputs of one kind and scale.
 
     An answer counts as failed where none is returned or its propagation misses the target by more than
-    `REACHED`; as longer where the other side's, which reaches it, is shorter by more than `SAME`.
+    `REACHED`; as longer where that of the other solver reaches the target and is shorter by more than `SAME`.
     """
 
     ends: str

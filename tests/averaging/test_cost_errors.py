@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from pontryagin.averaging import rotor, smooth_example
 from pontryagin.averaging.exact.count import window
 from pontryagin.averaging.figures.cost_errors import (
-    Errors,
+    CostErrors,
     errors,
     least_between,
     measured,
@@ -47,7 +47,7 @@ def test_least_time_is_corrected_for_the_anomaly_that_it_ends_at():
 
 def test_a_slope_is_that_of_a_power():
     epsilon = np.array([0.1, 0.03, 0.01])
-    known = Errors("", epsilon, epsilon, 1 + 3 * epsilon**2, 1.0, {"start": np.float64(0)})
+    known = CostErrors("", epsilon, epsilon, 1 + 3 * epsilon**2, 1.0, {"start": np.float64(0)})
     assert known.slope(known.averaged) == pytest.approx(2)
 
 

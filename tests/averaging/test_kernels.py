@@ -1,4 +1,4 @@
-"""The committed kernels are what the derivations generate, and solving with them loads no SymPy."""
+"""The committed kernels and systems are what the derivations generate; solving with them loads no SymPy."""
 
 import ast
 import inspect
@@ -6,11 +6,23 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from pontryagin.averaging import generate, kernels
+from pontryagin.averaging.system import derived_systems, generated_systems
 
 
-def test_the_committed_text_is_regenerated_to_the_letter():
-    assert Path(kernels.__file__).read_text() == generate.kernels()
+@pytest.mark.parametrize(
+    ("module", "text"), [(kernels, generate.kernels), (generated_systems, generate.systems)]
+)
+def test_the_committed_text_is_regenerated_to_the_letter(module, text):
+    assert Path(module.__file__).read_text() == text()
+
+
+@pytest.mark.parametrize("name", derived_systems.EXAMPLES)
+def test_the_generated_systems_are_the_derived_ones(name):
+    derived = derived_systems.EXAMPLES[name]().system
+    assert getattr(generated_systems, name)(*derived.numbers.values()) == derived
 
 
 def test_they_are_arithmetic_and_elementary_functions_alone():

@@ -19,7 +19,7 @@ from pontryagin.averaging import (
 from pontryagin.averaging.examples import spiral
 from pontryagin.averaging.figures.drift import drift
 from pontryagin.averaging.playback import attitude
-from pontryagin.averaging.playback.replay import Pair
+from pontryagin.averaging.playback.pair import Pair
 from pontryagin.display.recording import read_back
 
 
@@ -137,7 +137,7 @@ class TestBody:
 
     @pytest.fixture(params=["synthesis", "exact"])
     def motion(self, pair, held, request):
-        make = {"synthesis": attitude.synthesised, "exact": attitude.exact}[request.param]
+        make = {"synthesis": attitude.synthesised_motion, "exact": attitude.exact_motion}[request.param]
         return make(pair), request.param
 
     def test_euler_s_equations_lead_through_the_rates(self, motion):

@@ -1,4 +1,4 @@
-"""The benchmark's own machinery, and agreement of each peer with our optima on a few problems."""
+"""Timing, tables and plots of the benchmarks, and the agreement of each peer with our optima."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from pontryagin.io import files
 COUNT = 4
 
 
-def test_turns_count_problems_and_measure_processor_time():
+def test_problems_are_counted_and_processor_time_measured():
     timing = take_turns({"ten": lambda: 10, "busy": lambda: len([i * i for i in range(20_000)])}, rounds=3)
     assert timing["ten"].count == 10
     assert timing["busy"].count == 20_000
@@ -91,7 +91,7 @@ def test_both_sides_take_the_same_least_time(name):
     np.testing.assert_allclose(theirs.duration[theirs.solved], ours.duration[theirs.solved], rtol=1e-9)
 
 
-def test_an_absent_peer_costs_one_line():
+def test_an_absent_peer_is_named_in_one_line():
     line = peers.absent("no-such-solver")
     assert line is not None
     assert "\n" not in line

@@ -1,4 +1,4 @@
-"""The fourth paper's benchmark: the forms are one problem, peers solve it, false meetings are told apart."""
+"""The fourth paper's benchmark: the forms define one problem, peers solve it, false meetings are detected."""
 
 from dataclasses import replace
 
@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from benchmarks.rendezvous import (
     aims,
-    elsewhere,
     figures,
     forms,
     integrators,
     problems,
+    pykep_peer,
     solves,
     stacks,
     starts,
     systems,
 )
-from benchmarks.rendezvous.collocated import collocated, cost
+from benchmarks.rendezvous.collocation import collocate, cost
 from benchmarks.rendezvous.systems import EIGHT, PROBLEMS, REDUCED
 from matplotlib.container import BarContainer
 
@@ -34,7 +34,7 @@ def extremal():
 
 
 @pytest.mark.parametrize("problem", PROBLEMS, ids=LABELS)
-def test_every_form_vanishes_at_the_extremal_with_the_derivatives_it_says(problem, extremal):
+def test_the_residual_of_every_form_vanishes_at_the_extremal_and_its_jacobian_is_exact(problem, extremal):
     scaled, duration, h = extremal.problem.scaled, extremal.flight.duration, 1e-6
     at = problem.start(extremal.flight.costates)
     if problem.name == EIGHT:  # (16) asks for Phi*, and the gauge nu0 may be anything
@@ -53,7 +53,7 @@ def test_every_form_vanishes_at_the_extremal_with_the_derivatives_it_says(proble
     np.testing.assert_allclose(jacobian, slopes, rtol=1e-5, atol=1e-5)
 
 
-def test_the_gauge_and_the_missing_condition_are_null_directions(extremal):
+def test_the_gauge_and_the_missing_condition_give_null_directions(extremal):
     zeros = {}
     for problem in PROBLEMS:
         values = starts.singular_values(problem, extremal)
@@ -61,14 +61,14 @@ def test_the_gauge_and_the_missing_condition_are_null_directions(extremal):
     assert zeros == {name: int(name in (EIGHT, REDUCED)) for name in LABELS}
 
 
-def test_16_14_and_11_equations_are_one_map(extremal):
-    scaled, six = extremal.problem.scaled, problems.draws(1, 0.05)[0]
+def test_16_14_and_11_equations_define_one_map(extremal):
+    scaled, six = extremal.problem.scaled, problems.deviations(1, 0.05)[0]
     sizes = [np.linalg.norm(p.residual(scaled, six, 3.0)[0]) for p in PROBLEMS[1:4]]
     np.testing.assert_allclose(sizes, sizes[0], rtol=1e-10)
 
 
-def test_meetings_of_ten_equations_are_found_out_as_false(extremal):
-    found = starts.ends(extremal, problems.draws(2, 0.03))
+def test_the_meetings_of_the_ten_equations_are_false(extremal):
+    found = starts.ends(extremal, problems.deviations(2, 0.03))
     assert found[REDUCED].true == 0 and found[REDUCED].false > 0
     for name in LABELS[1:4]:
         assert found[name].true == found[LABELS[1]].true > 0 and found[name].false == 0
@@ -83,7 +83,7 @@ def test_fewer_equations_take_fewer_operations():
         assert counts == sorted(counts, reverse=True) and len(set(counts)) == 4
 
 
-def test_both_integrators_make_the_same_derivatives():
+def test_both_integrators_give_the_same_derivatives():
     table = integrators.table(quick=True)
     assert table["difference of derivatives"][0] < 1e-9 and table["times slower"][0] > 1
 
@@ -91,8 +91,8 @@ def test_both_integrators_make_the_same_derivatives():
 def test_solve_bvp_finds_our_costs(extremal):
     later = replace(extremal.problem, duration=6.1)
     ours = solve(later, extremal)
-    assert cost(later, collocated(later, extremal, 1e-6)) == pytest.approx(ours.cost, rel=1e-7)
-    given_up = collocated(later, extremal, 1e-6)
+    assert cost(later, collocate(later, extremal, 1e-6)) == pytest.approx(ours.cost, rel=1e-7)
+    given_up = collocate(later, extremal, 1e-6)
     given_up.status = 1
     assert np.isnan(cost(later, given_up))
 
@@ -103,15 +103,15 @@ def fastest():
     return Extremal(case.problem, aims.homotopy(case.problem))
 
 
-def test_one_homotopy_leads_to_a_certified_least_time_and_the_peers_find_it_too(fastest):
+def test_one_homotopy_leads_to_a_certified_least_time_that_the_peers_reproduce(fastest):
     assert fastest.certificate.holds(1e-9) and fastest.modes == ("saturated",)
     nearby = problems.neighbour("inclined-10")
     ours = solve(nearby, fastest)
-    assert cost(nearby, collocated(nearby, fastest, 1e-6)) == pytest.approx(ours.cost, rel=1e-7)
-    if line := elsewhere.absent():
+    assert cost(nearby, collocate(nearby, fastest, 1e-6)) == pytest.approx(ours.cost, rel=1e-7)
+    if line := pykep_peer.absent():
         assert "build/pykep" in line and "\n" not in line
     else:
-        found = elsewhere.by_pykep(nearby, fastest, 1)
+        found = pykep_peer.solve(nearby, fastest, 1)
         assert found["duration"] == pytest.approx(ours.flight.duration, rel=1e-11)
 
 
@@ -128,8 +128,8 @@ def test_warm_solves_have_a_row_for_every_method(extremal, monkeypatch):
     assert sum(line.get_linestyle() == "None" for line in axes[0].get_lines()) == len(table["method"])
 
 
-def test_many_flights_end_where_single_ones_do(extremal, monkeypatch):
-    monkeypatch.setattr(problems, "leapt", lambda degrees: extremal)
+def test_flights_in_vector_mode_end_where_single_ones_do(extremal, monkeypatch):
+    monkeypatch.setattr(problems, "solved_leap", lambda degrees: extremal)
     table = stacks.flights(quick=True)
     assert table["flights"] == list(stacks.ARCS)
     assert max(table["largest difference"]) < 1e-12

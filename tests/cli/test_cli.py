@@ -1,4 +1,4 @@
-"""The command line: it prints what the solvers found, and says in one line what it cannot do."""
+"""The command line prints the answers of the solvers, and each error in one line."""
 
 import csv
 import io
@@ -64,34 +64,34 @@ def as_json(value):
 
 class TestSolutions:
     def test_a_rest_to_rest_turn_has_the_peak_that_the_paper_gives(self):
-        told = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2")
-        assert told["solution"]["norm"] == pytest.approx(32 / 2**3, rel=1e-14)
-        assert told["solution"]["switch_times"] == pytest.approx([0.5, 1.5], rel=1e-14)
+        printed = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2")
+        assert printed["solution"]["norm"] == pytest.approx(32 / 2**3, rel=1e-14)
+        assert printed["solution"]["switch_times"] == pytest.approx([0.5, 1.5], rel=1e-14)
 
     @pytest.mark.parametrize("norm", SOLVERS)
     def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(self, norm):
-        told = answer("--norm", norm, *ENDS, "--t0", "1", "--duration", "2.5", "--disturbance", "0.3")
+        printed = answer("--norm", norm, *ENDS, "--t0", "1", "--duration", "2.5", "--disturbance", "0.3")
         solution = SOLVERS[norm](Maneuver(X0, XF, 3.5, t0=1.0, disturbance=0.3))
-        for name, value in told["solution"].items():
+        for name, value in printed["solution"].items():
             assert value == as_json(getattr(solution, name)), name
-        for name, value in told["certificate"].items():
+        for name, value in printed["certificate"].items():
             assert value == float(getattr(solution.certificate, name)), name
-        assert told["problem"]["moments"] == solution.maneuver.moments.tolist()
+        assert printed["problem"]["moments"] == solution.maneuver.moments.tolist()
 
     def test_json_of_a_least_time_holds_the_numbers_of_the_solver(self):
-        told = answer("--peak", "32", *ENDS, "--disturbance", "1/3")
+        printed = answer("--peak", "32", *ENDS, "--disturbance", "1/3")
         solution = minimum_time(X0, XF, 32.0, 1 / 3)
-        for name, value in told["solution"].items():
+        for name, value in printed["solution"].items():
             assert value == as_json(getattr(solution, name)), name
 
     @pytest.mark.parametrize("goal", [["--norm", q, "--duration", "2"] for q in SOLVERS] + [["--peak", "9"]])
-    def test_the_states_told_are_the_ends_asked_for(self, goal):
-        told = answer(*goal, *ENDS)
-        assert told["states"]["start"] == pytest.approx(X0, abs=1e-12)
-        assert told["states"]["end"] == pytest.approx(XF, abs=1e-10)
-        assert abs(told["certificate"]["gap"]) < 1e-10
+    def test_the_states_printed_are_the_given_ends(self, goal):
+        printed = answer(*goal, *ENDS)
+        assert printed["states"]["start"] == pytest.approx(X0, abs=1e-12)
+        assert printed["states"]["end"] == pytest.approx(XF, abs=1e-10)
+        assert abs(printed["certificate"]["gap"]) < 1e-10
 
-    def test_the_keys_are_these(self):
+    def test_json_has_these_keys(self):
         common = {"solver", "x0", "xf", "disturbance"}
         found = {
             "1": {"norm", "regime", "unique", "impulse_times", "impulses", "multipliers"},
@@ -100,36 +100,36 @@ class TestSolutions:
             "3.5": {"q", "norm", "peak", "breakpoints", "multipliers"},
         }
         for norm, keys in found.items():
-            told = answer("--norm", norm, *ENDS, "--duration", "2")
-            assert set(told) == {"problem", "solution", "states", "certificate"}
-            assert set(told["problem"]) == common | {"t0", "tf", "duration", "moments"}
-            assert set(told["solution"]) == keys
-        told = answer("--peak", "1", *ENDS)
-        assert set(told["problem"]) == common | {"peak"}
-        assert set(told["solution"]) == found["inf"] | {"duration"}
+            printed = answer("--norm", norm, *ENDS, "--duration", "2")
+            assert set(printed) == {"problem", "solution", "states", "certificate"}
+            assert set(printed["problem"]) == common | {"t0", "tf", "duration", "moments"}
+            assert set(printed["solution"]) == keys
+        printed = answer("--peak", "1", *ENDS)
+        assert set(printed["problem"]) == common | {"peak"}
+        assert set(printed["solution"]) == found["inf"] | {"duration"}
 
-    def test_a_formula_disturbs_as_the_function_that_it_stands_for(self):
-        told = answer("--norm", "2", *ENDS, "--duration", "2", "--disturbance", "0.1*sin(3*t) + t^2")
+    def test_a_formula_as_disturbance_acts_as_the_function(self):
+        printed = answer("--norm", "2", *ENDS, "--duration", "2", "--disturbance", "0.1*sin(3*t) + t^2")
         maneuver = Maneuver(X0, XF, 2.0, disturbance=lambda t: 0.1 * np.sin(3 * t) + t * t)
-        assert told["problem"]["moments"] == pytest.approx(maneuver.moments.tolist(), abs=1e-13)
-        assert told["problem"]["disturbance"] == "0.1*sin(3*t) + t^2"
+        assert printed["problem"]["moments"] == pytest.approx(maneuver.moments.tolist(), abs=1e-13)
+        assert printed["problem"]["disturbance"] == "0.1*sin(3*t) + t^2"
 
     def test_samples_are_the_solution_at_even_times(self):
-        told = answer("--norm", "2", *ENDS, "--duration", "2", "--samples", "5")["samples"]
+        printed = answer("--norm", "2", *ENDS, "--duration", "2", "--samples", "5")["samples"]
         solution = minimum_energy(Maneuver(X0, XF, 2.0))
-        assert told["t"] == [0.0, 0.5, 1.0, 1.5, 2.0]
+        assert printed["t"] == [0.0, 0.5, 1.0, 1.5, 2.0]
         for name in ("control", "state", "costate"):
-            assert told[name] == getattr(solution, name)(told["t"]).tolist()
+            assert printed[name] == getattr(solution, name)(printed["t"]).tolist()
 
-    def test_what_does_not_happen_is_null(self):
-        told = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "0,0,0", "--duration", "1")
-        assert told["solution"]["switch_times"] == [None, None]
-        assert told["solution"]["norm"] == 0
+    def test_a_switch_that_does_not_happen_is_null(self):
+        printed = answer("--norm", "inf", "--x0", "0,0,0", "--xf", "0,0,0", "--duration", "1")
+        assert printed["solution"]["switch_times"] == [None, None]
+        assert printed["solution"]["norm"] == 0
 
-    def test_no_time_is_needed_to_stay(self):
-        told = answer("--peak", "1", "--x0", "1,2,3", "--xf", "1,2,3")
-        assert told["solution"]["duration"] == 0
-        assert told["states"]["end"] == [1, 2, 3]
+    def test_equal_ends_need_no_time(self):
+        printed = answer("--peak", "1", "--x0", "1,2,3", "--xf", "1,2,3")
+        assert printed["solution"]["duration"] == 0
+        assert printed["states"]["end"] == [1, 2, 3]
 
     @pytest.mark.parametrize("norm", SOLVERS)
     def test_the_table_shows_norm_and_certificate(self, norm):
@@ -167,7 +167,7 @@ class TestFiles:
             for curve in curves
         )
 
-    def test_nothing_is_drawn_of_what_takes_no_time(self, tmp_path):
+    def test_a_plot_of_no_motion_is_refused(self, tmp_path):
         result = solve("--peak", "1", "--x0", "1,2,3", "--xf", "1,2,3", "--plot", tmp_path / "a.svg")
         assert_refused(result, "--plot")
         assert not list(tmp_path.iterdir())
@@ -180,7 +180,7 @@ class TestFiles:
 
 
 def assert_refused(result, begins, status=2):
-    """One line on standard error that begins with the option, nothing on standard output."""
+    """One line on standard error that begins with `begins`, and nothing on standard output."""
     assert result.exit_code == status
     assert result.stdout == ""
     assert result.stderr.startswith(f"Error: {begins}"), result.stderr
@@ -192,10 +192,10 @@ def assert_refused(result, begins, status=2):
 GOAL = ["--norm", "2", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2"]
 
 
-def but(**changed):
-    """The options of a good command, some of them changed, dropped (None) or added."""
+def options(**changes):
+    """The options of a valid command, some of them replaced, removed (None) or added."""
     options = dict(zip(GOAL[::2], GOAL[1::2], strict=True))
-    options |= {f"--{name}": value for name, value in changed.items()}
+    options |= {f"--{name}": value for name, value in changes.items()}
     return [part for option, value in options.items() if value is not None for part in (option, value)]
 
 
@@ -203,49 +203,58 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("arguments", "begins"),
         [
-            (but(x0="0,0"), "--x0 takes 3 numbers with commas between, got '0,0'"),
-            (but(x0="0,nan,0"), "--x0 takes"),
-            (but(xf="1,two,3"), "--xf takes"),
-            (but(x0=None), "--x0 is missing"),
-            (but(duration="0"), "--duration takes a positive number, got '0'"),
-            (but(duration="-1"), "--duration takes"),
-            (but(duration="1e999"), "--duration takes"),
-            (but(duration=None), "--duration is missing"),
-            (but(t0="1e30"), "--duration is lost to rounding"),
-            (but(t0="now"), "--t0 takes"),
-            (but(norm="0.5"), "--norm takes 1, 2, inf"),
-            (but(norm="L2"), "--norm takes"),
-            (but(norm="nan"), "--norm takes"),
-            (but(norm=None), "--norm is missing"),
-            (but(peak="1"), "--norm does not go with --peak"),
-            (but(peak="1", norm=None), "--duration does not go with --peak"),
-            (but(peak="0", norm=None, duration=None), "--peak takes a positive number"),
-            (but(peak="1", norm=None, duration=None, disturbance="t"), "--disturbance takes a number"),
-            (but(disturbance="open('x')"), "--disturbance: \"open('x')\" is not a formula"),
-            (but(disturbance="1/(t-1)"), "--disturbance must be finite"),
-            (but(disturbance="sqrt(t-1)"), "--disturbance must be finite"),
-            (but(plot="a.gif"), "--plot takes a file name ending in .svg or .pdf or .png, got a.gif"),
-            (but(record="a.mp4"), "--record takes a file name ending in .rrd"),
-            (but(samples="3"), "--samples goes with --json only"),
-            (but(samples="-3"), "Invalid value for '--samples'"),
-            (but(out="a.csv"), "--out goes with --batch only"),
-            (but(batch="a.csv"), "--duration does not go with --batch"),
-            (but(colour="red"), "No such option: --colour"),
-            ([*but(), "again"], "Got unexpected extra argument"),
+            (options(x0="0,0"), "--x0 takes 3 numbers with commas between, got '0,0'"),
+            (options(x0="0,nan,0"), "--x0 takes"),
+            (options(xf="1,two,3"), "--xf takes"),
+            (options(x0=None), "--x0 is missing"),
+            (options(duration="0"), "--duration takes a positive number, got '0'"),
+            (options(duration="-1"), "--duration takes"),
+            (options(duration="1e999"), "--duration takes"),
+            (options(duration=None), "--duration is missing"),
+            (options(t0="1e30"), "--duration is lost to rounding"),
+            (options(t0="now"), "--t0 takes"),
+            (options(norm="0.5"), "--norm takes 1, 2, inf"),
+            (options(norm="L2"), "--norm takes"),
+            (options(norm="nan"), "--norm takes"),
+            (options(norm=None), "--norm is missing"),
+            (options(peak="1"), "--norm does not go with --peak"),
+            (options(peak="1", norm=None), "--duration does not go with --peak"),
+            (options(peak="0", norm=None, duration=None), "--peak takes a positive number"),
+            (
+                options(peak="1", norm=None, duration=None, disturbance="t"),
+                "--disturbance takes a number",
+            ),
+            (options(disturbance="open('x')"), "--disturbance: \"open('x')\" is not a formula"),
+            (options(disturbance="1/(t-1)"), "--disturbance must be finite"),
+            (options(disturbance="sqrt(t-1)"), "--disturbance must be finite"),
+            (
+                options(plot="a.gif"),
+                "--plot takes a file name ending in .svg or .pdf or .png, got a.gif",
+            ),
+            (options(record="a.mp4"), "--record takes a file name ending in .rrd"),
+            (options(samples="3"), "--samples goes with --json only"),
+            (options(samples="-3"), "Invalid value for '--samples'"),
+            (options(out="a.csv"), "--out goes with --batch only"),
+            (options(batch="a.csv"), "--duration does not go with --batch"),
+            (options(colour="red"), "No such option: --colour"),
+            ([*options(), "again"], "Got unexpected extra argument"),
             (["--x0"], "Option '--x0' requires an argument"),
-            (but(xf="1e308,0,0", duration="1e-200"), "--xf must give, with x0 and tf - t0, a control"),
+            (
+                options(xf="1e308,0,0", duration="1e-200"),
+                "--xf must give, with x0 and tf - t0, a control",
+            ),
         ],
     )
-    def test_what_was_typed_wrong_is_named_in_one_line(self, arguments, begins):
+    def test_a_wrong_option_is_named_in_one_line(self, arguments, begins):
         assert_refused(solve(*arguments), begins)
 
     @pytest.mark.parametrize(
         "arguments",
         [
-            but(disturbance="1/t"),
-            but(norm="1.0000001"),
-            but(xf="1e308,0,0", duration="1e-200", norm="3"),
-            but(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
+            options(disturbance="1/t"),
+            options(norm="1.0000001"),
+            options(xf="1e308,0,0", duration="1e-200", norm="3"),
+            options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
         ],
     )
     def test_a_problem_without_an_answer_exits_with_1_and_a_line(self, arguments):
@@ -264,7 +273,7 @@ class TestRefusals:
             ),
         ],
     )
-    def test_other_commands_refuse_likewise(self, arguments, begins):
+    def test_the_other_commands_name_wrong_options(self, arguments, begins):
         assert_refused(run(*arguments), begins)
 
 
@@ -296,7 +305,7 @@ class TestBatch:
         assert float(rows[0]["norm"]) > float(rows[2]["norm"]) == 0
         assert all(abs(float(row["gap"])) < 1e-10 for row in rows)
 
-    def test_vectors_are_taken_apart_and_absent_ones_left_empty(self, tmp_path):
+    def test_vectors_become_columns_and_absent_impulses_are_empty(self, tmp_path):
         rows = self.read(solve("--norm", "1", "--batch", self.write(tmp_path / "in.csv")).stdout)
         assert [float(rows[0][f"impulses_{i}"]) for i in (1, 2, 3)] == pytest.approx([1, -2, 1])
         assert [rows[2][f"impulse_times_{i}"] for i in (1, 2, 3)] == ["", "", ""]
@@ -351,7 +360,7 @@ class TestLedger:
         printed = json.loads(run("ledger", "--paper", "gorelov", "--json", "-").stdout)
         assert printed == [entry.as_dict() for entry in ledger.entries(paper="gorelov")]
 
-    def test_the_table_shows_the_entries_asked_for(self):
+    def test_the_table_shows_the_chosen_entries(self):
         shown = run("ledger", "--verdict", "misprint").stdout
         entries = ledger.entries(verdict="misprint")
         assert f"{len(entries)} entries" in shown
@@ -360,14 +369,14 @@ class TestLedger:
 
 class TestReport:
     def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch):
-        asked = []
-        monkeypatch.setattr(build, "main", lambda arguments: asked.append(arguments) or 1)
+        calls = []
+        monkeypatch.setattr(build, "main", lambda arguments: calls.append(arguments) or 1)
         assert run("report", "figures", "--workers", "1").exit_code == 1
-        assert asked == [["figures", "--workers", "1"]]
+        assert calls == [["figures", "--workers", "1"]]
 
     def test_every_stage_is_in_the_help(self):
-        told = run("report", "--help").stdout
-        assert all(stage in told for stage in build.STAGES)
+        printed = run("report", "--help").stdout
+        assert all(stage in printed for stage in build.STAGES)
 
 
 class TestWarnings:
@@ -384,7 +393,7 @@ class TestWarnings:
 
 class TestHelp:
     @pytest.mark.parametrize("arguments", [[], ["solve"], ["--help"], ["solve", "--help"]])
-    def test_without_a_command_it_says_what_there_is(self, arguments):
+    def test_without_a_command_it_prints_the_help(self, arguments):
         result = run(*arguments)
         assert (result.exit_code, result.stderr) == (0, "")
         assert "Example" in result.stdout
@@ -410,7 +419,7 @@ class TestHelp:
 
 
 class TestProcess:
-    """What only a process of its own shows."""
+    """What only a separate process shows."""
 
     PROGRAM = str(Path(sysconfig.get_path("scripts")) / "pontryagin")
     TURN = (
@@ -434,7 +443,7 @@ class TestProcess:
     def test_the_version(self):
         assert self.process("--version").stdout == f"pontryagin {__version__}\n"
 
-    def test_it_answers_from_a_cold_start_within_seconds_of_work(self):
+    def test_a_cold_start_takes_at_most_seconds_of_processor_time(self):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         result = self.process(*self.TURN)
         spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
@@ -442,7 +451,7 @@ class TestProcess:
         assert re.search(r"norm +4 ", result.stdout)
         assert spent < 2.5
 
-    def test_it_imports_nothing_heavy_for_an_answer(self):
+    def test_an_answer_imports_nothing_heavy(self):
         script = "import sys; from pontryagin.cli import main; sys.argv[0] = 'pontryagin'\ntry: main()\n"
         script += "except SystemExit: print(*sorted({name.split('.')[0] for name in sys.modules}))"
         arguments = [*self.TURN, "--disturbance", "0.1*sin(t)"]
@@ -466,7 +475,7 @@ class TestProcess:
         result = self.process(*self.TURN, env=os.environ | {"PYTHONIOENCODING": "ascii"})
         assert (result.returncode, result.stderr) == (0, "")
 
-    def test_a_reader_that_leaves_early_is_no_error(self):
+    def test_a_closed_pipe_is_no_error(self):
         with subprocess.Popen(
             [self.PROGRAM, "ledger"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         ) as running:

@@ -1,3 +1,5 @@
+"""Figures in one style and the same bytes, kept and displayed under the name of their notebook."""
+
 import itertools
 import os
 import subprocess
@@ -28,7 +30,7 @@ def parabola():
 sys.stdout.write(plotting.svg_of(parabola()))
 """
 
-# Machado, Oliveira and Fernandes (2009): what severe deuteranopes and protanopes see of linear RGB.
+# Linear RGB as severe deuteranopes and protanopes see it, by Machado, Oliveira and Fernandes (2009).
 DEUTERANOPIA = [
     [0.367322, 0.860646, -0.227968],
     [0.280085, 0.672501, 0.047413],
@@ -129,11 +131,11 @@ def test_show_saves_and_displays_the_same_picture(tmp_path, monkeypatch, display
     monkeypatch.setenv("PONTRYAGIN_NOTEBOOK", "01-overview")
     plotting.show(two_curves(3), name="three", caption="Three lines.")
     plotting.show_table({"q": [1]}, "norms")
-    (figure, figure_told), (table, table_told) = displayed
+    (figure, figure_metadata), (table, table_metadata) = displayed
     assert figure["image/svg+xml"] == (tmp_path / "01-overview" / "three.svg").read_text()
-    assert figure_told["pontryagin"]["caption"] == "Three lines."
+    assert figure_metadata["pontryagin"]["caption"] == "Three lines."
     assert table["text/markdown"] == "| q |\n| --: |\n| 1 |"
-    assert table_told["pontryagin"] == {
+    assert table_metadata["pontryagin"] == {
         "kind": "table",
         "notebook": "01-overview",
         "name": "norms",

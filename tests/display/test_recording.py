@@ -1,3 +1,5 @@
+"""Recordings hold the arrays that were written, and their layout."""
+
 import subprocess
 import sys
 from importlib import util
@@ -10,12 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from pontryagin.display import recording
-from pontryagin.display.recording import (
-    Events,
-    Plot,
-    Scene,
-    record,
-)
+from pontryagin.display.recording import Events, Plot, Scene, record
 
 LAYOUT = [[Scene("the turn", "turn")], [Plot("angle", "angle"), Events("events", "events")]]
 T = np.linspace(0.0, 2.0, 21)
@@ -38,17 +35,17 @@ def write_turn(path):
         turn.event("events", 0.5, "first impulse")
 
 
-def test_a_trail_is_held_piece_by_piece(target):
-    way = np.outer(T, [1.0, 2.0, 3.0])
+def test_a_trail_is_written_segment_by_segment(target):
+    points = np.outer(T, [1.0, 2.0, 3.0])
     layout = [[Scene("way", "way", share=2.0, trails=("way/flown",), grid=False)]]
     layout.append([Plot("u", "u", span=(0.0, 1.0), whole=True, legend="LeftTop")])
     with record(target, "way", layout, speed=2.0, shares=(2, 1)) as recording_:
-        recording_.trail("way/flown", T, way, "red")
-    held = recording.read_back(target)["/way/flown"]
-    pieces = held["strips"].reshape(-1, 2, 3)
-    np.testing.assert_allclose(pieces[:, 0], way[:-1], atol=1e-6)
-    np.testing.assert_allclose(pieces[:, 1], way[1:], atol=1e-6)
-    np.testing.assert_allclose(held["time"], T[1:], atol=1e-9)
+        recording_.trail("way/flown", T, points, "red")
+    found = recording.read_back(target)["/way/flown"]
+    pieces = found["strips"].reshape(-1, 2, 3)
+    np.testing.assert_allclose(pieces[:, 0], points[:-1], atol=1e-6)
+    np.testing.assert_allclose(pieces[:, 1], points[1:], atol=1e-6)
+    np.testing.assert_allclose(found["time"], T[1:], atol=1e-9)
 
 
 def test_a_panel_of_another_kind_is_refused(target):
@@ -82,7 +79,7 @@ def test_a_recording_holds_the_arrays_that_were_written(target):
     assert read["/events"]["text"].tolist() == ["first impulse", "second impulse"]
 
 
-def test_the_body_is_a_closed_box_of_the_size_asked_for(target):
+def test_the_body_is_a_closed_box_of_the_given_size(target):
     write_turn(target)
     body = recording.read_back(target)["/turn/craft"]
     corners = body["vertex_positions"][0][body["triangle_indices"][0]]
@@ -93,7 +90,7 @@ def test_the_body_is_a_closed_box_of_the_size_asked_for(target):
     np.testing.assert_allclose(np.ptp(body["vertex_positions"][0], axis=0), [2.0, 1.2, 0.6], rtol=1e-6)
 
 
-def test_rerun_finds_the_file_whole_and_a_damaged_one_not(target):
+def test_rerun_verifies_the_file_and_no_damaged_one(target):
     write_turn(target)
     program = Path(util.find_spec("rerun_cli").submodule_search_locations[0]) / "rerun"
     assert subprocess.run([program, "rrd", "verify", target], capture_output=True).returncode == 0
@@ -130,14 +127,14 @@ def test_a_plot_s_span_and_a_scene_s_eye_travel_too(target):
     with record(target, "turn", [[Scene("the turn", "turn", eye)], [Plot("angle", "angle", span=(-1, 2.5))]]):
         pass
     reader = RrdReader(str(target))
-    held = {}
+    found = {}
     for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks():
         batch = chunk.to_record_batch()
-        held |= {name: batch[name].to_pylist()[0] for name in batch.schema.names if ":" in name}
-    assert held["ScalarAxis:range"] == [[-1.0, 2.5]]
-    assert held["ScalarAxis:zoom_lock"] == [True]
-    assert held["EyeControls3D:position"] == [list(eye[0])]
-    assert held["EyeControls3D:look_target"] == [list(eye[1])]
+        found |= {name: batch[name].to_pylist()[0] for name in batch.schema.names if ":" in name}
+    assert found["ScalarAxis:range"] == [[-1.0, 2.5]]
+    assert found["ScalarAxis:zoom_lock"] == [True]
+    assert found["EyeControls3D:position"] == [list(eye[0])]
+    assert found["EyeControls3D:look_target"] == [list(eye[1])]
 
 
 def test_a_writer_that_raises_leaves_no_file(target):

@@ -1,3 +1,5 @@
+"""Tables as CSV and Markdown keep their entries."""
+
 import csv
 import io
 
@@ -6,10 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pontryagin.display.tables import (
-    csv_table,
-    markdown_table,
-)
+from pontryagin.display.tables import csv_table, markdown_table
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 

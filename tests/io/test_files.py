@@ -1,3 +1,5 @@
+"""Generated files appear in one step, whatever happens to their writer."""
+
 import subprocess
 import sys
 

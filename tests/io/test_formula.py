@@ -1,4 +1,4 @@
-"""Formulas read from text: the same values as SymPy's reading of it, and nothing but formulas."""
+"""Formulas in texts have the values that SymPy gives them, and anything else is refused."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from pontryagin.io.formula import (
 
 
 class Known(NamedTuple):
-    """A text, what it stands for, and a bound on every value on the way to it for |t| < 2."""
+    """A text, its meaning, and a bound on the moduli of all intermediate values for |t| < 2."""
 
     text: str
     meaning: sp.Expr
@@ -36,7 +36,7 @@ LEAVES = st.sampled_from(
     ]
 )
 STEADY = {"sin": sp.sin, "cos": sp.cos, "tanh": sp.tanh, "atan": sp.atan, "abs": sp.Abs}
-"""Functions that pass on no larger error than they receive."""
+"""Functions that do not magnify errors of their argument."""
 
 
 def compound(parts):
@@ -103,7 +103,7 @@ def test_an_expression_holds_what_was_typed_in_every_variable():
         ("x.evalf()", "not a formula"),
     ],
 )
-def test_an_expression_that_algebra_would_choke_on_is_refused(text, words):
+def test_an_expression_that_sympy_cannot_expand_in_time_is_refused(text, words):
     with pytest.raises(ValueError, match=words):
         expression(text, "x", "v")
 

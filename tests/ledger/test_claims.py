@@ -1,4 +1,4 @@
-"""The ledgers of all papers, entry by entry: each verdict is earned, and no altered print earns it."""
+"""All papers' entries: each verdict follows from its evidence, and from no altered printed form."""
 
 import re
 from dataclasses import replace
@@ -9,10 +9,7 @@ import sympy as sp
 
 from pontryagin import ledger
 from pontryagin.ledger import Unsupported
-from pontryagin.ledger.evidence import (
-    LinearSystem,
-    Misprint,
-)
+from pontryagin.ledger.evidence import LinearSystem, Misprint
 
 ENTRIES = ledger.entries()
 JUDGED = [entry for entry in ENTRIES if entry.evidence]
@@ -32,14 +29,14 @@ def test_the_verdict_is_what_the_evidence_finds(entry):
 
 
 def altered(side):
-    """Another print in place of a printed side."""
+    """A printed side with an error: three units of the last digit, or 1 added to every entry."""
     if isinstance(side, str):
         return str(Decimal(side) + 3 * Decimal(1).scaleb(Decimal(side).as_tuple().exponent))
     return side + (sp.ones(*side.shape) if isinstance(side, sp.MatrixBase) else 1)
 
 
 def altered_prints(evidence):
-    """The evidence with one printed side altered at a time, and which."""
+    """Each printed side in turn, and the evidence with that side altered."""
     if getattr(evidence, "formula", None):
         for left, formula in altered_prints(evidence.formula):
             yield left, replace(evidence, formula=formula)

@@ -1,4 +1,4 @@
-"""The ledger itself: entries, verdicts that have to be earned, and the forms in which it is written."""
+"""Entries, the evidence that earns or breaks their verdicts, and the exports of the ledger."""
 
 import csv
 import io
@@ -11,10 +11,7 @@ from rich.console import Console
 
 from pontryagin import ledger
 from pontryagin.ledger import Entry, Page, Unsupported
-from pontryagin.ledger.decimals import (
-    Decimals,
-    unit,
-)
+from pontryagin.ledger.decimals import Decimals, unit
 from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
@@ -115,6 +112,14 @@ def test_broken_evidence_supports_nothing(broken):
         entry(*broken).check()
 
 
+def test_evidence_that_the_table_does_not_admit_earns_nothing():
+    class Opinion(Proof):
+        """Evidence of a kind that the table of verdicts does not know."""
+
+    with pytest.raises(Unsupported, match="Opinion is no evidence that the table admits for 'holds'"):
+        entry("holds", Opinion(true_steps)).check()
+
+
 def test_what_does_not_hold_needs_a_remark():
     with pytest.raises(Unsupported, match="remark"):
         entry("misprint", slip, remark="").check()
@@ -137,11 +142,11 @@ def test_zero_is_recognised_and_nothing_else(expression, zero):
 
 
 def test_entries_are_selected_by_paper_and_verdict():
-    whole = ledger.entries()
-    assert ledger.entries(paper="GORELOV") == tuple(e for e in whole if "Gorelov" in e.paper)
+    collected = ledger.entries()
+    assert ledger.entries(paper="GORELOV") == tuple(e for e in collected if "Gorelov" in e.paper)
     for verdict in ledger.VERDICTS:
         assert all(e.verdict == verdict for e in ledger.entries(verdict=verdict))
-    assert sum(ledger.counts(whole).values()) == len(whole)
+    assert sum(ledger.counts(collected).values()) == len(collected)
 
 
 def test_unknown_papers_and_verdicts_are_named():
@@ -151,7 +156,7 @@ def test_unknown_papers_and_verdicts_are_named():
         ledger.entries(paper="Newton")
 
 
-def test_a_page_takes_entries_down_in_order():
+def test_a_page_keeps_its_entries_in_order():
     claim = Page("A paper")
 
     @claim("(1)", "first", verdict="holds")
@@ -195,7 +200,7 @@ def test_printed_and_derived_forms_are_latex():
     assert entry("not checked", None).printed_latex == entry("holds", Proof(true_steps)).derived_latex == ""
 
 
-def test_a_proof_is_told_step_by_step():
+def test_a_proof_lists_its_steps():
     assert entry("holds", Proof(true_steps)).proof() == ["one is one"]
     assert entry("misprint", slip).proof() == [
         "printed minus derived $y$ is $- x$",

@@ -6,11 +6,8 @@ import sympy as sp
 from numpy.testing import assert_allclose
 
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.flow import (
-    ends,
-    flow,
-    has_heyoka,
-)
+from pontryagin.numerics.flow import flow, has_heyoka
+from pontryagin.numerics.lanes import ends
 
 x, v, k, m, t = sp.symbols("x v k m t")
 KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]

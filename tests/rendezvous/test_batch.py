@@ -1,4 +1,4 @@
-"""Many extremals at once: each as if flown alone, whatever its neighbours do."""
+"""Stacks of flights: each member is as if integrated alone, whatever the others do."""
 
 import math
 
@@ -17,12 +17,12 @@ from pontryagin.rendezvous.reduced.start import cold_start
 
 ONE = [1, 0, 0, 0]
 KINDS = [(math.inf, False), (0.05, False), (0.05, True)]
-FALLS = np.array([0.02, -0.04, 0.01, 0.19, 0.05, -0.16])
-"""Costates that lead an unbounded thrust into the centre of attraction."""
+FALLING = np.array([0.02, -0.04, 0.01, 0.19, 0.05, -0.16])
+"""Costates with which the craft falls into the centre of attraction."""
 
 
 def problem(degrees: float = 20, length: float = 1.0, gravity: float = 1.0, **changes) -> Rendezvous:
-    """Distances times a length, times so that the motion is the same."""
+    """A problem with lengths in units of `length`, and with times such that the motion is the same."""
     time = math.sqrt(length**3 / gravity)
     given = {"time_weight": 0, "energy_weight": 1, "peak": math.inf, "duration": 6.0} | changes
     given["duration"] = given["duration"] and given["duration"] * time
@@ -34,7 +34,7 @@ def problem(degrees: float = 20, length: float = 1.0, gravity: float = 1.0, **ch
 
 @pytest.fixture(scope="module")
 def best():
-    """What coasting leads to, by the way of the goal and not by Newton's method from random starts."""
+    """The extremal found from coasting by moving the goal, without random starts."""
     given = problem()
     scaled = given.scaled
     return Extremal(given, cold_start(Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)))
@@ -45,7 +45,7 @@ def starts(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("peak", "bang"), KINDS)
-def test_each_flight_ends_as_if_flown_alone(peak, bang):
+def test_each_flight_of_a_stack_ends_as_if_integrated_alone(peak, bang):
     """More flights than lanes, of different durations, in both charts, with different switches."""
     scaled, costates = problem().scaled, starts(19)
     durations = np.linspace(0.5, 4.0, 19)
@@ -62,20 +62,20 @@ def test_each_flight_ends_as_if_flown_alone(peak, bang):
     assert bool(together.switches.any()) == (peak < math.inf and not bang)
 
 
-def test_a_flight_that_cannot_be_followed_leaves_its_neighbours_alone():
+def test_a_flight_that_fails_does_not_change_the_others():
     scaled, costates = problem().scaled, starts(11)
     whole = fly_all(scaled, costates, 3.0)
     with pytest.raises(NotConverged):
-        fly(scaled, FALLS, 5.0)
+        fly(scaled, FALLING, 5.0)
     mixed = fly_all(
-        scaled, np.insert(costates, [0, 4], FALLS, axis=0), np.insert(np.full(11, 3.0), [0, 4], 5.0)
+        scaled, np.insert(costates, [0, 4], FALLING, axis=0), np.insert(np.full(11, 3.0), [0, 4], 5.0)
     )
     assert np.flatnonzero(~mixed.reached).tolist() == [0, 5]
     assert np.isnan(mixed.ends[[0, 5]]).all()
     np.testing.assert_allclose(mixed.ends[mixed.reached], whole.ends, rtol=1e-12, atol=1e-13)
 
 
-def test_without_heyoka_flights_go_one_by_one_to_the_same_ends():
+def test_without_heyoka_the_flights_have_the_same_ends():
     scaled, costates = problem().scaled, starts(3)
     both = [fly_all(scaled, costates, 2.0, 0.05, taylor=use) for use in (True, False)]
     for name in ("reached", "switches"):
@@ -84,25 +84,25 @@ def test_without_heyoka_flights_go_one_by_one_to_the_same_ends():
     np.testing.assert_allclose(*(flights.slopes for flights in both), atol=1e-7)
 
 
-def test_no_switch_is_overlooked():
-    """An arc may begin where |n| is 2 alpha2 p_max to the last bit; the bound holds all the same."""
+def test_the_mode_of_every_arc_is_that_of_the_switching_function():
+    """Also where an arc begins exactly at |n| = 2 alpha2 p_max."""
     given = problem(peak=0.06)
     for costates in 2 * starts(12) / given.scaled.costate_units:
         alone = fly(given.scaled, costates, given.scaled.duration, given.scaled.peak)
         states = alone.sample(np.linspace(0, alone.duration, 400))
         begins = np.array([piece.begin for piece in alone.pieces])
         which = np.searchsorted(begins, np.linspace(0, alone.duration, 400), side="right") - 1
-        loud = np.array([piece.mode == "saturated" for piece in alone.pieces])[which]
+        on_bound = np.array([piece.mode == "saturated" for piece in alone.pieces])[which]
         excess = np.linalg.norm(switching(states), axis=1) / (2 * alone.peak) - 1
-        assert (np.where(loud, excess, -excess) > -1e-9).all()
+        assert (np.where(on_bound, excess, -excess) > -1e-9).all()
 
 
-def test_no_flights_end_nowhere():
+def test_an_empty_stack_of_flights_is_empty():
     assert fly_all(problem().scaled, np.empty((0, 6)), 1.0).ends.shape == (0, 12)
 
 
 @pytest.mark.parametrize("peak", [math.inf, 0.06])
-def test_the_slopes_are_those_of_the_miss(peak):
+def test_the_slopes_are_the_derivatives_of_the_miss(peak):
     given, h = problem(peak=peak), 1e-6
     start = starts(3)[:, None, :]
     exact = carry(given, start[:, 0])
@@ -111,7 +111,7 @@ def test_the_slopes_are_those_of_the_miss(peak):
     np.testing.assert_allclose(exact.slopes, slopes, rtol=1e-5, atol=1e-5)
 
 
-def test_a_solution_carried_to_its_end_meets_the_target(best):
+def test_the_costates_of_a_solution_lead_to_the_target(best):
     given = best.problem
     there = carry(given, best.initial_costate)
     assert there.reached and there.miss.shape == (6,) and there.slopes.shape == (6, 6)
@@ -121,7 +121,7 @@ def test_a_solution_carried_to_its_end_meets_the_target(best):
     assert np.abs(carry(given, best.initial_costate + 1e-6).miss).max() > 1e-7
 
 
-def test_other_units_are_the_same_flight():
+def test_the_flights_do_not_depend_on_the_units():
     here, far = problem(), problem(length=7000.0, gravity=398600.0)
     costates = starts(4)
     durations = np.array([1.0, 2.0, 3.0, 4.0])
@@ -133,7 +133,7 @@ def test_other_units_are_the_same_flight():
     np.testing.assert_allclose(theirs.costate, ours.costate * units, rtol=1e-10)
 
 
-def test_newton_from_many_starts_finds_what_coasting_leads_to_and_all_of_it_holds(best):
+def test_newton_s_method_from_many_starts_finds_the_extremal_found_from_coasting(best):
     found, *others = multistart(best.problem, starts(8))
     assert found.cost <= best.cost * (1 + 1e-10)
     assert any(x.cost == pytest.approx(best.cost, rel=1e-10) for x in (found, *others))
@@ -142,8 +142,8 @@ def test_newton_from_many_starts_finds_what_coasting_leads_to_and_all_of_it_hold
     assert all(x.certificate.holds(1e-9) for x in (found, *others))
 
 
-def test_starts_that_cannot_be_flown_give_nothing():
-    assert multistart(problem(), FALLS[None]) == ()
+def test_starts_that_fail_give_no_extremals():
+    assert multistart(problem(), FALLING[None]) == ()
 
 
 @pytest.mark.parametrize(
@@ -160,6 +160,6 @@ def test_starts_that_cannot_be_flown_give_nothing():
         (lambda: multistart(None, starts(2)), TypeError, "problem must be of type Rendezvous, got None"),
     ],
 )
-def test_bad_input_is_named(call, error, match):
+def test_the_error_of_a_wrong_argument_names_it(call, error, match):
     with pytest.raises(error, match=match):
         call()

@@ -1,4 +1,4 @@
-"""The ledger of Pimkina & Chelnokov and of Sapunkov, and proof that each of its checks can fail."""
+"""The ledger of Pimkina & Chelnokov and of Sapunkov: its entries, and that their checks can fail."""
 
 import re
 from dataclasses import replace
@@ -17,7 +17,7 @@ from pontryagin.rendezvous.claims import ENTRIES, functional, meetings, spirals
 
 
 def terms(side):
-    """The sign of each term of a printed expression, changed."""
+    """The expressions that differ from a printed one by the sign of one term."""
     side = sp.sympify(side)
     for term in side.args if side.is_Add else [side]:
         if not term.is_zero:
@@ -25,7 +25,7 @@ def terms(side):
 
 
 @pytest.mark.parametrize("label", ["(2)", "(11)", "(12)", "(13)", "(14)", "(16)", "(17)"])
-def test_a_sign_changed_anywhere_is_found(label):
+def test_a_formula_with_any_one_sign_changed_is_refuted(label):
     entry = next(entry for entry in ENTRIES if entry.label == label)
     formula = getattr(entry.evidence, "formula", None) or entry.evidence
     derived = formula.derivation()
@@ -62,14 +62,14 @@ TRUE, CHEAP, *OTHERS = meetings.COPLANAR
         (functional, "start_mass", functional.flow_rate, "section 1: dm/dt"),
     ],
 )
-def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, label):
+def test_an_entry_with_a_wrong_example_is_refused(monkeypatch, module, name, wrong, label):
     entry = next(entry for entry in ENTRIES if entry.label == label)
     monkeypatch.setattr(module, name, wrong)
     with pytest.raises((Unsupported, ArithmeticError)):
         replace(entry).check()
 
 
-def test_every_numbered_formula_is_there_in_the_papers_order():
+def test_every_numbered_formula_has_an_entry_in_the_order_of_the_papers():
     first = [entry.label for entry in ENTRIES if entry.paper == "Pimkina & Chelnokov"]
     numbered = [label for label in first if re.fullmatch(r"\(\d+\)", label)]
     assert numbered == [f"({k})" for k in range(1, 18)]
@@ -80,7 +80,7 @@ def test_every_numbered_formula_is_there_in_the_papers_order():
     )
 
 
-def test_the_tally():
+def test_the_numbers_of_the_verdicts():
     tally = counts(ENTRIES)
     assert tally["not checked"] == 3
     assert tally["misprint"] == 2 and tally["false"] == 2 and tally["conditional"] == 5
@@ -89,8 +89,7 @@ def test_the_tally():
     )
 
 
-def test_in_one_plane_the_printed_conditions_leave_nu3_free():
-    """The family is no accident of the stored numbers: Newton's method walks along it."""
+def test_in_one_plane_the_printed_conditions_have_a_curve_of_solutions_with_nu3_free():
     conditions = meetings.evaluation(0)
 
     def residual(unknowns, nu3):

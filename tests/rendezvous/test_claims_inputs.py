@@ -1,7 +1,7 @@
-"""Every argument of the rendezvous's ledger rests on what is derived: with a wrong input its check fails.
+"""Every argument of the ledger depends on the derivation: with a wrong derived input its check fails.
 
-An input is a function that the argument calls, replaced wherever it is called. What is wrong with it is
-slight: a sign, a factor, one term more.
+An input is a function that the argument calls; it is replaced wherever it is called by one whose result is
+slightly wrong: a sign, a factor, an additional term.
 """
 
 import sys
@@ -30,16 +30,16 @@ from pontryagin.rendezvous.derivation import (
 
 
 @dataclass(frozen=True)
-class Wrong:
-    """A function, what takes its place (it gets the right result), and the labels that this must break."""
+class WrongInput:
+    """A function, a map from its result to a wrong one, and the labels of the entries that must then fail."""
 
     module: object
     name: str
-    amiss: Callable
+    altered: Callable
     labels: tuple[str, ...]
 
     @property
-    def right(self):
+    def original(self):
         return getattr(self.module, self.name)
 
 
@@ -53,7 +53,7 @@ def velocity_backwards(result):
 
 
 WRONG = [
-    Wrong(
+    WrongInput(
         model,
         "motion",
         areal_rate_with_radial_speed,
@@ -68,58 +68,58 @@ WRONG = [
             "(10), α2 = 0",
         ),
     ),
-    Wrong(model, "cartesian", velocity_backwards, ("(4)", "section 1: η*")),
-    Wrong(
+    WrongInput(model, "cartesian", velocity_backwards, ("(4)", "section 1: η*")),
+    WrongInput(
         quaternion,
         "product",
         quaternion.conjugate,
         ("(6)", "section 1: Λ*", "section 2: ν = λ~∘ν*∘λ", "(15): origin"),
     ),
-    Wrong(
+    WrongInput(
         principle,
         "running_cost",
         lambda cost: 2 * cost,
         ("section 1: energy", "section 1: least time", "(1)", "(10)"),
     ),
-    Wrong(
+    WrongInput(
         model,
         "anomaly_rate",
         lambda rate: rate * model.parameter * (1 + sp.cos(model.anomaly)),
         ("section 1: given", "after (16): C_φ", "(16)"),
     ),
-    Wrong(
+    WrongInput(
         principle,
         "hamiltonian",
         lambda energy: energy + model.attitude[0] * principle.mu[1],
         ("section 2: ν*", "section 2: integrals", "section 2: six"),
     ),
-    Wrong(
+    WrongInput(
         reduction,
         "rates",
         lambda rates: rates + sp.Matrix([reduction.anomaly_constant, *[0] * 8, principle.nu0]),
         ("after (14): order", "after (14): eleven", "(17)"),
     ),
-    Wrong(
+    WrongInput(
         transversality,
         "tangent",
         lambda tangent: 2 * tangent,
         ("section 1: moving end",),
     ),
-    Wrong(
+    WrongInput(
         principle,
         "switching",
         lambda n: n.multiply_elementwise(sp.Matrix([1, 1, 2])),
         ("(8)",),
     ),
-    Wrong(terminal, "end_thrust", lambda thrust: 2 * thrust, ("section 1: α1 = 0",)),
-    Wrong(forms, "repaired", lambda _: forms.full("unsaturated"), ("conclusion: simpler",)),
-    Wrong(
+    WrongInput(terminal, "end_thrust", lambda thrust: 2 * thrust, ("section 1: α1 = 0",)),
+    WrongInput(forms, "repaired", lambda _: forms.full("unsaturated"), ("conclusion: simpler",)),
+    WrongInput(
         sapunkov,
         "spinor_rate",
         lambda rate: 2 * rate,
         ("section 1: both craft", "(1): Q", "(1): q", "abstract: elements"),
     ),
-    Wrong(
+    WrongInput(
         sapunkov,
         "element_rates",
         lambda rates: (rates[0] + sapunkov.A / sapunkov.u[0], rates[1]),
@@ -127,8 +127,8 @@ WRONG = [
     ),
 ]
 
-ELSEWHERE = {"section 1: dm/dt"}
-"""Mechanics of a jet, not of the derivation: broken by a wrong example, in `test_claims`."""
+INDEPENDENT = {"section 1: dm/dt"}
+"""Arguments that use no derived input; `test_claims` refutes them by a wrong example."""
 
 
 def modules():
@@ -137,8 +137,8 @@ def modules():
     return [module for name, module in sys.modules.items() if name.startswith(parts)]
 
 
-def forget():
-    """Empty what the modules have kept of earlier calls."""
+def clear_caches():
+    """Empty the caches of the functions of these modules."""
     for module in modules():
         for value in vars(module).values():
             if hasattr(value, "cache_clear"):
@@ -147,30 +147,30 @@ def forget():
 
 @pytest.fixture
 def fresh():
-    forget()
+    clear_caches()
     yield
-    forget()
+    clear_caches()
 
 
 @pytest.mark.parametrize("wrong", WRONG, ids=lambda wrong: wrong.name)
-def test_a_wrong_input_breaks_the_arguments_that_rest_on_it(monkeypatch, fresh, wrong):
-    right = wrong.right
+def test_an_argument_with_a_wrong_input_fails(monkeypatch, fresh, wrong):
+    original = wrong.original
 
-    def amiss(*given):
-        return wrong.amiss(right(*given))
+    def replacement(*arguments):
+        return wrong.altered(original(*arguments))
 
     for module in modules():
         for name, value in list(vars(module).items()):
-            if value is right:
-                monkeypatch.setattr(module, name, amiss)
+            if value is original:
+                monkeypatch.setattr(module, name, replacement)
     for label in wrong.labels:
         entry = next(entry for entry in ENTRIES if entry.label == label)
         with pytest.raises(Unsupported):
             replace(entry).check()
 
 
-def test_every_argument_is_put_to_the_test():
+def test_every_argument_has_a_wrong_input():
     argued = {entry.label for entry in ENTRIES if isinstance(entry.evidence, Proof | Refutation)}
     tried = [label for wrong in WRONG for label in wrong.labels]
     assert len(tried) == len(set(tried))
-    assert argued - ELSEWHERE == set(tried)
+    assert argued - INDEPENDENT == set(tried)

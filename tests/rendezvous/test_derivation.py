@@ -1,4 +1,4 @@
-"""The rendezvous derived: identities, and the 16 equations against Newton's law and the primer vector."""
+"""The derivation: identities, and the 16 equations against Newton's law and the primer vector."""
 
 import numpy as np
 import pytest
@@ -44,14 +44,14 @@ MEASURES = compiler.function(
 )
 
 
-def flown(form, start, scale):
-    # SciPy's integrator: for a handful of trajectories, compiling Taylor's costs more than it saves.
-    follow = flow(form.states, form.rates, form.parameters, taylor=False)
-    return follow(start, SPAN, [*TARGET, scale])
+def trajectory(form, start, scale):
+    # By SciPy: for a few trajectories compiling the Taylor integrator takes longer than it saves.
+    integrate = flow(form.states, form.rates, form.parameters, taylor=False)
+    return integrate(start, SPAN, [*TARGET, scale])
 
 
 def multiplied(p, q):
-    """Hamilton's product in NumPy, by the table i j = k."""
+    """Hamilton's product in NumPy, from the rule i j = k."""
     a, b, c, d = p
     e, f, g, h = q
     return np.array(
@@ -70,7 +70,7 @@ def lifted_start():
 
 
 @given(*[st.tuples(*[st.integers(-3, 3)] * 4)] * 3)
-def test_quaternions_follow_the_table_and_associate(a, b, c):
+def test_the_product_of_quaternions_is_hamilton_s_and_associative(a, b, c):
     p, q, s = (sp.Matrix(x) for x in (a, b, c))
     product, conjugate = quaternion.product, quaternion.conjugate
     assert list(product(p, q)) == multiplied(a, b).tolist()
@@ -81,7 +81,7 @@ def test_quaternions_follow_the_table_and_associate(a, b, c):
     )
 
 
-def test_newtons_law_with_any_thrust_in_turning_axes():
+def test_2_and_3_are_newton_s_law_in_rotating_axes_at_any_thrust():
     def thrust(t):
         return np.array([0.05 * np.sin(3 * t), -0.04 + 0.02 * t, 0.06 * np.cos(2 * t)])
 
@@ -89,7 +89,7 @@ def test_newtons_law_with_any_thrust_in_turning_axes():
     rates = compiler.function(
         "rates", [*states, *model.thrust, *TARGET_SYMBOLS], {"rates": principle.state_rates()}
     )
-    turned = solve_ivp(
+    rotating = solve_ivp(
         lambda t, y: rates(*y, *thrust(t), *TARGET)[0].ravel(),
         (0, 3),
         [*START, *ATTITUDE],
@@ -99,26 +99,28 @@ def test_newtons_law_with_any_thrust_in_turning_axes():
         t_eval=SPAN,
     ).y.T
     place = compiler.function("place", [*states], dict(zip("RV", model.cartesian(), strict=True)))
-    R, V = (part[..., 0] for part in place(*turned.T))
+    R, V = (part[..., 0] for part in place(*rotating.T))
 
     def newton(t, y):
         radius, normal = y[:3], np.cross(y[:3], y[3:])
         e1, e3 = radius / np.linalg.norm(radius), normal / np.linalg.norm(normal)
-        push = np.column_stack([e1, np.cross(e3, e1), e3]) @ thrust(t)
-        return [*y[3:], *(push - radius / np.linalg.norm(radius) ** 3)]
+        acceleration = np.column_stack([e1, np.cross(e3, e1), e3]) @ thrust(t)
+        return [*y[3:], *(acceleration - radius / np.linalg.norm(radius) ** 3)]
 
-    free = solve_ivp(newton, (0, 3), [*R[0], *V[0]], method="DOP853", rtol=1e-12, atol=1e-13, t_eval=SPAN).y.T
-    assert_allclose(np.hstack([R, V]), free, atol=1e-10)
-    assert abs(turned[-1, 4:] - turned[0, 4:]).max() > 0.1
+    inertial = solve_ivp(
+        newton, (0, 3), [*R[0], *V[0]], method="DOP853", rtol=1e-12, atol=1e-13, t_eval=SPAN
+    ).y.T
+    assert_allclose(np.hstack([R, V]), inertial, atol=1e-10)
+    assert abs(rotating[-1, 4:] - rotating[0, 4:]).max() > 0.1
 
 
 TARGET_SYMBOLS = [model.gravity, model.parameter, model.eccentricity, model.areal]
 
 
 @pytest.mark.parametrize("mode", ["unsaturated", "saturated"])
-def test_the_16_equations_are_newtons_with_lawdens_primer_vector(mode):
+def test_the_16_equations_are_newton_s_law_with_lawden_s_primer_vector(mode):
     form = forms.full(mode)
-    path = dict(zip(form.states, flown(form, lifted_start(), SCALE[mode]).T, strict=True))
+    path = dict(zip(form.states, trajectory(form, lifted_start(), SCALE[mode]).T, strict=True))
     nu = [
         multiplied(q * [1, -1, -1, -1], m)
         for q, m in zip(column(path, model.attitude), column(path, principle.mu), strict=True)
@@ -130,13 +132,13 @@ def test_the_16_equations_are_newtons_with_lawdens_primer_vector(mode):
         place, primer_ = y[:3], y[6:9]
         r = np.linalg.norm(place)
         length = np.linalg.norm(primer_)
-        push = primer_ / 2 if mode == "unsaturated" else SCALE[mode] * primer_ / length
+        thrust = primer_ / 2 if mode == "unsaturated" else SCALE[mode] * primer_ / length
         gradient = (3 * np.outer(place, place) / r**2 - np.eye(3)) / r**3
-        return [*y[3:6], *(push - place / r**3), *y[9:], *(gradient @ primer_)]
+        return [*y[3:6], *(thrust - place / r**3), *y[9:], *(gradient @ primer_)]
 
     start = [*R[0], *V[0], *N[0], *N_rate[0]]
-    free = solve_ivp(cartesian, (0, 3), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=SPAN).y.T
-    assert_allclose(np.hstack([R, V, N, N_rate]), free, atol=1e-10)
+    inertial = solve_ivp(cartesian, (0, 3), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=SPAN).y.T
+    assert_allclose(np.hstack([R, V, N, N_rate]), inertial, atol=1e-10)
 
 
 def column(path, symbols):
@@ -144,16 +146,16 @@ def column(path, symbols):
 
 
 @pytest.mark.parametrize("mode", principle.MODES)
-def test_the_forms_are_one_flow(mode):
+def test_all_forms_have_the_same_trajectories_and_h_of_17_is_constant(mode):
     sixteen = forms.full(mode)
-    path = flown(sixteen, lifted_start(), SCALE[mode])
-    whole = dict(zip(sixteen.states, path.T, strict=True))
-    ten = flown(forms.reduced(mode), [*START, *COSTATES], SCALE[mode])
-    fourteen = flown(forms.with_attitude(mode), [*START, *COSTATES, *ATTITUDE], SCALE[mode])
-    assert_allclose(ten[:, :7], column(whole, reduction.REDUCED[:7]), atol=1e-11)
+    path = trajectory(sixteen, lifted_start(), SCALE[mode])
+    full = dict(zip(sixteen.states, path.T, strict=True))
+    ten = trajectory(forms.reduced(mode), [*START, *COSTATES], SCALE[mode])
+    fourteen = trajectory(forms.with_attitude(mode), [*START, *COSTATES, *ATTITUDE], SCALE[mode])
+    assert_allclose(ten[:, :7], column(full, reduction.REDUCED[:7]), atol=1e-11)
     assert_allclose(fourteen[:, :10], ten, atol=1e-11)
-    assert_allclose(fourteen[:, 10:], column(whole, model.attitude), atol=1e-11)
-    for row, q, m in zip(ten, column(whole, model.attitude), column(whole, principle.mu), strict=True):
+    assert_allclose(fourteen[:, 10:], column(full, model.attitude), atol=1e-11)
+    for row, q, m in zip(ten, column(full, model.attitude), column(full, principle.mu), strict=True):
         assert_allclose(multiplied(q, [0.0, *row[7:]]), m, atol=1e-11)
     energy = compiler.function(
         "energy",
@@ -174,8 +176,8 @@ def test_the_forms_are_one_flow(mode):
 
 
 @pytest.mark.parametrize("chart", [1, -1])
-def test_chi_and_nu_give_the_attitude_back(chart):
-    fourteen = flown(forms.with_attitude("unsaturated"), [*START, *COSTATES, *ATTITUDE], 1.0)
+def test_chi_and_nu_determine_the_attitude(chart):
+    fourteen = trajectory(forms.with_attitude("unsaturated"), [*START, *COSTATES, *ATTITUDE], 1.0)
     invariant = dict(
         zip(
             principle.nu,
@@ -186,53 +188,53 @@ def test_chi_and_nu_give_the_attitude_back(chart):
     frame = repair.with_length(repair.shortest_turn(chart)).subs(invariant)
     chi = compiler.function("chi", list(model.attitude), {"chi": repair.chi_of(frame)})
     start = float(chi(*ATTITUDE)[0])
-    eleven = flown(forms.repaired("unsaturated", chart), [*START, *COSTATES, start], 1.0)
+    eleven = trajectory(forms.repaired("unsaturated", chart), [*START, *COSTATES, start], 1.0)
     back = compiler.function(
         "back", [repair.chi, *principle.nu], {"lambda": repair.with_length(repair.attitude_of(frame, chart))}
     )(eleven[:, 10], *eleven[:, 7:10].T)[0][..., 0]
     same = np.sign(np.sum(back * fourteen[:, 10:], axis=1))[:, None]
     assert_allclose(same * back, fourteen[:, 10:], atol=1e-11)
-    turned = np.angle(np.exp(1j * (eleven[:, 10] - chi(*fourteen[:, 10:].T)[0]) / 1))
-    assert_allclose(turned, 0, atol=1e-11)
+    difference = np.angle(np.exp(1j * (eleven[:, 10] - chi(*fourteen[:, 10:].T)[0]) / 1))
+    assert_allclose(difference, 0, atol=1e-11)
 
 
-def test_the_repair_is_regular_where_the_other_chart_is_not():
+def test_each_chart_of_the_repair_is_regular_where_the_other_is_singular():
     small = sp.Symbol("h", positive=True)
-    near = dict(zip(principle.nu, (sp.sin(small), 0, -sp.cos(small)), strict=True))
-    pushed = [repair.with_length(repair.chi_rate(chart)).diff(model.thrust[2]) for chart in (1, -1)]
-    first, second = (sp.limit(sp.simplify(push.subs(near)), small, 0, "+") for push in pushed)
+    nearby = dict(zip(principle.nu, (sp.sin(small), 0, -sp.cos(small)), strict=True))
+    slopes = [repair.with_length(repair.chi_rate(chart)).diff(model.thrust[2]) for chart in (1, -1)]
+    first, second = (sp.limit(sp.simplify(slope.subs(nearby)), small, 0, "+") for slope in slopes)
     assert first.is_infinite and second == 0
 
 
-def test_15_has_rank_two_and_is_blind_to_turns_about_nu():
+def test_6_has_rank_three_and_15_rank_two_as_it_does_not_change_under_rotations_about_nu():
     assert repair.change_of_mismatch().rank() == 3
-    seen = repair.change_of_invariant()
-    assert seen.rank() == 2
-    (blind,) = seen.nullspace()
-    assert blind.cross(principle.nu).applyfunc(sp.simplify).is_zero_matrix
+    change = repair.change_of_invariant()
+    assert change.rank() == 2
+    (null,) = change.nullspace()
+    assert null.cross(principle.nu).applyfunc(sp.simplify).is_zero_matrix
 
 
-def test_the_target_solves_the_equations_of_motion():
+def test_the_target_of_5_and_6_solves_the_equations_of_motion():
     ends = transversality.end_values()
     coasting = principle.state_rates().subs(dict.fromkeys(model.thrust, 0)).subs(ends)
-    moving = transversality.meeting()[:3, :].diff(model.anomaly) * model.anomaly_rate()
-    assert (coasting[:3, :] - moving).subs(model.gravity, model.GAUSS).applyfunc(sp.simplify).is_zero_matrix
+    rates = transversality.meeting()[:3, :].diff(model.anomaly) * model.anomaly_rate()
+    assert (coasting[:3, :] - rates).subs(model.gravity, model.GAUSS).applyfunc(sp.simplify).is_zero_matrix
     names = dict(zip(model.attitude, model.target_attitude(), strict=True))
-    turning = model.target_attitude().diff(model.anomaly) * model.anomaly_rate()
-    assert (coasting[4:, :].subs(names) - turning).applyfunc(sp.simplify).is_zero_matrix
+    attitude_rate = model.target_attitude().diff(model.anomaly) * model.anomaly_rate()
+    assert (coasting[4:, :].subs(names) - attitude_rate).applyfunc(sp.simplify).is_zero_matrix
 
 
-def test_the_primer_vector_by_symbols():
+def test_the_second_derivative_of_n_is_the_gravity_gradient_times_n():
     n = principle.switching()
     assert (primer.second_rate() - primer.gravity_gradient() * n).applyfunc(sp.simplify).is_zero_matrix
     assert sp.simplify(primer.hamiltonian() - reduction.hamiltonian()) == 0
     assert primer.turning_invariant(-primer.carried(), n) == principle.nu
-    back = primer.costates(-primer.carried(), n)
-    assert all(sp.simplify(value - symbol) == 0 for symbol, value in back.items())
-    assert len(back) == 6
+    costates = primer.costates(-primer.carried(), n)
+    assert all(sp.simplify(value - symbol) == 0 for symbol, value in costates.items())
+    assert len(costates) == 6
 
 
-def test_across_the_primer_vector_the_two_problems_differ():
+def test_at_a_thrust_not_along_n_the_derivative_of_n_has_an_additional_term():
     n = principle.switching()
     rate = primer.rate_at_any_thrust(n)
     r, c = model.r, model.c
@@ -241,7 +243,7 @@ def test_across_the_primer_vector_the_two_problems_differ():
     assert (extra - sp.Matrix([0, 0, r * torque[0] / c])).applyfunc(sp.simplify).is_zero_matrix
 
 
-def test_the_law_at_the_end_by_symbols():
+def test_16_and_17_give_the_law_for_the_thrust_at_the_end():
     at_end = terminal.law().subs(transversality.end_values())
     assert sp.simplify(terminal.hamiltonian_at_a_meeting() - at_end) == 0
     assert terminal.end_thrust() == sp.sqrt(principle.time_weight) / sp.sqrt(principle.energy_weight)
@@ -250,14 +252,14 @@ def test_the_law_at_the_end_by_symbols():
 
 
 @pytest.mark.parametrize("mode", principle.MODES)
-def test_the_slope_of_the_cost_is_the_law_at_the_end(mode):
+def test_the_slope_of_the_cost_over_the_duration_vanishes_with_the_law_at_the_end(mode):
     assert sp.expand(terminal.cost_slope(mode) + terminal.law_in_lengths(mode)) == 0
     assert variation.energy_rate(mode) == 0
 
 
-def test_the_first_variation_leaves_the_ends_and_the_thrust():
-    pushed = [variation.FAMILY[p].diff(variation.s) for p in model.thrust]
-    rest = variation.rest_of_the_variation() + variation.gradient_by_thrust().dot(pushed)
+def test_the_first_variation_consists_of_a_term_at_the_end_and_one_of_the_thrust():
+    thrust_slopes = [variation.FAMILY[p].diff(variation.s) for p in model.thrust]
+    rest = variation.rest_of_the_variation() + variation.gradient_by_thrust().dot(thrust_slopes)
     assert sp.expand(rest) == 0
     end = variation.of_a_meeting()
     assert sp.expand(end.coeff(variation.delay) + principle.in_nu(principle.hamiltonian())) == 0
@@ -265,7 +267,7 @@ def test_the_first_variation_leaves_the_ends_and_the_thrust():
 
 @given(*[st.fractions(1, 2, max_denominator=9)] * 3)
 @settings(max_examples=3, deadline=None)
-def test_the_costates_carried_over_obey_the_16_equations(r, v1, c):
+def test_the_costates_transformed_from_cartesian_ones_obey_the_16_equations(r, v1, c):
     numbers = [sp.Rational(x.numerator, x.denominator) for x in (r, v1, c)]
     lengths = dict(zip((model.r, model.v1, model.c), numbers, strict=True))
     point = lengths | dict(zip(model.attitude, (sp.Rational(k, 7) for k in (2, -3, 6, 0)), strict=True))
@@ -273,28 +275,28 @@ def test_the_costates_carried_over_obey_the_16_equations(r, v1, c):
     assert canonical.costate_gap(point).is_zero_matrix
 
 
-def test_the_axes_of_place_and_velocity_are_eta():
+def test_the_axes_made_of_place_and_velocity_are_eta():
     point = dict(zip(model.attitude, (sp.Rational(k, 5) for k in (1, 2, 2, 4)), strict=True))
     axes = canonical.axes(canonical.place_and_velocity().subs(point)).applyfunc(sp.simplify)
     eta = [quaternion.rotated(axis, model.attitude).subs(point) for axis in (model.EX, model.EY, model.EZ)]
     assert axes == sp.Matrix.hstack(*eta)
 
 
-def test_the_best_thrust_is_one_of_three_and_the_largest_gain():
+def test_the_magnitudes_of_10_maximise_the_gain():
     p, length = principle.thrust_magnitude, principle.switching_length
     assert principle.along_switching() == length * p - principle.energy_weight * p**2
     top = length / (2 * principle.energy_weight)
     assert principle.best_magnitudes() == (top, principle.peak, principle.peak)
 
 
-def test_the_symbols_of_the_target_print_with_their_star():
+def test_the_symbols_of_the_target_print_with_a_star():
     assert sp.latex(model.anomaly_rate()) == (
         r"\frac{c^* \left(e^* \cos{\left(\varphi^* \right)} + 1\right)^{2}}{\left(p^*\right)^{2}}"
     )
     assert str(model.parameter) == "p_star"
 
 
-def test_saturated_rates_are_of_degree_zero_and_one_in_the_costates():
+def test_saturated_rates_are_homogeneous_of_degree_zero_and_one_in_the_costates():
     costates = [principle.rho, principle.s1, principle.e, *principle.nu]
     form = forms.reduced("saturated")
     point = {x: sp.Rational(k + 3, k + 7) for k, x in enumerate([*form.states, *form.parameters])}
@@ -306,7 +308,7 @@ def test_saturated_rates_are_of_degree_zero_and_one_in_the_costates():
 
 @settings(max_examples=20)
 @given(st.floats(0.0, 2.0), st.floats(0.05, 3.0), st.floats(0.02, 2.0))
-def test_the_optimal_thrust_is_the_best_on_a_grid(length, weight, bound):
+def test_no_magnitude_on_a_grid_gains_more_than_that_of_10(length, weight, bound):
     share = np.linspace(0, bound, 4001)
     gain = -weight * share**2 + length * share
     values = {principle.s1: length, principle.e: 0, principle.nu[0]: 0, principle.energy_weight: weight}
@@ -315,20 +317,20 @@ def test_the_optimal_thrust_is_the_best_on_a_grid(length, weight, bound):
     assert -weight * best**2 + length * best >= gain.max() - 1e-12
 
 
-def test_the_cost_of_fixed_duration_has_the_derived_slope():
+def test_the_derived_slope_of_the_cost_agrees_with_differences_of_optimal_costs():
     form = forms.with_attitude("unsaturated")
-    follow = flow(form.states, form.rates, form.parameters)
+    integrate = flow(form.states, form.rates, form.parameters)
     ends = compiler.function("ends", [*form.states, *TARGET_SYMBOLS], {"ends": model.boundary()})
 
     def end_of(unknowns, times):
         rho, s1, e, nu3 = unknowns
-        return follow([1, 0, 1, 0.6, rho, s1, e, 0, 0, nu3, 1, 0, 0, 0], times, [*TARGET, 1.0])
+        return integrate([1, 0, 1, 0.6, rho, s1, e, 0, 0, nu3, 1, 0, 0, 0], times, [*TARGET, 1.0])
 
     def residual(unknowns, duration):
         y = end_of(unknowns, [0.0, duration])[-1]
         return [*ends(*y, *TARGET)[0].ravel(), np.sin(np.arctan2(y[13], y[10]) - y[3] / 2)]
 
-    def solved(duration):
+    def cost_and_length(duration):
         found = root(residual, np.zeros(4), args=(duration,), tol=1e-13)
         assert np.abs(found.fun).max() < 1e-12
         nodes, weights = np.polynomial.legendre.leggauss(40)
@@ -338,7 +340,7 @@ def test_the_cost_of_fixed_duration_has_the_derived_slope():
         return duration / 2 * weights @ square[1:-1], 2 * np.sqrt(square[-1])
 
     h = 1e-3
-    (before, _), (_, length), (after, _) = (solved(5 + k * h) for k in (-1, 0, 1))
+    (before, _), (_, length), (after, _) = (cost_and_length(5 + k * h) for k in (-1, 0, 1))
     slope = terminal.cost_slope("unsaturated").subs(
         {terminal.switching_length: length, principle.time_weight: 0, principle.energy_weight: 1}
     )

@@ -1,4 +1,4 @@
-"""Sapunkov's elements: the regularisation by symbols, and (1) against Newton's law under thrust."""
+"""Sapunkov's elements: identities of the regularisation, and (1) against Newton's law under thrust."""
 
 import numpy as np
 import pytest
@@ -20,14 +20,14 @@ def is_zero(matrix):
     return matrix.applyfunc(sp.expand).is_zero_matrix
 
 
-def test_the_spinor_follows_newtons_law():
+def test_the_spinor_obeys_newton_s_law():
     assert is_zero(sapunkov.place_rate() - sapunkov.radius() * velocity)
     assert sp.expand(sapunkov.place().dot(sapunkov.place()) - sapunkov.radius() ** 2) == 0
     difference = sapunkov.spinor_acceleration() - sapunkov.oscillator()
     assert difference.applyfunc(sp.simplify).is_zero_matrix
 
 
-def test_the_bilinear_relation_lasts():
+def test_the_bilinear_relation_is_preserved():
     assert sp.expand(sapunkov.bilinear(u, sapunkov.spinor_rate())) == 0
     factor = sp.cancel(sp.expand(sapunkov.bilinear_rate()) / sapunkov.bilinear())
     assert sp.denom(factor) == 1
@@ -35,14 +35,14 @@ def test_the_bilinear_relation_lasts():
 
 
 @given(st.tuples(*[st.integers(-4, 4)] * 3).filter(lambda d: d[0] > -np.linalg.norm(d) + 1e-9))
-def test_a_spinor_for_every_direction_but_one(direction):
+def test_every_direction_but_one_has_a_spinor(direction):
     unit = sp.Matrix(direction) / sp.sqrt(sum(part**2 for part in direction))
     found = sapunkov.place(sapunkov.spinor_of(unit)) - unit
     assert max(abs(complex(part.evalf(20))) for part in found) < 1e-15
 
 
 def right_hand_side():
-    """(1) as the derivation gives it, in A, B, phi and p."""
+    """The derived right-hand side of (1) as a function of A, B, phi, epsilon and p."""
     names = sapunkov.oscillation()
     rates = [part.subs(names, simultaneous=True) for part in sapunkov.element_rates()]
     size = A.dot(A) + B.dot(B)
@@ -65,7 +65,7 @@ def state_of(elements, angle):
 
 
 def elements_of(position, speed):
-    """A and B at phi = 0: u and w."""
+    """A and B, which are u and w at phi = 0."""
     r = np.linalg.norm(position)
     h = speed @ speed / 2 - 1 / r
     spinor = sapunkov.spinor_of(sp.Matrix(position / r)) * sp.sqrt(r)
@@ -79,7 +79,7 @@ def thrust(t):
 
 
 @pytest.mark.parametrize("speed", [[0.1, 1.0, 0.3], [0.4, 0.3, -0.2]])
-def test_the_elements_fly_as_newton_does(speed):
+def test_1_agrees_with_newton_s_law_under_thrust(speed):
     position = np.array([0.9, -0.2, 0.3])
     rates = right_hand_side()
 
@@ -97,17 +97,17 @@ def test_the_elements_fly_as_newton_does(speed):
     def newton(t, y):
         return [*y[3:], *(EPSILON * thrust(t) - y[:3] / np.linalg.norm(y[:3]) ** 3)]
 
-    free = solve_ivp(newton, (0, times[-1]), [*position, *speed], t_eval=times, **options).y.T
-    assert_allclose(state_of(path[:8], angles), free, atol=2e-11)
+    inertial = solve_ivp(newton, (0, times[-1]), [*position, *speed], t_eval=times, **options).y.T
+    assert_allclose(state_of(path[:8], angles), inertial, atol=2e-11)
     u0, w0 = path[:4], path[4:8]
     assert abs(path[:8, -1] - path[:8, 0]).max() > 0.05
     size = (u0**2).sum(0) + (w0**2).sum(0)
     assert_allclose(
-        -1 / size, (free[:, 3:] ** 2).sum(1) / 2 - 1 / np.linalg.norm(free[:, :3], axis=1), atol=1e-11
+        -1 / size, (inertial[:, 3:] ** 2).sum(1) / 2 - 1 / np.linalg.norm(inertial[:, :3], axis=1), atol=1e-11
     )
 
 
-def test_without_thrust_the_elements_are_constant_and_the_orbit_keplers():
-    still = dict.fromkeys(force, 0)
-    assert all(part.subs(still).is_zero_matrix for part in sapunkov.element_rates())
-    assert sapunkov.size_rate().subs(still) == 0
+def test_without_thrust_the_elements_and_q_are_constant():
+    no_thrust = dict.fromkeys(force, 0)
+    assert all(part.subs(no_thrust).is_zero_matrix for part in sapunkov.element_rates())
+    assert sapunkov.size_rate().subs(no_thrust) == 0

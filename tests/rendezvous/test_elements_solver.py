@@ -1,4 +1,4 @@
-"""The rendezvous solved in Sapunkov's elements: both functionals, against `solve`, Newton and differences."""
+"""The solvers in Sapunkov's elements: both functionals, against `solve`, Newton's law and differences."""
 
 import math
 from dataclasses import dataclass
@@ -75,7 +75,7 @@ def test_the_hamiltonian_and_the_phase_costate_sum_to_a_constant():
     assert sp.expand(at_random(whole)) == 0
 
 
-def test_the_relation_adds_nothing_to_the_thrust():
+def test_the_gradient_of_the_relation_does_not_change_the_thrust():
     relation = sapunkov.bilinear()
     for part in principle.switching_of_the_relation():
         assert sp.denom(sp.cancel(sp.expand(part) / relation)).free_symbols <= {*sapunkov.u}
@@ -84,12 +84,12 @@ def test_the_relation_adds_nothing_to_the_thrust():
     assert sp.expand(turn.dot(turn) - gradient.dot(gradient)) == 0
 
 
-def test_the_terminal_law_is_that_of_the_other_paper():
+def test_the_terminal_law_is_that_of_pimkina_and_chelnokov():
     law = principle.switching().dot(sapunkov.force) - principle.running_cost
     assert sp.expand(at_random(principle.terminal_law() - law)) == 0
 
 
-def test_the_smoothed_throttle_is_a_maximum_that_becomes_the_jump():
+def test_the_smoothed_throttle_is_a_maximum_and_tends_to_the_jump():
     share, most = principle.smoothed_throttle()
     (S,) = {x for x in share.free_symbols if str(x) == "S"}
     (width,) = share.free_symbols - {S}
@@ -111,7 +111,7 @@ component = st.floats(-2, 2).map(lambda x: round(x, 3))
 
 @settings(max_examples=60, deadline=None)
 @given(st.tuples(*[component] * 3), st.tuples(*[component] * 3), st.floats(0, 6), st.floats(0.5, 4))
-def test_a_state_comes_back_from_its_elements_however_they_are_turned(position, velocity, angle, gravity):
+def test_the_elements_of_a_state_give_the_state_back_also_when_turned(position, velocity, angle, gravity):
     R, V = np.array(position), np.array(velocity)
     r = np.linalg.norm(R)
     if r < 0.1:
@@ -130,7 +130,7 @@ def test_elements_broadcast():
     assert many.at(np.zeros((3, 1, 1))).position.shape == (3, 5, 2, 3)
 
 
-def test_a_start_at_either_end_of_the_first_axis_has_elements():
+def test_states_on_the_first_axis_have_elements():
     for sign in (1, -1):
         found = Elements.from_state([sign * 1.0, 0, 0], [0.1, 0.7, 0.2])
         assert np.allclose(found.position, [sign, 0, 0], atol=1e-15)
@@ -150,8 +150,8 @@ def test_a_start_at_either_end_of_the_first_axis_has_elements():
     ],
     ids=["unbounded", "bounded", "jumping", "smoothed"],
 )
-def test_the_derivatives_are_those_of_the_equations(law, duration):
-    """Also over the jumps, where the derivatives jump too."""
+def test_the_jacobian_is_the_derivative_of_the_equations(law, duration):
+    """Also across switches, where the derivatives are discontinuous."""
     setting, h = ElementsSetting(problem(20).scaled, law, duration), 1e-6
     point = np.append(COSTATES * (1.0 if law.kind == "fuel" else 0.1), 2.2)
     exact = equations(setting, point)
@@ -163,7 +163,7 @@ def test_the_derivatives_are_those_of_the_equations(law, duration):
     assert (len(exact.flight.pieces) > 1) == (law.peak < 1 and not law.width)
 
 
-def test_both_integrators_fly_the_same_arcs():
+def test_both_integrators_give_the_same_flight():
     law = Law("fuel", 0.0, 0.3)
     taylor, classic = (fly_elements(problem(20).scaled, COSTATES, 1.9, law, use) for use in (True, False))
     assert len(taylor.pieces) == len(classic.pieces) > 1
@@ -176,7 +176,7 @@ def test_both_integrators_fly_the_same_arcs():
 
 
 def by_the_axes(given: Rendezvous) -> Extremal:
-    """One extremal in the axes eta where one is enough, or the whole search."""
+    """The solution in the axes eta: one extremal where that suffices, otherwise the full search."""
     if given.free or given.peak < math.inf:
         return solve(given)
     setting = shooting.Setting(given.scaled, 1.0, math.inf, duration=given.scaled.duration)
@@ -191,8 +191,8 @@ def by_the_axes(given: Rendezvous) -> Extremal:
         (20, {"time_weight": 0.01, "peak": 0.12}),
     ],
 )
-def test_the_elements_find_the_extremal_of_the_axes(degrees, changes):
-    """From coasting, knowing nothing of the other solution."""
+def test_the_solution_in_the_elements_is_an_extremal_found_in_the_axes_eta(degrees, changes):
+    """The solution in the elements starts from coasting, independently of the other one."""
     given = problem(degrees, **changes)
     mine = solve_in_elements(given)
     other = by_the_axes(given)
@@ -212,8 +212,8 @@ def test_the_elements_find_the_extremal_of_the_axes(degrees, changes):
     )
 
 
-def test_costates_carried_over_are_a_solution_already():
-    """Between inclined ellipses, in units of a trade, with attitudes other than 1."""
+def test_the_transformed_costates_of_a_solution_are_a_solution_in_the_elements():
+    """Between inclined ellipses, in km and s, with attitudes other than 1."""
     craft = Chaser(7000.0, 0.3, 54000.0, [0.6, 0, 0.8, 0])
     target = Orbit.from_angles(9000.0, 0.2, 0.3, 1.3, 0.5, 0.6)
     given = Rendezvous(craft, target, 0.0, 1.0, math.inf, gravity=398600.0, duration=5000.0)
@@ -227,7 +227,7 @@ def test_costates_carried_over_are_a_solution_already():
     assert np.allclose(start.velocity[0], rotated(np.array([0.3, 54000 / 7000, 0]), attitude), atol=1e-11)
 
 
-def test_a_wrong_costate_is_found_out():
+def test_the_certificate_detects_a_wrong_costate():
     mine = solve_in_elements(problem(20, duration=6.0))
     moved = mine.root.unknowns + 1e-6 * np.eye(7)[2]
     wrong = Root(moved, equations(ElementsSetting(mine.problem.scaled, mine.flight.law, 1.0), moved))
@@ -244,7 +244,7 @@ def fuel():
     return least_fuel(LEAP)
 
 
-def test_the_thrust_is_on_or_off_and_switches_where_it_must(fuel):
+def test_the_thrust_of_least_fuel_is_on_or_off_and_switches_where_n_is_alpha2(fuel):
     assert set(fuel.modes) == {"saturated", "coast"} and len(fuel.modes) >= 3
     assert fuel.certificate.holds(1e-10) and float(fuel.certificate.switching) < 1e-12
     size = np.linalg.norm(fuel.switching(fuel.switch_times), axis=1)
@@ -257,12 +257,12 @@ def test_the_thrust_is_on_or_off_and_switches_where_it_must(fuel):
     assert fuel.cost == pytest.approx(LEAP.peak * np.diff(edges)[on].sum(), rel=1e-12)
 
 
-def test_smoothed_extremals_come_down_to_the_sharp_one(fuel):
+def test_the_fuel_of_the_smoothed_extremals_decreases_to_that_of_the_switching_one(fuel):
     spent = [float(root.flight.end[17]) * fuel.value for root in fuel.smoothed]
     assert spent == sorted(spent, reverse=True) and fuel.cost < spent[-1] < 1.03 * fuel.cost
 
 
-def test_each_functional_is_least_along_its_own_extremal(fuel):
+def test_each_functional_is_smaller_along_its_own_extremal(fuel):
     first = solve_in_elements(LEAP)
     t = np.linspace(0, 6, 20001)
     other = np.linalg.norm(first.control(t), axis=1)
@@ -272,7 +272,7 @@ def test_each_functional_is_least_along_its_own_extremal(fuel):
 
 
 @pytest.mark.parametrize(("inclination", "time_weight", "peak"), [(0, 0.01, 0.15), (5, 0.2, 0.1)])
-def test_a_free_duration_obeys_the_end_law(inclination, time_weight, peak):
+def test_a_solution_of_free_duration_obeys_the_law_at_the_end(inclination, time_weight, peak):
     given = problem(inclination, time_weight=time_weight, energy_weight=1, peak=peak)
     free = least_fuel(given)
     assert free.certificate.holds(1e-10)
@@ -282,7 +282,7 @@ def test_a_free_duration_obeys_the_end_law(inclination, time_weight, peak):
 
 
 @pytest.mark.parametrize("law", [Law("fuel", 0.1, 0.1), Law("square", 0.01, 0.3)])
-def test_no_arc_hides_a_switch(law):
+def test_the_mode_of_every_arc_is_that_of_the_switching_function(law):
     random = np.random.default_rng(5)
     level = 1.0 if law.kind == "fuel" else 2 * law.peak
     switches = 0
@@ -300,7 +300,7 @@ def test_no_arc_hides_a_switch(law):
     assert switches > 10
 
 
-def test_no_step_leaps_over_a_burn_under_a_sharp_jump():
+def test_no_step_of_the_integrator_misses_a_burn_of_a_nearly_discontinuous_thrust():
     law = Law("fuel", 0.0, 0.2, width=0.02)
     random = np.random.default_rng(3)
     compared = 0
@@ -342,27 +342,26 @@ def lying_at(value, x):
     return Root(unknowns, elements_shooting.equations(Level(value), unknowns))
 
 
-def test_a_family_is_followed_round_its_folds(bent):
+def test_a_family_is_followed_around_its_folds(bent):
     """x^3 - x = value: from -1.5 to 1.5 the curve turns back at -1/sqrt(3) and at 1/sqrt(3)."""
     bent(lambda x: x**3 - x, lambda x: 3 * x**2 - 1)
     root = elements_shooting.lead_round(Level, lying_at(-1.875, -1.5), -1.875, 1.875)
     assert root.unknowns[0] == pytest.approx(1.5, abs=1e-12)
 
 
-def test_a_family_that_only_turns_back_is_not_converged(bent):
+def test_a_family_that_does_not_reach_the_value_is_not_converged(bent):
     bent(lambda x: -(x**2), lambda x: -2 * x)
     with pytest.raises(pontryagin.NotConverged, match="could not be followed"):
         elements_shooting.lead_round(Level, lying_at(-1.0, 1.0), -1.0, 1.0)
 
 
-def test_a_singular_end_is_no_meeting(bent):
-    """However large the condition number, a residual above 1e-6 is none."""
+def test_a_residual_above_1e_6_is_not_converged_however_large_the_condition_number(bent):
     bent(lambda x: x**2 + 0.5, lambda x: 2 * x)
     with pytest.raises(pontryagin.NotConverged):
         elements_shooting.meet(Level(0.0), np.append(1e-9, np.ones(6)))
 
 
-def test_the_judge_agrees_and_its_error_shrinks(fuel):
+def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh(fuel):
     pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct
 
@@ -384,12 +383,12 @@ BAD = {
 
 
 @pytest.mark.parametrize("message", BAD)
-def test_bad_input_is_named(message):
+def test_the_error_of_a_wrong_argument_names_it(message):
     with pytest.raises(ValueError, match=message):
         BAD[message]()
 
 
-def test_energy_or_fuel_alone_leaves_no_best_free_time():
+def test_least_energy_or_fuel_in_free_time_is_infeasible():
     for solver in (solve_in_elements, least_fuel):
         with pytest.raises(pontryagin.Infeasible, match="longer flight is always cheaper"):
             solver(problem(20, peak=0.2))

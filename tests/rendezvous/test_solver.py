@@ -1,4 +1,4 @@
-"""The rendezvous solver: exact derivatives, meetings in every geometry, certificates that can fail."""
+"""The rendezvous solver: exact derivatives, solutions in every geometry, certificates that can fail."""
 
 import math
 import subprocess
@@ -36,7 +36,7 @@ def problem(degrees: float, **changes) -> Rendezvous:
     return Rendezvous(CRAFT, orbit(degrees), **given)
 
 
-def test_the_kernels_are_what_the_derivation_generates():
+def test_the_kernels_are_those_that_the_derivation_generates():
     assert Path(kernels.__file__).read_text() == generate.kernels()
 
 
@@ -49,7 +49,7 @@ def test_importing_the_package_loads_neither_sympy_nor_an_integrator():
 
 @pytest.mark.parametrize("degrees", INCLINATIONS)
 @pytest.mark.parametrize(("ratio", "peak"), [(0.01, 0.05), (0.001, 0.05), (math.inf, 0.05), (0.01, math.inf)])
-def test_the_derivatives_are_those_of_the_equations(degrees, ratio, peak):
+def test_the_jacobian_is_the_derivative_of_the_equations(degrees, ratio, peak):
     """Also across the switches, of the terminal law, in the bound, in alpha1/alpha2 and in the lead."""
     setting, h = Setting(problem(degrees).scaled, ratio, peak), 1e-6
     point = np.append(COSTATES, 6.0)
@@ -71,7 +71,7 @@ def test_the_derivatives_are_those_of_the_equations(degrees, ratio, peak):
 
 
 @pytest.mark.parametrize("peak", [math.inf, 0.03])
-def test_both_integrators_fly_the_same_arcs(peak):
+def test_both_integrators_give_the_same_flight(peak):
     taylor, classic = (fly(problem(20).scaled, COSTATES, 8.0, peak, taylor=use) for use in (True, False))
     assert len(taylor.pieces) == len(classic.pieces) == (1 if peak == math.inf else 2)
     assert np.allclose(taylor.switch_times, classic.switch_times, atol=1e-11)
@@ -81,7 +81,7 @@ def test_both_integrators_fly_the_same_arcs(peak):
     assert np.allclose(taylor.sample(grid), classic.sample(grid), atol=1e-10)
 
 
-def test_the_two_charts_are_one_attitude():
+def test_both_charts_give_the_same_attitude():
     scaled = problem(20).scaled
     above, below = (fly(scaled, COSTATES, 5.0, chart=chart) for chart in (1, -1))
     first, second = above.attitude(above.end), below.attitude(below.end)
@@ -90,20 +90,20 @@ def test_the_two_charts_are_one_attitude():
 
 @pytest.mark.parametrize("degrees", INCLINATIONS)
 def test_a_cold_start_meets_the_target_in_every_geometry(degrees):
-    """The attitude of (6) is carried by the 16 equations, the place by Newton's law and Kepler's equation."""
+    """(6) is checked by the 16 equations, the place by Newton's law and Kepler's equation."""
     setting = Setting(problem(degrees).scaled, 1.0, math.inf, duration=3.0)
     root = cold_start(setting)
     assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
 
 
-def test_more_revolutions_are_other_extremals():
+def test_different_numbers_of_revolutions_give_different_extremals():
     setting = Setting(problem(20).scaled, 1.0, math.inf, duration=12.0)
     costs = {turns: energy(cold_start(setting, turns).flight) for turns in (-1, 0, 1)}
     assert len({round(cost, 6) for cost in costs.values()}) == 3
 
 
 @pytest.mark.parametrize("taylor", [True, False])
-def test_a_wrong_costate_is_found_out(taylor):
+def test_the_certificate_detects_a_wrong_costate(taylor):
     setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0, taylor=taylor)
     root = meet(setting, cold_start(setting).unknowns)
     moved = equations(setting, root.unknowns + 1e-6 * np.eye(6)[3])
@@ -112,8 +112,8 @@ def test_a_wrong_costate_is_found_out(taylor):
     assert not certify(wrong, (0.0, 1.0), free=False).holds(1e-8)
 
 
-def test_a_meeting_ahead_of_the_target_fails_by_its_attitude_alone():
-    """In one plane, with a round target, (5), (15), (16) and H = 0 hold anywhere on the orbit."""
+def test_a_meeting_ahead_of_the_target_violates_only_the_condition_on_the_attitude():
+    """In one plane and with a circular target orbit, (5), (15), (16) and H = 0 hold anywhere on the orbit."""
     free = Rendezvous(CRAFT, orbit(0, eccentricity=0.0), 0.002, 1.0, math.inf)
     best = solve(free)
     setting = Setting(free.scaled, free.scaled.ratio, math.inf)
@@ -125,7 +125,7 @@ def test_a_meeting_ahead_of_the_target_fails_by_its_attitude_alone():
     assert best.certificate.holds(1e-10)
 
 
-def test_the_cost_falls_with_the_duration_by_the_end_thrust():
+def test_the_slope_of_the_cost_over_the_duration_is_minus_the_square_of_the_end_thrust():
     """dJ/dt_k = alpha1 - alpha2 p(t_k)^2 along the family of fixed times."""
     setting, h = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0), 1e-4
     here = cold_start(setting)
@@ -133,7 +133,7 @@ def test_the_cost_falls_with_the_duration_by_the_end_thrust():
     assert (later - sooner) / (2 * h) == pytest.approx(-(end_thrust(here.flight) ** 2), rel=1e-6)
 
 
-def test_a_mixed_problem_meets_the_bound_and_obeys_the_end_law():
+def test_a_mixed_problem_reaches_the_bound_and_obeys_the_law_at_the_end():
     best = solve(problem(20, time_weight=0.0036, peak=0.08))
     assert all(b.certificate.holds(1e-9) for b in (best, *best.others))
     assert "saturated" in best.modes and best.modes[-1] == "unsaturated"
@@ -145,7 +145,7 @@ def test_a_mixed_problem_meets_the_bound_and_obeys_the_end_law():
 
 
 def least_time(degrees: float):
-    """One curve from the unbounded problem to least time."""
+    """The extremal of least time by one homotopy from the unbounded problem."""
     given = problem(degrees, time_weight=1, energy_weight=0, peak=0.1)
     scaled = given.scaled
     loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
@@ -154,14 +154,14 @@ def least_time(degrees: float):
 
 
 @pytest.mark.parametrize("degrees", [0, 30])
-def test_least_time_is_saturated_throughout(degrees):
+def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
     given, root = least_time(degrees)
     certificate = certify(root, given.scaled.weights, free=True)
     assert certificate.holds(1e-10)
     assert [piece.mode for piece in root.flight.pieces] == ["saturated"]
 
 
-def test_units_and_signs_of_quaternions_change_nothing():
+def test_the_solution_does_not_depend_on_units_and_on_the_sign_of_quaternions():
     """Lengths times 7000, fM = 398600, and -Lambda* in place of Lambda*."""
     plain = problem(20, duration=8.0)
     length, gravity = 7000.0, 398600.0
@@ -183,7 +183,7 @@ def test_units_and_signs_of_quaternions_change_nothing():
     assert second.certificate.holds(1e-10)
 
 
-def test_what_is_sampled_is_in_the_users_units():
+def test_samples_are_in_the_units_of_the_user():
     given = problem(20, duration=8.0)
     best = solve(given)
     t = np.linspace(0, 8, 9)
@@ -196,13 +196,13 @@ def test_what_is_sampled_is_in_the_users_units():
         best.state(8.1)
 
 
-def test_a_neighbours_solution_is_a_start():
+def test_the_solution_of_a_neighbouring_problem_is_a_start():
     first = solve(problem(20, duration=8.0))
     near = solve(problem(20, duration=8.05), start=first)
     assert near.certificate.holds(1e-10) and near.cost < first.cost
 
 
-def test_the_judge_agrees_and_its_error_shrinks():
+def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh():
     pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct
 
@@ -234,12 +234,12 @@ BAD = {
 
 
 @pytest.mark.parametrize("message", BAD)
-def test_bad_input_is_named(message):
+def test_the_error_of_a_wrong_argument_names_it(message):
     with pytest.raises(ValueError, match=message):
         BAD[message]()
 
 
-def test_energy_alone_leaves_no_best_free_time():
+def test_least_energy_in_free_time_is_infeasible():
     with pytest.raises(pontryagin.Infeasible, match="longer flight is always cheaper"):
         solve(problem(20))
 

@@ -1,3 +1,5 @@
+"""Recordings: they are valid, and they hold the states and torques of the solutions."""
+
 import subprocess
 import sys
 

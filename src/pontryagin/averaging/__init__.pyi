@@ -2,7 +2,7 @@ from . import derivation as derivation
 from . import figures as figures
 from . import playback as playback
 from .averaged.solution import AveragedSolution as AveragedSolution
-from .averaged.solution import solve_averaged as solve_averaged
+from .averaged.solve import solve_averaged as solve_averaged
 from .examples.kepler import kepler as kepler
 from .examples.rotor import rotor as rotor
 from .examples.smooth import smooth_example as smooth_example

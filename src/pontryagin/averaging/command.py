@@ -6,14 +6,12 @@ from typing import Annotated, Any
 import typer
 
 from pontryagin.averaging import (
-    schema as asked,
-)
-from pontryagin.averaging import (
+    schema,
     transcript,
 )
 from pontryagin.averaging.schema import (
     EXAMPLES,
-    Example,
+    ExampleSchema,
 )
 from pontryagin.io import json_io, rows
 from pontryagin.terminal import console
@@ -122,24 +120,24 @@ def solve(
         return
     console.file_names(plot, record, out)
     values = chosen.read(given)
-    solution = asked.solve(chosen, values)
+    solution = schema.solve(chosen, values)
     exact = None if small is None else _exact(solution, small, start)
     _files(solution, exact, plot, record)
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
-    told = transcript.transcript(problem, solution, small, start, exact)
+    report = transcript.transcript(problem, solution, small, start, exact)
     if json:
-        typer.echo(json_io.to_json(told))
+        typer.echo(json_io.to_json(report))
     else:
-        console.show(chosen.title, transcript.shown(told), transcript.conclusion(told))
+        console.show(chosen.title, transcript.shown(report), transcript.conclusion(report))
 
 
-def _chosen(example: str | None, given: asked.Given, phase: str | None) -> Example:
+def _chosen(example: str | None, given: schema.Given, phase: str | None) -> ExampleSchema:
     console.required({"--example": example})
     if example not in EXAMPLES:
         raise console.Refusal("--example", f"takes {', '.join(EXAMPLES)}, got {example!r}")
     chosen = EXAMPLES[str(example)]
-    foreign = {asked.option(name): text for name, text in given.items() if name not in chosen.options}
+    foreign = {schema.option(name): text for name, text in given.items() if name not in chosen.options}
     console.excluded(f"--example {example}", foreign | ({} if chosen.phase else {"--phase": phase}))
     return chosen
 
@@ -163,15 +161,15 @@ def _files(solution: Any, exact: Any, plot: File, record: File) -> None:
 
 
 def _solve_batch(
-    chosen: Example,
-    given: asked.Given,
+    chosen: ExampleSchema,
+    given: schema.Given,
     path: Path,
     out: str,
     epsilon: float | None,
     phase: float | None,
 ) -> None:
     read, values = chosen.stack(given, path)
-    solution = asked.solve(chosen, values)
+    solution = schema.solve(chosen, values)
     if epsilon is not None and "peak" in values:
         raise console.Refusal(
             "--epsilon", "does not go with --batch and --peak, where the end's angle matters"

@@ -1,9 +1,16 @@
-"""Numeric kernels of the paper's examples, and the examples themselves as SymPy text.
+"""Numeric kernels of the paper's examples.
 
 Generated from the derivations by `make kernels`; do not edit.
 """
 
 from numpy import cos, sin, sqrt
+
+SIZES = {
+    "smooth": (1, 1),
+    "kepler": (2, 1),
+    "spin_down": (2, 1),
+}
+"""Numbers of slow variables and of conditions at the end."""
 
 
 def smooth_mean(v, p_v, v1, k, ripple):
@@ -53,23 +60,6 @@ def smooth_pace(v, x, v1, k, ripple):
     """Section 3, smooth example: dt/dx at epsilon = 0."""
     c0 = 1/v
     return c0
-
-
-SMOOTH = {
-    "symbols": {"v": "positive", "u": "real", "x": "real", "v1": "real", "k": "positive", "ripple": "real"},
-    "slow": ["v"],
-    "control": ["u"],
-    "phase": "x",
-    "numbers": ["v1", "k", "ripple"],
-    "f": ["ripple*cos(x) + u"],
-    "target": ["v - v1"],
-    "omega": "v",
-    "weight": "1",
-    "running_cost": "k",
-    "terminal_cost": "0",
-    "phase_rate": "0",
-    "control_set": "Quadratic(weight=1)",
-}
 
 
 def kepler_mean(E, K, p_E, p_K, E1, l):
@@ -166,23 +156,6 @@ def kepler_pace(E, K, xi, E1, l):
     return c0
 
 
-KEPLER = {
-    "symbols": {"E": "negative", "K": "positive", "u_r": "real", "u_phi": "real", "xi": "real", "E1": "real", "l": "positive"},
-    "slow": ["E", "K"],
-    "control": ["u_r", "u_phi"],
-    "phase": "xi",
-    "numbers": ["E1", "l"],
-    "f": ["2*E*K*u_phi/(sqrt(2*E*K**2 + 1)*cos(xi) - 1) - sqrt(2)*u_r*sqrt(-E)*sqrt(2*E*K**2 + 1)*sin(xi)/(sqrt(2*E*K**2 + 1)*cos(xi) - 1)", "u_phi*(sqrt(2*E*K**2 + 1)*cos(xi) - 1)/(2*E)"],
-    "target": ["E - E1"],
-    "omega": "2*sqrt(2)*(-E)**(3/2)",
-    "weight": "-sqrt(2*E*K**2 + 1)*cos(xi) + 1",
-    "running_cost": "l",
-    "terminal_cost": "0",
-    "phase_rate": "-K*u_phi*(sqrt(2*E*K**2 + 1)*cos(xi) - 2)*sin(xi)/(sqrt(2*E*K**2 + 1)*(sqrt(2*E*K**2 + 1)*cos(xi) - 1)) - sqrt(2)*u_r*(-2*sqrt(2*E*K**2 + 1) + (2*E*K**2 + 1)*cos(xi) + cos(xi))/(2*sqrt(-E)*sqrt(2*E*K**2 + 1)*(sqrt(2*E*K**2 + 1)*cos(xi) - 1))",
-    "control_set": "Quadratic(weight=1)",
-}
-
-
 def spin_down_density(a, c, p_a, p_c, psi, l_x, l_y, l_z, d, sense):
     """Example 3: h* dpsi/dx at q = 0, its gradient and Hessian in (a, p), and its derivative in x."""
     x0 = (l_z*l_z)
@@ -277,20 +250,3 @@ def spin_down_pace(a, c, psi, l_x, l_y, l_z, d, sense):
     """Example 3: dt/dx at epsilon = 0."""
     c0 = 1/(c*sense*(d - 1))
     return c0
-
-
-SPIN_DOWN = {
-    "symbols": {"a": "positive", "c": "real", "u_x": "real", "u_y": "real", "u_z": "real", "psi": "real", "l_x": "positive", "l_y": "positive", "l_z": "positive", "d": "positive", "sense": "real"},
-    "slow": ["a", "c"],
-    "control": ["u_x", "u_y", "u_z"],
-    "phase": "psi",
-    "numbers": ["l_x", "l_y", "l_z", "d", "sense"],
-    "f": ["sense*u_y*sin(psi) + u_x*cos(psi)", "u_z"],
-    "target": ["a"],
-    "omega": "c*sense*(d - 1)",
-    "weight": "1",
-    "running_cost": "1",
-    "terminal_cost": "0",
-    "phase_rate": "sense*u_y*cos(psi)/a - u_x*sin(psi)/a",
-    "control_set": "Ellipsoid(semiaxes=[l_x, l_y, l_z])",
-}

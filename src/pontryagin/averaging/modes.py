@@ -4,10 +4,11 @@ A mode is a symbol that holds the sign of a switching function. Between switches
 equations are smooth there and an integrator of high order follows them arc by arc.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import sympy as sp
 
+Rewriting = Callable[[sp.Expr], sp.Expr]
 Modes = tuple[tuple[sp.Symbol, sp.Expr], ...]
 
 
@@ -55,7 +56,7 @@ def modal(expressions: Sequence[sp.Expr]) -> tuple[tuple[sp.Expr, ...], Modes]:
     return rewritten, tuple((mode, switching) for switching, mode in found.items())
 
 
-def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of) -> sp.Expr:
+def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of: Rewriting) -> sp.Expr:
     first, *rest = parts
     for second in rest:
         half = sign_of(first - second) * (first - second) / 2
@@ -63,7 +64,7 @@ def _largest(parts: Sequence[sp.Expr], largest: bool, sign_of) -> sp.Expr:
     return first
 
 
-def _alternative(e: sp.Piecewise, rewrite, sign_of) -> sp.Expr:
+def _alternative(e: sp.Piecewise, rewrite: Rewriting, sign_of: Rewriting) -> sp.Expr:
     if len(e.args) != 2 or not isinstance(e.args[0].cond, sp.StrictLessThan | sp.LessThan):
         if len(e.args) == 2 and isinstance(e.args[0].cond, sp.StrictGreaterThan | sp.GreaterThan):
             (inside, cond), (outside, _) = e.args

@@ -23,8 +23,8 @@ Given = Mapping[str, str | None]
 
 
 @dataclass(frozen=True)
-class Example:
-    """An example of the paper as it is asked for.
+class ExampleSchema:
+    """An example of the paper as the command line and tables state it.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Example:
     optional : mapping of str to str
         Arguments that may be left out, and what they are then.
     either : tuple of str
-        Arguments of which exactly one is asked for.
+        Arguments of which exactly one must be given.
     phase : bool
         Whether the phase at the start may be chosen.
     """
@@ -74,12 +74,14 @@ class Example:
             read = rows.read(path, _columns(wanted), _columns(possible))
         both = [name for name in self.options if given[name] and set(columns(name)) & set(read.header)]
         console.excluded(f"a column of {path}", {option(name): True for name in both})
-        held = {name: self._column(read, name) for name in (*wanted, *possible) if given[name] is None}
-        there = {name: column for name, column in held.items() if column is not None}
-        texts = {name: given[name] or self.optional.get(name) for name in self.options if name not in there}
+        stated = {name: self._column(read, name) for name in (*wanted, *possible) if given[name] is None}
+        given_columns = {name: column for name, column in stated.items() if column is not None}
+        texts = {
+            name: given[name] or self.optional.get(name) for name in self.options if name not in given_columns
+        }
         values = {name: value(name, text) for name, text in texts.items() if text is not None}
-        self._require_one([name for name in self.either if name in there or name in values])
-        return read, there | values
+        self._require_one([name for name in self.either if name in given_columns or name in values])
+        return read, given_columns | values
 
     def _column(self, read: rows.Rows, name: str) -> Any:
         if not set(columns(name)) <= set(read.columns):
@@ -96,21 +98,23 @@ class Example:
 
 
 EXAMPLES = {
-    "kepler": Example("kepler", "Energy of a Kepler orbit changed by small thrust", ("E0", "K0", "E1", "l")),
-    "smooth": Example(
+    "kepler": ExampleSchema(
+        "kepler", "Energy of a Kepler orbit changed by small thrust", ("E0", "K0", "E1", "l")
+    ),
+    "smooth": ExampleSchema(
         "smooth_example",
         "A speed changed under a ripple",
         ("v0", "v1"),
         {"k": "1", "ripple": "0"},
     ),
-    "rotor": Example(
+    "rotor": ExampleSchema(
         "rotor",
         "A rotor of changing mass and potential sped up or braked",
         ("a0", "a1"),
         {"mass": "1", "potential": "0", "force": "0"},
         ("peak", "k"),
     ),
-    "spin-down": Example(
+    "spin-down": ExampleSchema(
         "spin_down",
         "A symmetric rigid body freed of its precession",
         ("omega0", "semiaxes", "ratio"),
@@ -163,7 +167,7 @@ def value(name: str, text: str) -> Any:
         raise console.Refusal(option(name), f": {reason}") from None
 
 
-def solve(example: Example, values: Mapping[str, Any]) -> Any:
+def solve(example: ExampleSchema, values: Mapping[str, Any]) -> Any:
     """The averaged solution of a problem or of a stack."""
     from pontryagin import averaging
 

@@ -24,11 +24,11 @@ def transcript(
     Parameters
     ----------
     problem : mapping
-        What was asked.
+        What was schema.
     solution : AveragedSolution
         Of one problem.
     epsilon : float, optional
-        With it the correction is told, and the exact extremals.
+        With it the correction is reported, and the exact extremals.
     phase : float, optional
         Phase at the start.
     exact : Extremals, optional
@@ -38,13 +38,13 @@ def transcript(
     Examples
     --------
     >>> from pontryagin.averaging import smooth_example
-    >>> told = transcript({"example": "smooth"}, smooth_example(1.0, 2.0))
-    >>> told["averaged"]["slow_end"].round(12).tolist()
+    >>> report = transcript({"example": "smooth"}, smooth_example(1.0, 2.0))
+    >>> report["averaged"]["slow_end"].round(12).tolist()
     [2.0]
     """
     ends = np.array([0.0, float(solution.duration)])
     slow, costate = solution.slow(ends), solution.costate(ends)
-    told: Report = {
+    report: Report = {
         "problem": dict(problem),
         "averaged": {
             "duration": solution.duration,
@@ -57,10 +57,10 @@ def transcript(
         "certificate": {name: getattr(solution.certificate, name) for name in PROOF},
     }
     if epsilon is None or exact is None:
-        return told
+        return report
     correction = solution.correction(phase, exact[0].ending_anomaly if exact.family is None else None)
-    told["corrected"] = {"correction": correction, "cost": solution.cost + epsilon * correction}
-    told["exact"] = {
+    report["corrected"] = {"correction": correction, "cost": solution.cost + epsilon * correction}
+    report["exact"] = {
         "count": len(exact),
         "minima": sum(extremal.kind == "minimum" for extremal in exact),
         "kind": [extremal.kind for extremal in exact],
@@ -68,14 +68,14 @@ def transcript(
         "duration": [float(extremal.duration) for extremal in exact],
         "residual": [float(extremal.certificate.residual) for extremal in exact],
     }
-    return told
+    return report
 
 
-def shown(told: Report) -> Report:
+def shown(report: Report) -> Report:
     """The same for a table: an extremal a line, the best `SHOWN` of them."""
-    if "exact" not in told:
-        return told
-    exact = told["exact"]
+    if "exact" not in report:
+        return report
+    exact = report["exact"]
     lines: dict[str, Any] = {"extremals": exact["count"], "of them minima": exact["minima"]}
     columns = zip(exact["kind"], exact["cost"], exact["duration"], exact["residual"], strict=True)
     for place, (kind, cost, duration, residual) in enumerate(columns, start=1):
@@ -83,11 +83,11 @@ def shown(told: Report) -> Report:
             lines[f"{place}"] = f"{kind}: cost {cost:.8g}, time {duration:.6g}, residual {residual:.0e}"
     if exact["count"] > SHOWN:
         lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
-    rest = {heading: quantities for heading, quantities in told.items() if heading != "exact"}
+    rest = {heading: quantities for heading, quantities in report.items() if heading != "exact"}
     return rest | {"exact, best first": lines}
 
 
-def conclusion(told: Report) -> str:
+def conclusion(report: Report) -> str:
     """What the numbers say about the cost.
 
     Examples
@@ -96,11 +96,11 @@ def conclusion(told: Report) -> str:
     >>> conclusion(transcript({"example": "smooth"}, smooth_example(1.0, 2.0)))
     'The least cost is 2 + O(epsilon).'
     """
-    averaged = float(told["averaged"]["cost"])
-    if "exact" not in told:
+    averaged = float(report["averaged"]["cost"])
+    if "exact" not in report:
         return f"The least cost is {averaged:.12g} + O(epsilon)."
-    best, corrected = told["exact"]["cost"][0], float(told["corrected"]["cost"])
-    count = told["exact"]["count"]
+    best, corrected = report["exact"]["cost"][0], float(report["corrected"]["cost"])
+    count = report["exact"]["count"]
     found = f"The best of {count} extremals" if count > 1 else "The extremal found"
     return (
         f"{found} costs {best:.10g}: {best - averaged:+.2e} from the "
@@ -111,8 +111,8 @@ def conclusion(told: Report) -> str:
 
 def answers(solution: Any, epsilon: float | None = None, phase: float | None = None) -> dict[str, Any]:
     """Columns of a stack of solutions: each (n,)."""
-    told = {"duration": solution.duration, "cost": solution.cost}
+    report = {"duration": solution.duration, "cost": solution.cost}
     if epsilon is not None:
         correction = solution.correction(phase)
-        told |= {"correction": correction, "corrected_cost": solution.cost + epsilon * correction}
-    return told | {"residual": solution.certificate.residual}
+        report |= {"correction": correction, "corrected_cost": solution.cost + epsilon * correction}
+    return report | {"residual": solution.certificate.residual}

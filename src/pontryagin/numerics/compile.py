@@ -1,12 +1,13 @@
-"""From SymPy expressions to numeric functions.
+"""Numeric functions made from SymPy expressions.
 
-`function` makes a NumPy function of named expressions, `source` writes the same as readable text for a
-paper's `kernels.py`.
+`function` makes a NumPy function of named expressions, `columns` a leaner one for inner loops, and `source`
+writes named expressions as readable text for a paper's `kernels.py`.
 """
 
 import functools
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,9 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 
 
-def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> Callable[..., tuple]:
+def function(
+    name: str, arguments: Sequence[Any], outputs: Mapping[str, Any]
+) -> Callable[..., tuple[Array, ...]]:
     """Compile named SymPy expressions into one NumPy function.
 
     Common subexpressions are evaluated once; every output has the broadcast shape of the arguments, also
@@ -45,7 +48,7 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     import sympy as sp
 
     matrices = {key: sp.Matrix(value) if hasattr(value, "shape") else None for key, value in outputs.items()}
-    flat: list = []
+    flat: list[Any] = []
     for key, value in outputs.items():
         matrix = matrices[key]
         flat += [sp.sympify(value)] if matrix is None else list(matrix)
@@ -76,11 +79,13 @@ def function(name: str, arguments: Sequence, outputs: Mapping[str, object]) -> C
     return call
 
 
-def columns(name: str, arguments: Sequence, expressions: Sequence) -> Callable[..., tuple]:
+def columns(
+    name: str, arguments: Sequence[Any], expressions: Sequence[Any]
+) -> Callable[..., tuple[Any, ...]]:
     """Compile SymPy expressions into a plain function that leaves broadcasting to NumPy.
 
     Where `function` first brings all arguments to one shape, here a subexpression is evaluated at the shape
-    of the arguments in it alone, and a constant stays a number: what inner loops call.
+    of the arguments in it alone, and a constant stays a number. Inner loops call this.
 
     Examples
     --------
@@ -93,12 +98,14 @@ def columns(name: str, arguments: Sequence, expressions: Sequence) -> Callable[.
 
     flat = [sp.sympify(e).replace(lambda e: isinstance(e, sp.Max | sp.Min), _as_pieces) for e in expressions]
     _require_known_symbols(name, arguments, flat)
-    call = sp.lambdify(list(arguments), tuple(flat), modules="numpy", cse=True)
+    call: Callable[..., tuple[Any, ...]] = sp.lambdify(
+        list(arguments), tuple(flat), modules="numpy", cse=True
+    )
     call.__name__ = call.__qualname__ = name
     return call
 
 
-def _as_pieces(extreme):
+def _as_pieces(extreme: Any) -> Any:
     """Max or Min as Piecewise: NumPy's own would need arguments of one shape."""
     import sympy as sp
 
@@ -112,7 +119,7 @@ def _real(name: str, value: object) -> Array:
     return array.astype(float, copy=False)
 
 
-def source(name: str, arguments: Sequence, outputs: Mapping[str, object], doc: str) -> str:
+def source(name: str, arguments: Sequence[Any], outputs: Mapping[str, Any], doc: str) -> str:
     """Write named scalar SymPy expressions as the text of one Python function.
 
     The text uses arithmetic and the `math` module only, so that it runs on floats as it is and under Numba.
@@ -143,27 +150,28 @@ def source(name: str, arguments: Sequence, outputs: Mapping[str, object], doc: s
     return "\n".join([head, textwrap.indent("\n".join([text, *lines]), "    ")])
 
 
-def _require_known_symbols(name: str, arguments: Sequence, expressions: Sequence) -> None:
-    unknown = set().union(*(e.free_symbols for e in expressions)) - set(arguments)
+def _require_known_symbols(name: str, arguments: Sequence[Any], expressions: Sequence[Any]) -> None:
+    empty: set[Any] = set()
+    unknown = empty.union(*(e.free_symbols for e in expressions)) - set(arguments)
     if unknown:
         names = ", ".join(sorted(map(str, unknown)))
         raise ValueError(f"{name}: expressions hold symbols that are not arguments: {names}")
 
 
 @functools.cache
-def _scalar_printer():
+def _scalar_printer() -> Any:
     from sympy.printing.precedence import PRECEDENCE
     from sympy.printing.pycode import PythonCodePrinter
 
-    class ScalarPrinter(PythonCodePrinter):
-        """Plain Python with small integer powers written as products: three times faster than `**`."""
+    class ScalarPrinter(PythonCodePrinter):  # type: ignore[misc]
+        """Plain Python with small integer powers written as products, three times faster than `**`."""
 
-        def _print_Pow(self, expr, rational=False):
+        def _print_Pow(self, expr: Any, rational: bool = False) -> str:
             base, exponent = expr.base, expr.exp
             if exponent.is_Integer and 1 < abs(exponent) <= 4:
                 factor = self.parenthesize(base, PRECEDENCE["Pow"])
                 product = "*".join([factor] * abs(int(exponent)))
                 return f"({product})" if exponent > 0 else f"1/({product})"
-            return super()._print_Pow(expr, rational)
+            return str(super()._print_Pow(expr, rational))
 
     return ScalarPrinter({"fully_qualified_modules": False})

@@ -1,30 +1,33 @@
-"""Flows of differential equations given in SymPy: heyoka's Taylor integrator, or SciPy's DOP853.
+"""Flows of differential equations by heyoka's Taylor integrator, or by SciPy's DOP853 without heyoka.
 
-Both stand behind the same small functions, so that a machine without heyoka's wheel integrates the same
-right-hand side, tens of times slower: `flow` follows one trajectory and samples it, `ends` carries many
-trajectories to their ends at once, with their derivatives in the initial state if asked.
+This is the only adapter to both, for one trajectory at a time; `pontryagin.numerics.lanes` follows many.
+`integrator` follows any `pontryagin.numerics.equations.Equations` up to an event, `flow` samples the
+trajectories of SymPy equations. Without heyoka the same right-hand sides are integrated tens of times slower.
 """
 
 import functools
-from collections.abc import Callable, Sequence
+import math
+import threading
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.equations import Equations, Symbolic, Values
 from pontryagin.numerics.packages import installed
 
 Flow = Callable[..., Array]
-Ends = Callable[..., tuple[Array, Array]]
 
 TOLERANCE = 1e-15
 ROUGH = 1e-10
-"""Of a flight that only guesses: what comes of it is polished by one to rounding."""
+"""Tolerance of flights that only guess: what comes of them is polished by one to rounding."""
+LEAST_DOP853 = 1e-13
+"""Smallest relative tolerance that DOP853 is given."""
 STEPS = 100_000
-SMALL = 200
-"""Right-hand sides of fewer operations than this are unrolled by heyoka: faster, but slow to compile."""
+"""Most steps of one call where nothing else is said."""
 
 
 @functools.cache
@@ -39,11 +42,11 @@ def has_heyoka() -> bool:
 
 
 def flow(
-    states: Sequence,
-    rates: Sequence,
-    parameters: Sequence = (),
+    states: Sequence[Any],
+    rates: Sequence[Any],
+    parameters: Sequence[Any] = (),
     taylor: bool | None = None,
-    clock: object = None,
+    clock: Hashable = None,
 ) -> Flow:
     """Compile x' = rates(x, p) into a function that follows it.
 
@@ -79,257 +82,246 @@ def flow(
     >>> oscillate([1.0, 0.0], [0.0, np.pi], [1.0])[-1].round(12) + 0.0
     array([-1.,  0.])
     """
-    require_known(states, rates, parameters, clock)
-    use_taylor = has_heyoka() if taylor is None else taylor
-    make = _taylor if use_taylor else _runge_kutta
-    return make(tuple(states), tuple(rates), tuple(parameters), clock)
+    follow = integrator(Symbolic(tuple(states), tuple(rates), tuple(parameters), clock), taylor)
+
+    def sample(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
+        grid = np.asarray(times, dtype=float)
+        return follow.sample(np.asarray(start, dtype=float), grid, np.asarray(values, dtype=float))[0]
+
+    return sample
 
 
-def ends(
-    states: Sequence,
-    rates: Sequence,
-    parameters: Sequence = (),
-    clock: object = None,
-    wrt: Sequence = (),
+class Reached(NamedTuple):
+    """Where an arc ended.
+
+    Attributes
+    ----------
+    time : float
+    whole : array
+        The n states there, followed by the rows of their derivatives if these were integrated.
+    event : int or None
+        Which event ended the arc; None at the end of its time.
+    """
+
+    time: float
+    whole: Array
+    event: int | None
+
+
+class Integrator(Protocol):
+    """Follows one system of equations, one trajectory at a time.
+
+    ``whole`` holds the n states followed by the n m derivatives, row by row. ``longest`` bounds the steps.
+    ``resume`` says that the arc goes on where the last one of the same integrator was ended by an event, and
+    that this event must not end it again at once. Both methods raise `pontryagin.NotConverged` where the
+    integrator stops short.
+    """
+
+    @property
+    def equations(self) -> Equations:
+        """What it follows."""
+
+    def run(
+        self,
+        whole: Array,
+        begin: float,
+        end: float,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> Reached:
+        """Follow the states and derivatives up to ``end``, or to the event before it."""
+
+    def sample(
+        self,
+        whole: Array,
+        times: Array,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> tuple[Array, Reached]:
+        """The states at ascending times from the first of them on, (k, n): those before an event, if any."""
+
+
+@functools.lru_cache(maxsize=64)
+def integrator(
+    equations: Equations,
     taylor: bool | None = None,
     tolerance: float = TOLERANCE,
-) -> Ends:
-    """Compile x' = rates(x, p) into a function that carries many trajectories to their ends.
+    steps_per_unit: float = math.inf,
+) -> Integrator:
+    """The integrator of some equations, compiled once in each thread that uses it.
 
     Parameters
     ----------
-    states, rates, parameters, taylor, clock
-        As for `flow`.
-    wrt : sequence of sympy.Symbol
-        States in whose initial values the ends are differentiated, by the variational equations.
+    equations : Equations
+        What it follows; hashable.
+    taylor : bool, optional
+        Whether to use heyoka; by default wherever it is installed.
     tolerance : float
-        Error allowed per step, relative; a rougher one is faster where only derivatives are wanted.
-
-    Returns
-    -------
-    function (starts, begin, end, parameters=()) -> (k, n) array, (k, n, m) array
-        From ``starts`` (k, n) at ``begin`` (k,) the states at ``end`` (k,), and their derivatives in the m
-        initial values ``wrt``. ``parameters`` is (p,) or (k, p). It raises `pontryagin.NotConverged` where
-        an integrator stops short. The same equations are compiled once.
-
-    Examples
-    --------
-    >>> import sympy as sp
-    >>> x, v = sp.symbols("x v")
-    >>> oscillate = ends([x, v], [v, -x], wrt=[v])
-    >>> states, slopes = oscillate([[1.0, 0.0], [2.0, 0.0]], [0.0, 0.0], [np.pi, np.pi / 2])
-    >>> states.round(12) + 0.0, slopes[..., 0].round(12) + 0.0
-    (array([[-1.,  0.],
-           [ 0., -2.]]), array([[ 0., -1.],
-           [ 1.,  0.]]))
+        Relative error allowed in a step.
+    steps_per_unit : float
+        heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this:
+        it runs into a singularity.
     """
-    require_known(states, rates, parameters, clock)
     use_taylor = has_heyoka() if taylor is None else taylor
-    make = _taylor_ends if use_taylor else _runge_kutta_ends
-    run = make(tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt), tolerance)
-
-    def carry(starts: ArrayLike, begin: ArrayLike, end: ArrayLike, values: ArrayLike = ()):
-        start = np.asarray(starts, dtype=float)
-        count = len(start)
-        first, last = (np.broadcast_to(np.asarray(t, dtype=float), (count,)) for t in (begin, end))
-        constants = np.broadcast_to(np.asarray(values, dtype=float), (count, len(parameters)))
-        return run(start, first, last, constants)
-
-    return carry
+    if use_taylor:
+        return _Taylor(equations, tolerance, steps_per_unit)
+    return _RungeKutta(equations, tolerance)
 
 
-def require_known(states: Sequence, rates: Sequence, parameters: Sequence, clock: object) -> None:
-    """Raise ValueError unless the rates are as many as the states and hold no other symbols."""
-    if len(states) != len(rates):
-        raise ValueError(f"rates must hold one expression for each of {len(states)} states, got {len(rates)}")
-    known = set(states) | set(parameters) | {clock}
-    unknown = {str(symbol) for rate in rates for symbol in rate.free_symbols - known}
-    if unknown:
-        raise ValueError(
-            f"rates must be in states and parameters alone, got symbols {', '.join(sorted(unknown))}"
-        )
-
-
-# --- heyoka ------------------------------------------------------------------------------------------
-
-
-def heyoka_system(
-    states: Sequence, rates: Sequence, parameters: Sequence, clock: object
-) -> tuple[list[tuple], dict]:
-    """The equations in heyoka's expressions, what they share built once, and the table of symbols."""
-    import heyoka as hy
-    import sympy as sp
-
-    table = {symbol: hy.expression(f"x_{i}") for i, symbol in enumerate(states)}
-    table |= {symbol: hy.par[i] for i, symbol in enumerate(parameters)}
-    if clock is not None:
-        table[clock] = hy.time
-    shared, reduced = sp.cse([with_floats(rate) for rate in rates], symbols=sp.numbered_symbols(cls=sp.Dummy))
-    for symbol, expression in shared:
-        table[symbol] = hy.from_sympy(expression, table)
-    return [(table[x], hy.from_sympy(r, table)) for x, r in zip(states, reduced, strict=True)], table
-
-
-def with_floats(expression):
-    """Fractions as floats where heyoka takes none: those whose denominator is no power of two."""
-    import sympy as sp
-
-    taken = sp.sympify(expression)
-    fractions = [r for r in taken.atoms(sp.Rational) if r.q & (r.q - 1)]
-    return taken.xreplace({r: sp.Float(float(r)) for r in fractions})
-
-
-def compact(rates: Sequence) -> bool:
-    """Whether heyoka should compile loops: large systems unrolled take many seconds to compile."""
-    import sympy as sp
-
-    return sp.count_ops(list(rates)) > SMALL
-
-
-def _counted(rates: Sequence, parameters: Sequence) -> int:
-    """How many parameters heyoka counts: up to the last that the rates hold."""
-    used = {symbol for rate in rates for symbol in rate.free_symbols}
-    return max((i for i, symbol in enumerate(parameters, 1) if symbol in used), default=0)
-
-
-def _taylor(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Flow:
+def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
+    """heyoka's integrator of some equations, with their derivatives and events; of one lane if 0 is given."""
     import heyoka as hy
 
-    system, _ = heyoka_system(states, rates, parameters, clock)
-    held = _counted(rates, parameters)
-    integrator = hy.taylor_adaptive(
-        system,
-        [0.0] * len(states),
-        tol=TOLERANCE,
-        pars=[0.0] * held,
-        compact_mode=compact(rates),
-    )
-
-    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
-        grid = np.asarray(times, dtype=float)
-        integrator.time = grid[0]
-        integrator.state[:] = start
-        integrator.pars[:] = np.asarray(values, dtype=float)[:held]
-        outcome, *_, states_at = integrator.propagate_grid(grid, max_steps=STEPS)
-        if outcome != hy.taylor_outcome.time_limit:
-            raise NotConverged(f"the Taylor integrator stopped: {outcome}", float(grid[-1] - integrator.time))
-        return states_at
-
-    return follow
-
-
-@functools.lru_cache(maxsize=64)
-def _taylor_ends(states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float):
-    import heyoka as hy
-
-    system, table = heyoka_system(states, rates, parameters, clock)
-    lanes, n, m = hy.recommended_simd_size(), len(states), len(wrt)
-    held = _counted(rates, parameters)
-    if wrt:
-        system = hy.var_ode_sys(system, [table[symbol] for symbol in wrt], order=1)
-    integrator = hy.taylor_adaptive_batch(
-        system,
-        np.zeros((n, lanes)),
+    pairs, wrt, functions = equations.in_heyoka()
+    event = hy.t_event_batch if lanes else hy.t_event
+    growing = hy.event_direction.negative if backwards else hy.event_direction.positive
+    return (hy.taylor_adaptive_batch if lanes else hy.taylor_adaptive)(
+        hy.var_ode_sys(pairs, wrt, order=1) if wrt else pairs,
+        np.zeros((len(pairs), lanes) if lanes else len(pairs)),
         tol=tolerance,
-        pars=np.zeros((held, lanes)),
-        compact_mode=bool(wrt) or compact(rates),
+        compact_mode=equations.large,
+        t_events=[event(function, direction=growing) for function in functions],
     )
-    identity = np.array(integrator.state[n:])
-
-    def run(start: NDArray, begin: NDArray, end: NDArray, values: NDArray):
-        count = len(start)
-        states_at, slopes = np.empty((count, n)), np.empty((count, n, m))
-        for i in range(0, count, lanes):
-            chosen = np.minimum(np.arange(i, i + lanes), count - 1)
-            integrator.set_time(begin[chosen])
-            integrator.state[:n] = start[chosen].T
-            integrator.state[n:] = identity
-            integrator.pars[:] = values[chosen, :held].T
-            integrator.propagate_until(end[chosen], max_steps=STEPS)
-            worst = [outcome for outcome, *_ in integrator.propagate_res]
-            if any(outcome != hy.taylor_outcome.time_limit for outcome in worst):
-                left = float(np.abs(end[chosen] - integrator.time).max())
-                raise NotConverged("the Taylor integrator stopped short of the end", left)
-            part = slice(i, min(i + lanes, count))
-            filled = part.stop - part.start
-            states_at[part] = integrator.state[:n, :filled].T
-            slopes[part] = integrator.state[n:, :filled].reshape(n, m, filled).transpose(2, 0, 1)
-        return states_at, slopes
-
-    return run
 
 
-# --- SciPy -------------------------------------------------------------------------------------------
+def event_of(outcome: Any) -> int | None:
+    """The index of the event that stopped heyoka, if one did."""
+    index = -int(outcome) - 1
+    return index if 0 <= index < 2**31 else None
 
 
-def _runge_kutta(states: tuple, rates: tuple, parameters: tuple, clock: object) -> Flow:
-    from scipy.integrate import solve_ivp
+class _Taylor:
+    def __init__(self, equations: Equations, tolerance: float, steps_per_unit: float) -> None:
+        self.equations, self._tolerance, self._per_unit = equations, tolerance, steps_per_unit
+        self._own = threading.local()  # heyoka's object holds the trajectory that is being followed
 
-    time = clock if clock is not None else _unused()
-    evaluate = compiler.function("rates", [time, *states, *parameters], _named(rates))
+    def _begin(self, whole: Array, time: float, end: float, parameters: Values, resume: bool) -> Any:
+        backwards = end < time and self.equations.events > 0
+        compiled = self._own.__dict__
+        key = "backwards" if backwards else "forwards"
+        if key not in compiled:
+            compiled[key] = compiled_taylor(self.equations, self._tolerance, backwards=backwards)
+        taylor = compiled[key]
+        if self.equations.events and not resume:
+            taylor.reset_cooldowns()
+        taylor.time = time
+        taylor.state[:] = whole
+        taylor.pars[:] = parameters[: len(taylor.pars)]
+        return taylor
 
-    def follow(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
-        grid = np.asarray(times, dtype=float)
-        constants = list(np.asarray(values, dtype=float))
-        result = solve_ivp(
-            lambda t, x: np.array(evaluate(t, *x, *constants)),
-            (grid[0], grid[-1]),
-            np.asarray(start, dtype=float),
-            method="DOP853",
-            t_eval=grid,
-            rtol=1e-13,
-            atol=1e-14,
-        )
-        if not result.success:
-            raise NotConverged(
-                f"the Runge-Kutta integrator stopped: {result.message}", float(grid[-1] - result.t[-1])
+    def _limits(self, span: float, longest: float) -> dict[str, Any]:
+        steps = STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + span))
+        return {"max_delta_t": longest, "max_steps": steps}
+
+    def _reached(self, taylor: Any, outcome: Any, end: float) -> Reached:
+        import heyoka as hy
+
+        event = event_of(outcome)
+        if event is None and outcome != hy.taylor_outcome.time_limit:
+            raise NotConverged(f"the Taylor integrator stopped: {outcome}", float(end - taylor.time))
+        return Reached(float(taylor.time), taylor.state.copy(), event)
+
+    def run(
+        self,
+        whole: Array,
+        begin: float,
+        end: float,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> Reached:
+        taylor = self._begin(whole, begin, end, parameters, resume)
+        outcome = taylor.propagate_until(end, **self._limits(abs(end - begin), longest))[0]
+        return self._reached(taylor, outcome, end)
+
+    def sample(
+        self,
+        whole: Array,
+        times: Array,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> tuple[Array, Reached]:
+        taylor = self._begin(whole, times[0], times[-1], parameters, resume)
+        limits = self._limits(float(times[-1] - times[0]), longest)
+        outcome, *_, found = taylor.propagate_grid(times, **limits)
+        states = found[:, : len(self.equations.identity)]
+        return states[np.isfinite(states).all(axis=1)], self._reached(taylor, outcome, times[-1])
+
+
+class _RungeKutta:
+    def __init__(self, equations: Equations, tolerance: float) -> None:
+        self.equations, self._tolerance = equations, max(tolerance, LEAST_DOP853)
+
+    def _solve(
+        self,
+        whole: Array,
+        span: tuple[float, float],
+        times: Array | None,
+        parameters: Values,
+        longest: float,
+    ) -> tuple[Any, Reached]:
+        from scipy.integrate import solve_ivp
+
+        n = len(self.equations.identity)
+
+        def rate(t: float, flat: Array) -> Array:
+            if len(flat) == n:
+                return self.equations.rates(t, flat, parameters)
+            table = self.equations.variational(t, flat[:n], flat[n:].reshape(n, -1), parameters)
+            return np.concatenate([table[:, 0], table[:, 1:].ravel()])
+
+        with np.errstate(all="ignore"):
+            found = solve_ivp(
+                rate,
+                span,
+                whole,
+                "DOP853",
+                times,
+                events=[self._leaving(i, n, parameters) for i in range(self.equations.events)] or None,
+                max_step=longest,
+                rtol=self._tolerance,
+                atol=self._tolerance / 10,
             )
-        return result.y.T
+        if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
+            raise NotConverged(f"the Runge-Kutta integrator stopped: {found.message}", span[1] - span[0])
+        if found.status == 1:
+            instants, there = found.t_events or [], found.y_events or []
+            i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))
+            return found, Reached(float(instants[i][0]), there[i][0].copy(), i)
+        return found, Reached(span[1], found.y[:, -1].copy() if found.y.size else whole, None)
 
-    return follow
+    def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:
+        """Event function i; an arc that begins at its zero is not ended there, since it must grow."""
 
+        def event(t: float, flat: Array) -> float:
+            return self.equations.event(i, t, flat[:n], parameters)
 
-@functools.lru_cache(maxsize=64)
-def _runge_kutta_ends(
-    states: tuple, rates: tuple, parameters: tuple, clock: object, wrt: tuple, tolerance: float
-):
-    import sympy as sp
-    from scipy.integrate import solve_ivp
+        event.terminal = True  # type: ignore[attr-defined]
+        event.direction = 1.0  # type: ignore[attr-defined]
+        return event
 
-    time, n, m = (clock if clock is not None else _unused()), len(states), len(wrt)
-    outputs = _named(rates) | ({"jacobian": sp.Matrix(rates).jacobian(list(states))} if wrt else {})
-    evaluate = compiler.function("rates", [time, *states, *parameters], outputs)
-    identity = np.array([[float(x == y) for y in wrt] for x in states])
-    rtol = max(tolerance, 1e-13)
+    def run(
+        self,
+        whole: Array,
+        begin: float,
+        end: float,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> Reached:
+        return self._solve(whole, (begin, end), None, parameters, longest)[1]
 
-    def run(start: NDArray, begin: NDArray, end: NDArray, values: NDArray):
-        count, span = len(start), end - begin
-
-        def rate(s: float, flat: NDArray) -> NDArray:
-            lanes = flat.reshape(count, n, 1 + m)
-            columns = evaluate(begin + s * span, *lanes[..., 0].T, *values.T)
-            slope = np.stack(columns[:n], axis=-1)[..., None]
-            if wrt:
-                slope = np.concatenate([slope, columns[n] @ lanes[..., 1:]], axis=-1)
-            return (slope * span[:, None, None]).ravel()
-
-        first = np.concatenate([start[..., None], np.broadcast_to(identity, (count, n, m))], axis=-1)
-        result = solve_ivp(rate, (0.0, 1.0), first.ravel(), method="DOP853", rtol=rtol, atol=rtol / 10)
-        if not result.success or not np.isfinite(result.y[:, -1]).all():
-            raise NotConverged(
-                f"the Runge-Kutta integrator stopped: {result.message}", float(1.0 - result.t[-1])
-            )
-        last = result.y[:, -1].reshape(count, n, 1 + m)
-        return last[..., 0], last[..., 1:]
-
-    return run
-
-
-def _named(rates: Sequence) -> dict[str, object]:
-    return {f"d{i}": rate for i, rate in enumerate(rates)}
-
-
-def _unused():
-    import sympy as sp
-
-    return sp.Dummy("t")
+    def sample(
+        self,
+        whole: Array,
+        times: Array,
+        parameters: Values,
+        longest: float = math.inf,
+        resume: bool = False,
+    ) -> tuple[Array, Reached]:
+        alone = whole[: len(self.equations.identity)]
+        found, reached = self._solve(alone, (times[0], times[-1]), times, parameters, longest)
+        return found.y.T, reached

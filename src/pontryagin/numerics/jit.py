@@ -1,7 +1,7 @@
-"""From one problem to a stack of a million: plain scalar code compiled by Numba, kept under its hash.
+"""Plain Python kernels compiled by Numba, and kept on disk under the hash of their source.
 
-`batched` runs a scalar solver over a stack of problems, `compiled` compiles a function of arrays; both take
-plain Python that also runs as it is.
+`batched` runs a scalar solver over a stack of problems, `compiled` compiles a function of arrays. Both take
+plain Python, which runs as it is for small work and where Numba is not installed.
 """
 
 import functools
@@ -16,6 +16,7 @@ import types
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from pontryagin.arrays import Array
 from pontryagin.numerics.packages import installed
 
 COMPILE_FROM = 512
-"""Stacks at least this large are worth the half second that Numba takes to load."""
+"""Stacks of at least this many problems are worth the half second that Numba takes to load."""
 
 
 @dataclass(frozen=True)
@@ -33,12 +34,12 @@ class Batched:
     Attributes
     ----------
     kernel : function of n floats returning a tuple of floats
-        The plain source.
+        The solver in plain Python.
     outputs : int
         How many floats it returns.
     """
 
-    kernel: Callable[..., tuple]
+    kernel: Callable[..., tuple[float, ...]]
     outputs: int
 
     def __call__(self, *columns: Array) -> Array:
@@ -53,14 +54,14 @@ class Batched:
         return result
 
     def _plain(self, *values: float) -> tuple[float, ...]:
-        """The plain source, with nan where it overflows or divides by zero, as the compiled one has."""
+        """One problem in plain Python; nan, as in compiled code, where it overflows or divides by zero."""
         try:
             return self.kernel(*values)
         except ArithmeticError:
             return (math.nan,) * self.outputs
 
     def one(self, *values: float) -> Array:
-        """Solve one problem, as (outputs,); compiled only if a large stack was solved before."""
+        """Solve one problem, as (outputs,), by compiled code if a large stack was solved before."""
         if self.kernel not in _LOADED:
             return np.array(self._plain(*values))
         result = np.empty(self.outputs)
@@ -68,11 +69,11 @@ class Batched:
         return result
 
 
-def batched(kernel: Callable[..., tuple], outputs: int) -> Batched:
+def batched(kernel: Callable[..., tuple[float, ...]], outputs: int) -> Batched:
     """Run a scalar solver over a stack of problems.
 
     Small stacks run the plain Python source; large ones the same source compiled by Numba and cached on
-    disk under the hash of that source, so that an edited kernel is never served stale. What is compiled
+    disk under the hash of that source, so that an edited kernel is compiled anew. A kernel that is compiled
     already serves small stacks and single problems too.
 
     Parameters
@@ -93,7 +94,7 @@ def batched(kernel: Callable[..., tuple], outputs: int) -> Batched:
     return Batched(kernel, outputs)
 
 
-_LOADED: dict[Callable, types.ModuleType] = {}
+_LOADED: dict[Callable[..., Any], types.ModuleType] = {}
 
 
 def has_numba() -> bool:
@@ -101,7 +102,7 @@ def has_numba() -> bool:
     return installed("numba", "large stacks run as plain Python, slowly")
 
 
-def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> types.ModuleType:
+def compiled_loop(kernel: Callable[..., tuple[float, ...]], inputs: int, outputs: int) -> types.ModuleType:
     """Numba-compiled ``loop(result, *columns)`` and ``one(result, *values)`` over a scalar kernel."""
     if kernel in _LOADED:
         return _LOADED[kernel]
@@ -128,13 +129,13 @@ def compiled_loop(kernel: Callable[..., tuple], inputs: int, outputs: int) -> ty
     return _LOADED[kernel]
 
 
-_COMPILED: dict[tuple[Callable, str], Callable] = {}
+_COMPILED: dict[tuple[Callable[..., Any], str], Callable[..., Any]] = {}
 
 
-def compiled(kernel: Callable, signature: str, large: bool = True) -> Callable:
+def compiled(kernel: Callable[..., Any], signature: str, large: bool = True) -> Callable[..., Any]:
     """Compile a plain function of arrays by Numba for one signature, cached on disk like `batched`.
 
-    As in `batched`, small work runs the plain source, unless the kernel is compiled already.
+    As in `batched`, small work runs in plain Python unless the kernel is compiled already.
 
     Parameters
     ----------
@@ -162,14 +163,14 @@ def compiled(kernel: Callable, signature: str, large: bool = True) -> Callable:
     return _COMPILED[kernel, signature]
 
 
-def _closure_source(kernel: Callable) -> str:
+def _closure_source(kernel: Callable[..., Any]) -> str:
     """The kernel's source and that of everything it calls, as the text of one module."""
-    functions: dict[str, Callable] = {}
+    functions: dict[str, Callable[..., Any]] = {}
     constants: dict[str, float] = {}
     imported: set[str] = set()
     arrays = False
 
-    def visit(target: Callable) -> None:
+    def visit(target: Callable[..., Any]) -> None:
         nonlocal arrays
         if functions.get(target.__name__) is target:
             return

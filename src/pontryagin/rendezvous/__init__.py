@@ -1,11 +1,12 @@
-"""Low-thrust rendezvous (Pimkina & Chelnokov; Sapunkov): posed, repaired and solved.
+"""Low-thrust rendezvous (Pimkina & Chelnokov; Sapunkov): the problem, the repaired equations, the solvers.
 
-A craft under thrust meets another that coasts on a Kepler ellipse, at a free place of its orbit. The
-functional is the integral of alpha1 + alpha2 p^2, the thrust is bounded. Pimkina & Chelnokov write the
-motion in axes eta that turn with the craft (eta1 along the radius, eta3 along R x V, attitude quaternion
-lambda) and reduce the 16 equations of the maximum principle to ten; the condition that is to stand for the
-attitude is one short, and one more equation restores it. Sapunkov uses orbital elements A, B that come from
-the Kustaanheimo-Stiefel regularisation; in them the same problem is solved, and that of least fuel.
+A craft under thrust meets another one that coasts on a Kepler ellipse, at a free place of its orbit. The
+functional is the integral of alpha1 + alpha2 p^2, and the thrust is bounded. Pimkina & Chelnokov write the
+motion in rotating axes eta (eta1 along the radius, eta3 along R x V, attitude quaternion lambda) and reduce
+the 16 equations of the maximum principle to ten. Their condition (15), which is to replace that on the
+attitude, has rank two instead of three; an eleventh equation restores the lost condition. Sapunkov uses
+orbital elements A, B from the Kustaanheimo-Stiefel regularisation; in them the same problem is solved, and
+that of least fuel.
 
 paper            here                       meaning
 ---------------  -------------------------  ------------------------------------------------------
@@ -30,10 +31,10 @@ rho, s1, e       rho, s1, e                 costates of r, v1, c
 mu, Phi*         mu, anomaly_costate        costates of lambda and phi*
 nu = lambda~mu   nu1, nu2, nu3              (the scan prints nu as v)
 nu*              -                          mu lambda~, constant
-n_eta            switching                  what the thrust lies along: the primer vector
+n_eta            switching                  the primer vector, along which the thrust lies
 C_phi            anomaly_constant           Phi* (1 + e* cos phi*)^2, constant
 H0               hamiltonian                Hamiltonian at the optimal thrust, 0 where t_k is free
--                chi                        angle about nu*: what the ten equations do not know
+-                chi                        angle about nu*, which the ten equations do not contain
 A, B, Q          A, B, Q                    Sapunkov's elements; Q = A^2 + B^2, twice the semi-axis
 u, w             u, w                       place R = u~ i1 u, and du/dphi
 phi, t           phi, t                     half the eccentric anomaly, up to a constant; time

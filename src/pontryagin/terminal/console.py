@@ -5,7 +5,6 @@ Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in
 
 import csv
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 import typer
 
 from pontryagin.certificate import ACCEPTED, Certificate
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
 from pontryagin.io import files
 from pontryagin.io import formula as formulas
 from pontryagin.io.json_io import Report
@@ -104,9 +103,9 @@ def refusing(options: Mapping[str, str]) -> Iterator[None]:
         yield
     except Infeasible:
         raise
-    except (TypeError, ValueError) as reason:
-        name = getattr(reason, "argument", None) or re.split(r"[ :]", str(reason), maxsplit=1)[0]
-        if name not in options:
+    except (ArgumentTypeError, ArgumentValueError) as reason:
+        name = reason.argument
+        if name is None or name not in options:
             raise
         raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
 

@@ -83,14 +83,14 @@ def test_spin_down_names_what_is_wrong(arguments, message):
         ({"mass": sp.cos(X)}, ValueError, "mass must be positive for every x, got -1"),
         ({"mass": 0}, ValueError, "mass must be positive"),
         ({"mass": "1 + cos(x)"}, TypeError, "mass must be a SymPy expression or a number"),
-        ({"mass": NAN}, ValueError, "mass must be a real, finite expression"),
+        ({"mass": NAN}, ValueError, "mass must be finite"),
         ({"mass": sp.Symbol("m")}, ValueError, "mass may hold x only, got unknown symbols m"),
         ({"mass": 2 + V}, ValueError, "mass may hold x only, got unknown symbols v"),
         ({"potential": X / 9}, ValueError, "potential must be 2 pi-periodic in x"),
         ({"potential": object()}, TypeError, "potential must be a SymPy expression or a number"),
         ({"force": sp.sin(X / 2)}, ValueError, "force must be 2 pi-periodic in x"),
         ({"force": sp.Symbol("t") * V}, ValueError, "force may hold x and v only, got unknown symbols t"),
-        ({"force": sp.I}, ValueError, "force must be a real, finite expression"),
+        ({"force": sp.I}, ValueError, "force must be real"),
     ],
 )
 def test_the_rotor_names_what_is_wrong(arguments, error, message):

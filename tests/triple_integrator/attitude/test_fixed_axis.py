@@ -1,3 +1,5 @@
+"""The turn of a rigid body about a fixed axis: with the gyroscopic torque fed forward, and without."""
+
 import numpy as np
 import pytest
 import sympy as sp

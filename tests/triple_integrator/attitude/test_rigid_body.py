@@ -1,3 +1,5 @@
+"""Rigid bodies: the derived equations, their numeric form, and the integrator of the motion."""
+
 import numpy as np
 import pytest
 import sympy as sp

@@ -1,3 +1,5 @@
+"""Coupled channels: the cross-coupling, and the iteration until the full equations reach the target."""
+
 from functools import cache
 from itertools import pairwise
 

@@ -17,7 +17,7 @@ R = sp.Rational
 
 
 def integrated(state, duration, program, force):
-    """SciPy's answer to where a control and a disturbance take the channel."""
+    """The state of the channel under a control and a disturbance, by SciPy."""
     u, f = sp.lambdify(tau, program), sp.lambdify(tau, force)
 
     def rates(t, x):

@@ -1,4 +1,4 @@
-"""The paper's route to the least peak: the parabola, its areas, and the quartic that ends it."""
+"""The paper's route to the least peak: the parabola, its areas, and the quartic for the level."""
 
 import numpy as np
 import pytest

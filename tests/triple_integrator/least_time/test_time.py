@@ -1,4 +1,4 @@
-"""Least time: the state arrives, and nothing arrives earlier: exact roots, Sturm's count, dense scans."""
+"""Least time: the state arrives, and no earlier, by exact roots, Sturm's count and dense scans."""
 
 import mpmath as mp
 import numpy as np
@@ -132,7 +132,7 @@ def test_three_times_meet_one_bound_when_neither_end_is_an_equilibrium():
 
 @given(signs, places(), states(), st.floats(0.3, 3.0))
 def test_bang_bang_data_of_every_structure_arrive_no_later(level, switches, x0, T):
-    """Narrow flips, one switch, none: the known transfer is an upper bound, to what rounding does to it."""
+    """Narrow flips, one switch, none: the known transfer is an upper bound, up to rounding."""
     a, b = switches
     xf = flown(x0, level, (T * (1 - a), T * (a - b), T * b))
     solution = minimum_time(x0, xf, 1.0)
@@ -248,7 +248,7 @@ def test_one_switch_is_proved_by_the_functional_that_falls(x0, xf):
 
 
 def test_where_no_functional_falls_the_certificate_does_not_hold():
-    """u0(T) touches the bound with slope zero from above: no single functional proves it."""
+    """u0(T) touches the bound from above with slope zero: no single functional proves the least time."""
     solution = minimum_time([-2, 2, -2], [-1, -1, -2], 1.0)
     assert_allclose(solution.duration, 2.0, rtol=1e-12)
     assert not solution.certificate.holds(1e-3)
@@ -318,7 +318,7 @@ def test_what_is_no_transfer_is_refused(changed, error, message):
 
 
 def test_the_exact_reference_knows_a_transfer_by_hand():
-    """The check of the checker: rest to rest over 1 with |u| <= 32 has the admissible root T = 1 only."""
+    """From rest to rest over 1 with |u| <= 32 the reference finds the admissible root T = 1 only."""
     admissible = [T for violation, T in exact_bang_bang_times([0, 0, 0], [1, 0, 0], 32.0) if violation <= 0]
     assert len(admissible) == 1
     assert abs(admissible[0] - mp.mpf(1)) < 1e-40

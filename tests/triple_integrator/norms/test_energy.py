@@ -1,4 +1,4 @@
-"""Least energy: the parabola reaches the target, nothing else does so with less, and the bound proves it."""
+"""Least energy: the parabola reaches the target, no other control does with less, and the bound proves it."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Least total impulse: against linear programmes and SciPy's integrator, in every regime and its borders."""
+"""Least total impulse against linear programmes and SciPy's integrator, in every regime and at borders."""
 
 import numpy as np
 import pytest
@@ -70,7 +70,7 @@ def test_its_own_multipliers_attain_the_norm(c):
 
 
 @given(moments())
-def test_the_answer_is_whole(c):
+def test_impulses_are_ordered_and_add_up_to_the_norm(c):
     """Impulses in order within the manoeuvre, absent ones last, amplitudes that add up to the norm."""
     solution = minimum_impulse(maneuver_with(c))
     count = len(present(solution))
@@ -137,7 +137,7 @@ def test_equal_signs_at_both_ends_are_unique_too(sign, first, last):
 @pytest.mark.parametrize("excess", [1e-4, 1e-6, 1e-8, 1e-10, 1e-13])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_border_of_chebyshev_the_cost_is_exact(excess, side):
-    """Two opposite impulses, the inner a hair from the middle: the regimes' bounds agree to its square."""
+    """Two opposite impulses, the inner just beside the middle: the bounds of both regimes nearly agree."""
     for places in ([0.0, 0.5 + side * excess], [1.0, 0.5 + side * excess]):
         solution = minimum_impulse(maneuver_with(of_impulses(places, [1.0, -2.0])))
         assert_allclose(np.abs(solution.impulses).sum(), solution.certificate.dual_value, rtol=2e-14)

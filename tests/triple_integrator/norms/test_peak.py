@@ -1,4 +1,4 @@
-"""Least peak: against linear programmes, exact roots, and SciPy's integrator, in every structure."""
+"""Least peak against linear programmes, exact roots and SciPy's integrator, for every kind of control."""
 
 from itertools import pairwise
 
@@ -61,7 +61,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(moments())
 def test_residual_and_gap_in_fifty_digits(c):
-    """The moments of the switches handed out, and what their dual function proves, without rounding."""
+    """The moments of the returned switches, and the bound by their dual function, without rounding."""
     solution = minimum_peak(maneuver_with(c))
     with mp.workdps(50):
         v, a, b = (mp.mpf(float(x)) for x in (solution.levels, *solution.shares))

@@ -1,4 +1,4 @@
-"""The disturbance's integrals against closed forms and SciPy's quadrature, for every kind it may be of."""
+"""The integrals of every kind of disturbance against closed forms and SciPy's quadrature."""
 
 import numpy as np
 import pytest

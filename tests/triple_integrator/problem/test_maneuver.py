@@ -1,4 +1,4 @@
-"""The manoeuvre: its moments are those of every control that performs it; what is not one is refused."""
+"""The manoeuvre: its moments are those of every control that performs it; wrong arguments are refused."""
 
 import numpy as np
 import pytest
@@ -113,8 +113,9 @@ def test_it_cannot_be_changed_neither_by_name_nor_through_the_arrays_given():
     ],
 )
 def test_what_is_no_manoeuvre_is_refused(changed, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error, match=message) as failure:
         Maneuver(**({"x0": ORIGIN, "xf": AHEAD, "tf": 1.0} | changed))
+    assert failure.value.argument in changed
 
 
 @pytest.mark.parametrize("outside", [-0.01, 1.01])

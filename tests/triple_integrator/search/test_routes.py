@@ -1,4 +1,4 @@
-"""The paper's numerical routes: their formulas against integrals, and what they find against certificates."""
+"""The paper's numerical routes: their formulas against integrals, and their results against certificates."""
 
 import numpy as np
 import pytest
@@ -71,7 +71,7 @@ def test_example_2(route):
 
 
 def test_in_example_2_the_search_leaves_the_multiplier_open():
-    """With c2 = c3 = 0 neither zero depends on lambda~, so that (3.16) cannot tell alpha."""
+    """With c2 = c3 = 0 neither zero depends on lambda~, so that (3.16) does not determine alpha."""
     anywhere = np.array([-0.3, 0.0, 0.01])
     t1, t2, alpha = zeros_from_multiplier()(anywhere, 0.5, 0.0, 0.0, 1.0)
     assert_allclose([t1, t2], [[0.25] * 3, [0.75] * 3])
@@ -102,7 +102,7 @@ def test_what_is_right_is_the_certified_level(found):
 
 
 def test_within_the_domain_no_zeros_give_more_than_the_least_peak(found):
-    """There |F| is the norm of a dual function, so that 1/|F| is a lower bound, right or wrong."""
+    """There |F| is the norm of a dual function, so that 1/|F| is always a lower bound."""
     for results in found.results.values():
         for k, result in zip(found.directions, results, strict=True):
             t1, t2 = result.switch_times
@@ -124,7 +124,7 @@ def test_the_global_search_is_always_right_and_the_others_are_not(found):
 
 
 def test_without_the_modulus_the_search_fails_wherever_the_curvature_is_negative_at_first(found):
-    """F is then negative and runs to minus infinity: half of all directions, c and -c taken together."""
+    """F is then negative and runs to minus infinity, which happens for one of c and -c."""
     for k, result in zip(found.directions, found.results["multiplier"], strict=True):
         c0 = (k / SCALE) @ [1, -1 / 2, 3 / 32]
         assert c0 > 0 or not result.right
@@ -143,7 +143,7 @@ def test_opposite_moments_are_searched_alike():
     [((2, 1, -2), "outside", 0.67, 0.69), ((1, 1, 2), "crossed", 1.015, 1.016)],
 )
 def test_the_free_search_leaves_the_domain_and_is_then_no_bound(k, reason, low, high):
-    """With a zero outside, or t1 past t2, what it finds is too low here and too high there."""
+    """With a zero outside or t1 > t2 the level found is too low for some moments and too high for others."""
     m = Maneuver(np.zeros(3), np.array(k) / SCALE, tf=1.0)
     best, result = minimum_peak(m), search(m, "zeros")
     assert best.certificate.holds(1e-12)
@@ -156,7 +156,7 @@ def test_the_free_search_leaves_the_domain_and_is_then_no_bound(k, reason, low, 
 @few
 @given(st.tuples(numbers, numbers, numbers))
 def test_without_its_bounds_the_area_has_zeros_whatever_is_asked(c):
-    """F vanishes at t1 = 1/2 + d, t2 = 1/2 - d, d > 0, where c0 does not: no peak is then too large."""
+    """F vanishes at t1 = 1/2 + d, t2 = 1/2 - d, d > 0, where c0 does not, so that 1/|F| is unbounded."""
     d = -min(np.roots([8, -3, 0, 1 / 4]).real)
     if abs(np.array(c) @ [1, -1 / 2, (1 / 4 - d * d) / 2]) < 1e-3:
         return

@@ -1,4 +1,4 @@
-"""The maximum principle of the averaged problem, measured elsewhere than where it was solved."""
+"""Certificates of averaged extremals: the maximum principle between the points of collocation."""
 
 from collections.abc import Sequence
 
@@ -7,25 +7,26 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.collocation import (
-    Path,
     Problem,
+    Trajectories,
     scales,
 )
-from pontryagin.averaging.averaged.mesh import (
+from pontryagin.certificate import MaximumPrinciple
+from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.collocation import (
     derivative,
     evaluate,
 )
-from pontryagin.averaging.system.means import CHECKING
-from pontryagin.certificate import MaximumPrinciple
+from pontryagin.numerics.periodic_means import CHECKING
 
 
 def certify(
-    problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]
+    problem: Problem, path: Trajectories, names: Sequence[str], members: NDArray[np.intp]
 ) -> MaximumPrinciple:
     """Residuals of extremals between the points of collocation.
 
-    The velocities that the series have there are compared with the means of f under the control u* itself,
-    not with the derivatives of h0, and all means are taken by rules with other nodes.
+    The derivatives of the series are compared with the means of f under the control u* itself, not with the
+    derivatives of h0, and all means are taken by rules with other nodes than the solver's.
 
     Raises
     ------
@@ -42,21 +43,21 @@ def certify(
     count = len(s)
     z, slope = evaluate(edges, series, s), derivative(edges, series, s)
     flat = z.reshape(-1, 2 * n)
-    held = tuple(np.repeat(number, count) for number in problem.numbers)
+    numbers = tuple(np.repeat(number, count) for number in problem.numbers)
     kappa = np.repeat(problem.kappa, count)
-    h, omega = model.averaged(flat, held, CHECKING)
+    h, omega = model.averaged(flat, numbers, CHECKING)
     _require_turning(omega.value.reshape(-1, count), z[..., :n], names, members)
-    rate, cost = model.controlled(flat, held, CHECKING)
+    rate, cost = model.controlled(flat, numbers, CHECKING)
     size = scales(z)
     price = np.abs(cost).reshape(-1, count).max(axis=1)
 
     def largest(values: Array) -> Array:
-        return np.abs(values).reshape(len(z), -1).max(axis=1)
+        return np.asarray(np.abs(values).reshape(len(z), -1).max(axis=1))
 
     slow_time = duration[:, None, None]
     states = slope[..., :n] - slow_time * rate.reshape(-1, count, n)
-    pull = (h.gradient + kappa[:, None] * omega.gradient)[:, :n].reshape(-1, count, n)
-    costates = slope[..., n:] + slow_time * pull
+    force = (h.gradient + kappa[:, None] * omega.gradient)[:, :n].reshape(-1, count, n)
+    costates = slope[..., n:] + slow_time * force
     start, end = path.z[:, 0], path.z[:, -1]
     target, terminal = model.ends(end[:, :n], problem.numbers)
     normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
@@ -76,8 +77,8 @@ def certify(
     )
 
 
-def _at_rest(problem: Problem, path: Path) -> MaximumPrinciple:
-    """Residuals where the start is the end: nothing moves and no control acts."""
+def _at_rest(problem: Problem, path: Trajectories) -> MaximumPrinciple:
+    """Residuals of problems whose target holds at the start, so that the duration is zero."""
     start = path.z[:, 0, : problem.model.slow]
     target, _ = problem.model.ends(start, problem.numbers)
     none = np.zeros(len(start))
@@ -93,4 +94,5 @@ def _require_turning(omega: Array, slow: Array, names: Sequence[str], members: N
             f"{name} = {value:.6g}" for name, value in zip(names, slow[member, place], strict=True)
         )
         where = f" (problem {members[member]} of the stack)" if len(members) > 1 else ""
-        raise ValueError(f"omega must be positive all the way, got {omega[member, place]:.6g} at {at}{where}")
+        message = f"omega must be positive all the way, got {omega[member, place]:.6g} at {at}{where}"
+        raise ArgumentValueError(message, "omega")

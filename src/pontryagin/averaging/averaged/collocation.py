@@ -1,4 +1,4 @@
-"""The averaged boundary value problem (2.11), (2.4), (2.12): collocation and Newton's method."""
+"""The averaged boundary value problem (2.11), (2.4), (2.12) as collocation equations, and their solution."""
 
 from dataclasses import dataclass, replace
 
@@ -6,17 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.mesh import (
-    Mesh,
-    evaluate,
-)
 from pontryagin.averaging.system.jets import Jet
 from pontryagin.averaging.system.model import Model
+from pontryagin.numerics.collocation import Mesh, evaluate
+from pontryagin.numerics.newton import newton_stack
 
-STEPS = 30
-HALVINGS = 12
+Selection = NDArray[np.intp] | NDArray[np.bool_] | list[int]
+
 CLOSE = 1e-10
-"""Newton's last step in shares of the variables; the error after it is the square."""
+"""Relative size of Newton's last step; the error after it is its square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +27,7 @@ class Problem:
     kappa: Array
     numbers: tuple[Array, ...]
 
-    def __getitem__(self, members) -> "Problem":
+    def __getitem__(self, members: Selection) -> "Problem":
         return replace(
             self,
             start=self.start[members],
@@ -51,8 +49,8 @@ class Problem:
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
-    """What Newton's method works on, for a stack (s): values at the points of a mesh of tau / duration.
+class Trajectories:
+    """Guesses or solutions of a stack of problems (s): values at the points of a mesh of tau / duration.
 
     Attributes
     ----------
@@ -69,34 +67,35 @@ class Path:
     duration: Array
     multipliers: Array
 
-    def __getitem__(self, members) -> "Path":
-        return Path(self.mesh, self.z[members], self.duration[members], self.multipliers[members])
+    def __getitem__(self, members: Selection) -> "Trajectories":
+        return Trajectories(self.mesh, self.z[members], self.duration[members], self.multipliers[members])
 
-    def moved(self, step: Array, share: Array) -> "Path":
-        """The path after a share (s) of the step (s, unknowns)."""
-        _, points, width = self.z.shape
-        count = points * width
-        step = share[:, None] * step
-        return Path(
-            self.mesh,
-            self.z + step[:, :count].reshape(self.z.shape),
-            self.duration + step[:, count],
-            self.multipliers + step[:, count + 1 :],
+    @property
+    def unknowns(self) -> Array:
+        """All unknowns of each problem in one row, (s, unknowns)."""
+        return np.concatenate(
+            [self.z.reshape(len(self.z), -1), self.duration[:, None], self.multipliers], axis=1
         )
 
-    def on(self, mesh: Mesh) -> "Path":
-        """The same path at the points of another mesh."""
+    def with_unknowns(self, rows: Array) -> "Trajectories":
+        """Trajectories on the same mesh with these unknowns (k, unknowns)."""
+        count = self.z[0].size
+        z = rows[:, :count].reshape(len(rows), *self.z.shape[1:])
+        return Trajectories(self.mesh, z, rows[:, count], rows[:, count + 1 :])
+
+    def on(self, mesh: Mesh) -> "Trajectories":
+        """The same trajectories at the points of another mesh."""
         values = evaluate(np.array(self.mesh.edges), self.mesh.series(self.z), mesh.points)
         return replace(self, mesh=mesh, z=values)
 
     def tails(self) -> Array:
-        """Largest of the last two coefficients on each panel, in shares of the variable, (s, panels)."""
+        """Largest of the last two coefficients on each panel, relative to the variable, (s, panels)."""
         last = np.abs(self.mesh.series(self.z)[..., -2:, :]).max(axis=-2)
-        return (last / scales(self.z)[:, None]).max(axis=-1)
+        return np.asarray((last / scales(self.z)[:, None]).max(axis=-1))
 
 
 def scales(z: Array) -> Array:
-    """Natural sizes (s, 2n) of the variables along a path; of a small costate, cost over its variable."""
+    """Sizes (s, 2n) of the variables along a trajectory; of a costate at least action over variable."""
     n = z.shape[-1] // 2
     largest = np.abs(z).max(axis=1)
     xi, eta = largest[:, :n], largest[:, n:]
@@ -106,98 +105,69 @@ def scales(z: Array) -> Array:
     return np.concatenate([xi, np.maximum(eta, action / xi)], axis=-1)
 
 
-def newton(problem: Problem, path: Path) -> tuple[Path, Array]:
+@dataclass(frozen=True, eq=False)
+class _Equations:
+    """The collocation equations at some trajectories: residuals, and Jacobians where they are needed."""
+
+    problem: Problem
+    path: Trajectories
+    h: Jet
+    residual: Array
+
+    def jacobian(self, rows: NDArray[np.intp]) -> Array:
+        return _matrix(self.problem[rows], self.path[rows], self.h[rows])
+
+
+def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
     """Newton's method with damping, on every problem of the stack.
 
     Returns
     -------
-    Path
-        Where it arrived.
+    Trajectories
+        Where it ended.
     (s) array
-        The last step in shares of the variables: at most `CLOSE` where it converged, inf where it failed.
+        Relative sizes of the last steps: at most `CLOSE` where it converged, inf where it failed.
     """
+
+    def equations(members: NDArray[np.intp], unknowns: Array) -> _Equations:
+        here, path = problem[members], guess.with_unknowns(unknowns)
+        h = here.hamiltonian(path.z)
+        return _Equations(here, path, h, _residual(here, path, h))
+
     with np.errstate(all="ignore"):
-        return _newton(problem, path)
-
-
-def _newton(problem: Problem, path: Path) -> tuple[Path, Array]:
-    closeness = np.full(len(path.duration), np.inf)
-    active = np.arange(len(closeness))
-    result, h = path, problem.hamiltonian(path.z)
-    residual = _residual(problem, path, h)
-    for _ in range(STEPS):
-        here, at = problem[active], result[active]
-        step, solvable = _solve(_matrix(here, at, h), residual)
-        size = _size(at, step)
-        last, further = solvable & (size <= CLOSE), np.nonzero(solvable & ~(size <= CLOSE))[0]
-        closeness[active[last]] = size[last]
-        result = _replaced(result, active[last], at[last].moved(step[last], np.ones(last.sum())))
-        if not len(further):
-            break
-        before = _norm(at, residual)[further]
-        moved, after, left, improved = _damped(here[further], at[further], step[further], before)
-        active, h, residual = active[further[improved]], after[improved], left[improved]
-        if not len(active):
-            break
-        result = _replaced(result, active, moved[improved])
-    return result, closeness
-
-
-def _replaced(path: Path, members: NDArray[np.intp], by: Path) -> Path:
-    z, duration, multipliers = path.z.copy(), path.duration.copy(), path.multipliers.copy()
-    z[members], duration[members], multipliers[members] = by.z, by.duration, by.multipliers
-    return Path(path.mesh, z, duration, multipliers)
-
-
-def _solve(matrix: Array, residual: Array) -> tuple[Array, NDArray[np.bool_]]:
-    finite = np.asarray(np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1))
-    safe = np.where(finite[:, None, None], matrix, np.eye(matrix.shape[-1]))
-    try:
-        step = np.linalg.solve(safe, -np.where(finite[:, None], residual, 0.0)[..., None])[..., 0]
-    except np.linalg.LinAlgError:
-        step = np.stack(
-            [np.linalg.lstsq(m, -r)[0] for m, r in zip(safe, np.nan_to_num(residual), strict=True)]
+        found = newton_stack(
+            equations,
+            guess.unknowns,
+            tolerance=-np.inf,
+            step_tolerance=CLOSE,
+            iterations=30,
+            halvings=12,
+            decrease=0.1,
+            size=lambda members, unknowns, residual: _norm(guess.with_unknowns(unknowns), residual),
+            step_size=lambda members, unknowns, step: _step_size(guess.with_unknowns(unknowns), step),
+            admissible=lambda members, unknowns: guess.with_unknowns(unknowns).duration > 0,
         )
-    return step, finite & np.isfinite(step).all(axis=1)
+    return guess.with_unknowns(found.unknowns), np.where(found.converged, found.correction, np.inf)
 
 
-def _size(path: Path, step: Array) -> Array:
-    """A step in shares of the variables; the duration's digits are those of the way travelled."""
+def _step_size(path: Trajectories, step: Array) -> Array:
+    """Sizes of steps relative to the variables; that of the duration relative to the variables' change."""
     count, n = path.z[0].size, path.z.shape[-1] // 2
     moves = np.abs(step[:, :count].reshape(path.z.shape)).max(axis=1) / scales(path.z)
     travelled = np.ptp(path.z[..., :n], axis=1)
     xi = scales(path.z)[:, :n]
     lost = np.divide(xi, travelled, out=np.full_like(xi, np.inf), where=travelled > 0).min(axis=-1)
     lost = np.where(np.isfinite(lost), np.maximum(lost, 1), 1)
-    return np.maximum(moves.max(axis=-1), np.abs(step[:, count]) / (lost * np.abs(path.duration)))
+    return np.asarray(np.maximum(moves.max(axis=-1), np.abs(step[:, count]) / (lost * np.abs(path.duration))))
 
 
-def _damped(
-    problem: Problem, path: Path, step: Array, before: Array
-) -> tuple[Path, Jet, Array, NDArray[np.bool_]]:
-    """The longest of the step, its half, its quarter, ... that lowers the residual; H0's jet and it there."""
-    share = np.ones(len(before))
-    trial = path.moved(step, share)
-    h = problem.hamiltonian(trial.z)
-    for halving in range(HALVINGS):
-        residual = _residual(problem, trial, h)
-        good = (_norm(trial, residual) <= (1 - 0.1 * share) * before) & (trial.duration > 0)
-        if good.all() or halving == HALVINGS - 1:
-            break
-        share = np.where(good, share, share / 2)
-        trial = path.moved(step, share)
-        again = np.nonzero(~good)[0]
-        h = h.replaced(again, problem[again].hamiltonian(trial.z[again]))
-    return trial, h, residual, good
-
-
-def _norm(path: Path, residual: Array) -> Array:
-    """Largest residual in shares of the variables; nan counts as infinite."""
+def _norm(path: Trajectories, residual: Array) -> Array:
+    """Largest residuals relative to the variables; inf where they are not defined."""
     n = path.z.shape[-1] // 2
     r = path.multipliers.shape[-1]
     each = scales(path.z)
     action = (each[:, :n] * each[:, n:]).max(axis=-1) / np.abs(path.duration)
-    rows = np.concatenate(
+    sizes = np.concatenate(
         [
             each[:, :n],
             np.tile(each, (1, path.z.shape[1] - 1)),
@@ -207,28 +177,28 @@ def _norm(path: Path, residual: Array) -> Array:
         ],
         axis=1,
     )
-    return np.nan_to_num(np.abs(residual / rows).max(axis=1), nan=np.inf)
+    return np.asarray(np.nan_to_num(np.abs(residual / sizes).max(axis=1), nan=np.inf))
 
 
-def _residual(problem: Problem, path: Path, h: Jet) -> Array:
-    """What is left (s, unknowns) of: start, collocation, target, transversality, H0 = 0 at the end."""
+def _residual(problem: Problem, path: Trajectories, h: Jet) -> Array:
+    """Residuals (s, unknowns): start, collocation, target, transversality (2.12), H0 = 0 at the end."""
     z, n = path.z, problem.model.slow
-    way = path.mesh.integrals @ _turned(h.gradient, -1)
+    displacement = path.mesh.integrals @ _hamiltonian_flow(h.gradient, -1)
     target, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
-    pull = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
+    normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
     return np.concatenate(
         [
             z[:, 0, :n] - problem.start,
-            (z - z[:, :1] - path.duration[:, None, None] * way)[:, 1:].reshape(len(z), -1),
+            (z - z[:, :1] - path.duration[:, None, None] * displacement)[:, 1:].reshape(len(z), -1),
             target.value - problem.level,
-            z[:, -1, n:] + pull,
+            z[:, -1, n:] + normal,
             h.value[:, -1:],
         ],
         axis=1,
     )
 
 
-def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
+def _matrix(problem: Problem, path: Trajectories, h: Jet) -> Array:
     """Derivatives of the residual (s, unknowns, unknowns) in z by points, the duration and alpha."""
     stack, points, width = path.z.shape
     n, r = width // 2, path.multipliers.shape[-1]
@@ -236,7 +206,7 @@ def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
     size = points * width
     result = np.zeros((stack, size + 1 + r, size + 1 + r))
     result[:, np.arange(n), np.arange(n)] = 1
-    flow = -path.duration[:, None, None, None] * _turned(h.hessian, -2)
+    flow = -path.duration[:, None, None, None] * _hamiltonian_flow(h.hessian, -2)
     block = weights[:, None, :, None] * flow.transpose(0, 2, 1, 3)[:, None]
     index = np.arange(points)
     for i in range(width):
@@ -244,7 +214,7 @@ def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
         block[:, :, i, 0, i] -= 1
     row = size - n
     result[:, n:row, :size] = block[:, 1:].reshape(stack, size - width, size)
-    result[:, n:row, size] = -(weights @ _turned(h.gradient, -1))[:, 1:].reshape(stack, -1)
+    result[:, n:row, size] = -(weights @ _hamiltonian_flow(h.gradient, -1))[:, 1:].reshape(stack, -1)
     target, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
     end = slice(size - width, size - n)
     result[:, row : row + r, end] = target.gradient
@@ -257,7 +227,7 @@ def _matrix(problem: Problem, path: Path, h: Jet) -> Array:
     return result
 
 
-def _turned(derivatives: Array, axis: int) -> Array:
-    """(d/d xi, d/d eta) to (d/d eta, -d/d xi) along the axis: Hamilton's equations."""
+def _hamiltonian_flow(derivatives: Array, axis: int) -> Array:
+    """(d/d xi, d/d eta) as (d/d eta, -d/d xi) along the axis: Hamilton's equations (2.4)."""
     by_xi, by_eta = np.split(derivatives, 2, axis=axis)
     return np.concatenate([by_eta, -by_xi], axis=axis)

@@ -1,16 +1,16 @@
 """The first correction J1 along an averaged solution; derived and proved in `derivation.correction`.
 
-All it takes is the averaged extremal: Fourier primitives of k1 = h*/r in the anomaly at both ends, and one
-quadrature along the way of the mean of k2 - (dk1/dp less its mean) d(primitive of k1)/da.
+The averaged extremal suffices: J1 consists of Fourier primitives of k1 = h*/r in the anomaly at both ends,
+and of an integral along the way of the mean of k2 - (dk1/dp less its mean) d(primitive of k1)/da.
 """
 
 from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import fixed_ending
 from pontryagin.averaging.exact.canonical import (
     Canonical,
@@ -18,35 +18,28 @@ from pontryagin.averaging.exact.canonical import (
     epsilon,
     y,
 )
-from pontryagin.averaging.system.anomaly import anomaly_at
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.validation import finite
 
 POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
-"""Points on a turn."""
+"""Numbers of points on a turn, tried in this order."""
 NODES = (12, 24, 48, 96)
-"""Gauss points along the averaged solution."""
+"""Numbers of Gauss points along the averaged solution, tried in this order."""
 SETTLED, ROUGH = 1e-11, 1e-6
-"""Change of J1, in shares of its parts, at which a finer quadrature is not tried, and which is refused."""
+"""Relative changes of a term by a finer quadrature: that of a settled value, and the largest accepted one."""
 CANDIDATES = 4
 """Maxima of the primitive that are polished before the largest is taken."""
 
 
-def correction(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> Array:
-    """J1 of J* = J0 + epsilon J1 + O(epsilon^2), (...): the sum of its `parts`."""
-    return np.add.reduce(np.broadcast_arrays(*parts(solution, phase, ending).values()))
-
-
-def parts(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> dict[str, Array]:
-    """What J1 is the sum of: the terms of the start, of the end, and of the way between, (...) each.
+def terms(reference: ReferenceExtremal, start: Array, ending: Array | None = None) -> dict[str, Array]:
+    """The terms of J1 in J* = J0 + epsilon J1 + O(epsilon^2): of the start, the end and the way, (...) each.
 
     Parameters
     ----------
-    solution : AveragedSolution
-        At kappa = 0.
-    phase : (...) array
-        psi_0.
+    reference : ReferenceExtremal
+        An averaged extremal at kappa = 0.
+    start : (...) array
+        Anomaly at the start.
     ending : (...) array, optional
         Anomaly at the end; by default the one that makes J1 least, which the optimum finds. Where the
         control leaves no choice of it (`fixed_ending`) it must be given, and J1 varies with it.
@@ -59,48 +52,45 @@ def parts(solution, phase: ArrayLike, ending: ArrayLike | None = None) -> dict[s
     Raises
     ------
     ValueError
-        If kappa is not zero, an argument is not finite, or `ending` must be given.
+        If `ending` must be given.
     NotConverged
         If the Fourier series do not settle.
     """
-    begin = finite("phase", phase, "a number or an array (...)")
-    if not (solution.kappa == 0).all():
-        raise ValueError("the correction is that of the optimum: solve with kappa = 0")
-    if ending is None and fixed_ending(canonical(solution.system)):
-        raise ValueError(
+    equations = canonical(reference.system)
+    if ending is None and fixed_ending(equations):
+        raise ArgumentValueError(
             "ending must be given: the least-time trajectory of one slow variable leaves no choice of the "
-            "anomaly at the end, with which J1 varies"
+            "anomaly at the end, with which J1 varies",
+            "ending",
         )
-    start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
-    held = solution if solution.frame is None else solution.frame(solution)
-    equations = canonical(held.system)
-    last = None if ending is None else finite("ending", ending, "a number or an array (...)")
-    first, best = _ends(held, equations, start, last)
-    way = _settled(lambda size: _integral(held, equations, size), "the mean Hamiltonian")
-    return {"start": first, "end": -best, "way": -way}
+    first, last = _ends(reference, equations, start, ending)
+    way = _settled(lambda size: _integral(reference, equations, size), "the mean Hamiltonian")
+    return {"start": first, "end": -last, "way": -way}
 
 
-def _ends(held, equations: Canonical, start: Array, last: Array | None) -> tuple[Array, Array]:
-    """The primitive of k1 at the start, and at the end: at `last` or where it is largest."""
-    both = np.stack([np.zeros_like(held.duration), held.duration], axis=-1)
+def _ends(
+    reference: ReferenceExtremal, equations: Canonical, start: Array, ending: Array | None
+) -> tuple[Array, Array]:
+    """The primitive of k1 at the start, and at the end: at `ending` or where it is largest."""
+    both = np.stack([np.zeros_like(reference.duration), reference.duration], axis=-1)
 
     def values(size: int) -> Array:
-        series = _series(_at(held, equations, both, size)[..., 0])
+        series = _series(_at(reference, equations, both, size)[..., 0])
         first = _sum(series[..., 0, :], start)
-        there = _largest(series[..., 1, :]) if last is None else _sum(series[..., 1, :], last)
+        there = _largest(series[..., 1, :]) if ending is None else _sum(series[..., 1, :], ending)
         return np.stack(np.broadcast_arrays(first, there))
 
     first, there = _settled(values, "the primitive of the Hamiltonian")
     return first, there
 
 
-def _integral(held, equations: Canonical, size: int) -> Array:
+def _integral(reference: ReferenceExtremal, equations: Canonical, size: int) -> Array:
     """Integral of omega times the second mean Hamiltonian over the slow time."""
 
     def values(count: int) -> Array:
         node, weight = np.polynomial.legendre.leggauss(count)
-        tau = held.duration[..., None] * (node + 1) / 2
-        columns = _at(held, equations, tau, size)
+        tau = reference.duration[..., None] * (node + 1) / 2
+        columns = _at(reference, equations, tau, size)
         n = (columns.shape[-1] - 3) // 2
         slopes_p, slopes_a = columns[..., 3 : 3 + n], columns[..., 3 + n :]
         swing = slopes_p - slopes_p.mean(axis=-2, keepdims=True)
@@ -108,13 +98,13 @@ def _integral(held, equations: Canonical, size: int) -> Array:
         second = columns[..., 1].mean(axis=-1)
         second = second - (np.moveaxis(swing, -1, -2) * primitives).sum(axis=-2).mean(axis=-1)
         frequency = 1 / columns[..., 2].mean(axis=-1)
-        return (weight * frequency * second).sum(axis=-1) * held.duration / 2
+        return np.asarray((weight * frequency * second).sum(axis=-1) * reference.duration / 2)
 
     return _settled(values, "the integral along the averaged solution", NODES)
 
 
 def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS) -> Array:
-    """Values at the first size that the next one confirms."""
+    """Values at the first of the sizes by which they hardly change any more."""
     before = values(sizes[0])
     for size in sizes[1:]:
         found = values(size)
@@ -128,17 +118,17 @@ def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] =
     return found
 
 
-def _at(held, equations: Canonical, tau: Array, size: int) -> Array:
+def _at(reference: ReferenceExtremal, equations: Canonical, tau: Array, size: int) -> Array:
     """k1, k2, 1/r, dk1/dp, dk1/da at times (..., k) on `size` points of a turn: (..., k, size, 3 + 2n)."""
-    a, p = held.slow(tau), held.costate(tau)
+    a, p = reference.slow(tau), reference.costate(tau)
     z = np.moveaxis(np.concatenate([a, p], axis=-1), -1, 0)[..., None]
-    numbers = [np.asarray(number)[..., None, None] for number in held.numbers]
+    numbers = [np.asarray(number)[..., None, None] for number in reference.numbers]
     x = 2 * np.pi * np.arange(size) / size
     return np.stack(_kernel(equations)(*z, x, *numbers), axis=-1)
 
 
 @lru_cache(maxsize=32)
-def _kernel(equations: Canonical):
+def _kernel(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     n, numbers = len(equations.slow), equations.parameters[1:]
     h = equations.hamiltonian.subs(y, 0)
     r = equations.rate
@@ -162,30 +152,31 @@ def _series(values: Array) -> Array:
     """Complex coefficients (..., harmonics) of the primitive of values (..., size) less their mean."""
     size = values.shape[-1]
     order = np.arange(1, size // 2)
-    return 2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order)
+    return np.asarray(2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order))
 
 
 def _sum(series: Array, x: Array) -> Array:
     """The primitive at x (...)."""
     order = np.arange(1, series.shape[-1] + 1)
-    return (series * np.exp(1j * order * np.asarray(x)[..., None])).real.sum(axis=-1)
+    waves = series * np.exp(1j * order * np.asarray(x)[..., None])
+    return np.asarray(waves.real.sum(axis=-1))
 
 
 def _primitive(values: Array) -> Array:
     """The zero-mean primitive of values (..., size) less their mean, at the same points."""
     size = values.shape[-1]
-    whole = np.zeros((*values.shape[:-1], size // 2 + 1), complex)
-    whole[..., 1 : size // 2] = _series(values) * size / 2
-    return np.fft.irfft(whole, n=size, axis=-1)
+    spectrum = np.zeros((*values.shape[:-1], size // 2 + 1), complex)
+    spectrum[..., 1 : size // 2] = _series(values) * size / 2
+    return np.fft.irfft(spectrum, n=size, axis=-1)
 
 
 def _largest(series: Array) -> Array:
     """The largest value of the primitive: the best points of a fine grid, polished by Newton's method."""
     harmonics = series.shape[-1]
     size = max(1024, 4 * (harmonics + 1))
-    whole = np.zeros((*series.shape[:-1], size // 2 + 1), complex)
-    whole[..., 1 : harmonics + 1] = series * size / 2
-    values = np.fft.irfft(whole, n=size, axis=-1)
+    spectrum = np.zeros((*series.shape[:-1], size // 2 + 1), complex)
+    spectrum[..., 1 : harmonics + 1] = series * size / 2
+    values = np.fft.irfft(spectrum, n=size, axis=-1)
     peak = (values >= np.roll(values, 1, axis=-1)) & (values >= np.roll(values, -1, axis=-1))
     best = np.argsort(np.where(peak, values, -np.inf), axis=-1)[..., -CANDIDATES:]
     spacing, order = 2 * np.pi / size, np.arange(1, harmonics + 1)
@@ -197,4 +188,4 @@ def _largest(series: Array) -> Array:
         step = np.divide(-slope, bend, out=np.zeros_like(slope), where=bend < 0)
         x = np.clip(x + step, (best - 1) * spacing, (best + 1) * spacing)
     polished = _sum(series[..., None, :], x).max(axis=-1)
-    return np.maximum(polished, values.max(axis=-1))
+    return np.asarray(np.maximum(polished, values.max(axis=-1)))

@@ -1,4 +1,4 @@
-"""A first guess: straight to the target, with the costate that makes the Hamiltonian vanish on the way."""
+"""First guesses of averaged extremals: along the straight line to the target, and by integration."""
 
 from dataclasses import dataclass
 
@@ -7,33 +7,35 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.collocation import (
-    Path,
     Problem,
+    Trajectories,
 )
-from pontryagin.averaging.averaged.mesh import (
+from pontryagin.numerics.collocation import (
     Mesh,
     derivative,
     evaluate,
 )
 
 GROWTHS = 40
+"""Largest number of Newton steps for a costate's length; each may multiply it by eight."""
 NEAR = 1e-3
-"""Eightfold growths of a costate before it is taken that none is large enough; how near it need be."""
+"""Relative change of a length at which it is accepted."""
 
-SHARES = 96
+STEPS = 96
+"""Steps of the method of Runge and Kutta to the target."""
 IDLE = 1e-9
-"""The share of a costate that is as good as none, and has derivatives where none has not."""
+"""Factor that makes a costate negligible; at zero itself h* may have no derivatives."""
 
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """Guessed paths, and where along them no costate brings the averaged Hamiltonian up to zero.
+    """Guessed trajectories, and where along them no costate makes the averaged Hamiltonian zero.
 
     Attributes
     ----------
-    path : Path
+    path : Trajectories
     slow : (s, k, n) array
-        Points of the straight way.
+        Points of the straight line.
     frequency : (s, k) array
         omega there.
     idle : (s) array
@@ -42,7 +44,7 @@ class Guess:
         No control moves the slow variables along the guessed direction there.
     """
 
-    path: Path
+    path: Trajectories
     slow: Array
     frequency: Array
     idle: Array
@@ -50,7 +52,10 @@ class Guess:
 
 
 def straight(problem: Problem, mesh: Mesh) -> Guess:
-    """The way along the straight line to the target's nearest point, at the mesh's points of slow time."""
+    """A trajectory along the straight line to the target's nearest point, at the mesh's points of slow time.
+
+    The costate has the direction of the target's gradient and the length that makes H0 vanish.
+    """
     model = problem.model
     start = problem.start
     end, direction = _nearest(problem)
@@ -67,13 +72,14 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
     clock = pace @ mesh.integrals.T
     z = _at_even_times(mesh, clock / clock[:, -1:], z)
     alpha = _multipliers(problem, z[:, -1])
-    return Guess(Path(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+    return Guess(Trajectories(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
-def shot(problem: Problem, mesh: Mesh) -> Path | None:
-    """The averaged extremal that leaves the start as `straight` does, up to the target's level.
+def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
+    """The averaged extremal with the initial costate of `straight`, up to the target's level.
 
-    Runge and Kutta's method in steps that bring the target nearer by equal shares; None where it turns away.
+    It is integrated by the method of Runge and Kutta, each step nearer to the target by an equal share; None
+    where the extremal does not approach the target.
     """
     model, n = problem.model, problem.model.slow
     _, direction = _nearest(problem)
@@ -85,28 +91,28 @@ def shot(problem: Problem, mesh: Mesh) -> Path | None:
         gradient = problem.hamiltonian(z[:, None]).gradient[:, 0]
         return np.concatenate([gradient[:, n:], -gradient[:, :n]], axis=-1)
 
-    def missing(z: Array) -> tuple[Array, Array]:
+    def distance(z: Array) -> tuple[Array, Array]:
         target, _ = model.ends(z[:, :n], problem.numbers)
         return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
 
     z = np.concatenate([problem.start, length * direction], axis=-1)
-    far, _ = missing(z)
-    path, times = [z], [np.zeros(len(z))]
-    for _ in range(SHARES):
-        left, pace = missing(z)
+    far, _ = distance(z)
+    states, times = [z], [np.zeros(len(z))]
+    for _ in range(STEPS):
+        left, pace = distance(z)
         nearing = (pace * far).sum(axis=1)
         if not (nearing > 0).all():
             return None
-        step = np.minimum((far * far).sum(axis=1) / SHARES, (left * far).sum(axis=1)) / nearing
+        step = np.minimum((far * far).sum(axis=1) / STEPS, (left * far).sum(axis=1)) / nearing
         h = step[:, None]
         k1 = flow(z)
         k2 = flow(z + h / 2 * k1)
         k3 = flow(z + h / 2 * k2)
         k4 = flow(z + h * k3)
         z = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        path.append(z)
+        states.append(z)
         times.append(times[-1] + step)
-    values, clock = np.stack(path, axis=1), np.stack(times, axis=1)
+    values, clock = np.stack(states, axis=1), np.stack(times, axis=1)
     duration = clock[:, -1]
     if not (np.isfinite(values).all() and (duration > 0).all()):
         return None
@@ -114,11 +120,11 @@ def shot(problem: Problem, mesh: Mesh) -> Path | None:
         np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
         for c, own in zip(clock, values, strict=True)
     ]
-    return Path(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
+    return Trajectories(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
 
 
 def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
-    """Values (s, k, 2n) at even shares of time of what is known at even shares of the way."""
+    """Values (s, k, 2n) at even times, from values at even shares of the distance."""
     edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
     share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
     for _ in range(3):
@@ -178,4 +184,4 @@ def _multipliers(problem: Problem, end: Array) -> Array:
     n = problem.model.slow
     target, terminal = problem.model.ends(end[:, :n], problem.numbers)
     inverse = np.linalg.pinv(np.nan_to_num(np.swapaxes(target.gradient, 1, 2)))
-    return -np.einsum("sri,si->sr", inverse, end[:, n:] + terminal.gradient)
+    return np.asarray(-np.einsum("sri,si->sr", inverse, end[:, n:] + terminal.gradient))

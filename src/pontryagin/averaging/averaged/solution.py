@@ -2,15 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.mesh import evaluate as evaluate_series
-from pontryagin.averaging.averaged.solve import extremals
 from pontryagin.averaging.system.anomaly import (
     anomaly_at,
     phase_at,
@@ -18,12 +16,18 @@ from pontryagin.averaging.system.anomaly import (
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.validation import finite, times, vectors
+from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics.collocation import evaluate as evaluate_series
+from pontryagin.validation import finite, times
+from pontryagin.value import value_class
 
 if TYPE_CHECKING:
+    from pontryagin.averaging.averaged.reference import ReferenceExtremal
     from pontryagin.averaging.exact.extremal import Extremals
+    from pontryagin.averaging.system.phase_system import PhaseSystem
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class AveragedSolution:
     """The averaged extremal of a problem or of a stack (...) of them, with n slow variables.
@@ -41,12 +45,12 @@ class AveragedSolution:
     kappa : (...) array
         Minus the mean of the phase's costate over epsilon; zero at the optimum.
     certificate : MaximumPrinciple
-        Residuals between the points where the extremal was computed, with other quadratures.
+        Residuals between the points of collocation, with other quadratures.
     names : tuple of str
         The slow variables, in the order of `slow` and `costate`. They are the system's own: the cost, which
         the paper counts among them, has the costate -1 and is left out.
     initial_phase : (...) array
-        psi_0 where the problem says it (`spin_down`), else zero.
+        psi_0 where the problem states it (`spin_down`), else zero.
     numbers : tuple of (...) arrays
         Values of the system's numbers, in their order.
     model : Model
@@ -56,9 +60,10 @@ class AveragedSolution:
     series : array
         Chebyshev coefficients of xi and eta on the pieces.
     make_system : callable
-        Makes the `PhaseSystem`, when it is asked for.
+        Makes the `PhaseSystem` at the first use of `system`.
     frame : callable or None
-        From this solution to the same one in variables that are regular at the target, if its own are not.
+        Where the slow variables are not regular at the target: from this solution to the same one in
+        variables that are.
     """
 
     duration: Array
@@ -73,11 +78,11 @@ class AveragedSolution:
     model: Model
     edges: Array
     series: Array
-    make_system: Callable[[], object]
-    frame: Callable | None = None
+    make_system: Callable[[], "PhaseSystem"]
+    frame: Callable[["AveragedSolution"], "ReferenceExtremal"] | None = None
 
     @cached_property
-    def system(self):
+    def system(self) -> "PhaseSystem":
         """The `PhaseSystem` that was averaged."""
         return self.make_system()
 
@@ -143,9 +148,24 @@ class AveragedSolution:
         ValueError
             If kappa is not zero, an argument is not finite, or `ending` must be given.
         """
-        from pontryagin.averaging.averaged.correction import correction
+        return np.asarray(np.add.reduce(np.broadcast_arrays(*self.correction_terms(phase, ending).values())))
 
-        return correction(self, self.initial_phase if phase is None else phase, ending)
+    def correction_terms(
+        self, phase: ArrayLike | None = None, ending: ArrayLike | None = None
+    ) -> dict[str, Array]:
+        """The terms whose sum is J_1, (...) each, by name: "start", "end" and "way".
+
+        Parameters and errors are those of `correction`. The term of the way vanishes for systems that a
+        reversal of the anomaly reverses.
+        """
+        from pontryagin.averaging.averaged.correction import terms
+
+        begin = self.initial_phase if phase is None else finite("phase", phase, "a number or an array (...)")
+        last = None if ending is None else finite("ending", ending, "a number or an array (...)")
+        if not (self.kappa == 0).all():
+            raise ArgumentValueError("the correction is that of the optimum: solve with kappa = 0", "kappa")
+        start = anomaly_at(self.model, self.start, begin, self.numbers)
+        return terms(self._regular, start, last)
 
     def exact(self, epsilon: float, phase: float | None = None) -> "Extremals":
         """All extremals of the unaveraged problem around the optimum, best first; one problem only.
@@ -164,10 +184,30 @@ class AveragedSolution:
         """
         small = _positive_epsilon(epsilon)
         if self.duration.shape:
-            raise ValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
-        from pontryagin.averaging.exact import roots
+            raise ArgumentValueError(f"exact takes one problem, got a stack of shape {self.duration.shape}")
+        begin = self.initial_phase if phase is None else finite("phase", phase, "a number")
+        if begin.ndim:
+            raise ArgumentValueError(
+                f"phase must be one number, got an array of shape {begin.shape}", "phase"
+            )
+        if not self.duration > 0:
+            raise ArgumentValueError(
+                "exact takes a problem that is not solved at the start: the target holds there"
+            )
+        from pontryagin.averaging.exact.roots import extremals
 
-        return roots.extremals(self, small, float(self.initial_phase) if phase is None else phase)
+        return extremals(
+            self._regular,
+            small,
+            float(begin),
+            start=float(anomaly_at(self.model, self.start, begin, self.numbers)),
+            end=float(self.anomaly(self.duration, small, begin)[0]),
+            to_phase=partial(phase_at, self.model, numbers=self.numbers),
+        )
+
+    @property
+    def _regular(self) -> "ReferenceExtremal":
+        return self if self.frame is None else self.frame(self)
 
     @property
     def _numbers(self) -> tuple[Array, ...]:
@@ -179,121 +219,13 @@ class AveragedSolution:
     def _at(self, tau: ArrayLike) -> Array:
         """(xi, eta, integral of omega) at slow times, (..., k, 2n + 1)."""
         inside = times("tau", tau, np.zeros_like(self.duration), self.duration)
-        whole = self.duration[..., None]
-        share = np.divide(inside, whole, out=np.zeros(inside.shape), where=whole > 0)
+        duration = self.duration[..., None]
+        share = np.divide(inside, duration, out=np.zeros(inside.shape), where=duration > 0)
         return evaluate_series(self.edges, self.series, share)
-
-
-def solve_averaged(system, start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
-    """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
-
-    The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
-    target along its straight line, or that continues the extremals to nearer levels of the target. It
-    satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
-    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
-
-    Parameters
-    ----------
-    system : PhaseSystem
-        Its numbers may be arrays.
-    start : (..., n) array
-        a_0; leading axes, with those of the numbers and of kappa, make a stack of problems.
-    kappa : (...) array
-        Member of the family of (2.11); other than zero to explore it.
-
-    Raises
-    ------
-    ValueError
-        If the frequency is not positive all the way, the running cost is not positive on average, or an
-        input is not finite or wrongly shaped.
-    Infeasible
-        If the target cannot be reached: the mean drift opposes every control and exceeds it.
-    NotConverged
-        If no extremal was found, with what was left of the target.
-
-    Examples
-    --------
-    The rotating pendulum of `PhaseSystem` is sped up from the energy 2 to 5:
-
-    >>> import sympy as sp
-    >>> from pontryagin.averaging import PhaseSystem, Quadratic, solve_averaged
-    >>> a, x, u = sp.symbols("a x u", real=True)
-    >>> speed = sp.sqrt(2 * (a + sp.cos(x)))
-    >>> pendulum = PhaseSystem(f=[speed * (u - speed / 5)], anomaly_rate=speed, control_set=Quadratic(),
-    ...                        slow=[a], control=[u], phase=x, target=[a - 5])
-    >>> solution = solve_averaged(pendulum, [2.0])
-    >>> solution.certificate.holds(1e-10)
-    True
-    """
-    from pontryagin.averaging.system.phase_system import PhaseSystem
-
-    if not isinstance(system, PhaseSystem):
-        raise TypeError(f"system must be a PhaseSystem, got {system!r}")
-    begin = vectors("start", start, len(system.slow))
-    names = tuple(str(symbol) for symbol in system.slow)
-    numbers = tuple(np.asarray(value) for value in system.numbers.values())
-    return solved(
-        system.model,
-        names,
-        begin,
-        numbers,
-        lambda: system,
-        kappa=kappa,
-    )
-
-
-def solved(
-    model: Model,
-    names: tuple[str, ...],
-    start: Array,
-    numbers: tuple[Array, ...],
-    make_system: Callable[[], object],
-    *,
-    kappa: ArrayLike = 0.0,
-    initial_phase: ArrayLike = 0.0,
-    frame: Callable | None = None,
-) -> AveragedSolution:
-    """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
-    family = finite("kappa", kappa, "a number or an array (...)")
-    phase = np.asarray(initial_phase, dtype=float)
-    try:
-        shape = np.broadcast_shapes(
-            start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
-        )
-    except ValueError:
-        raise ValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
-    n = len(names)
-    each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
-    begin = np.broadcast_to(start, (*shape, n))
-    *held, flat_kappa = (number.reshape(-1) for number in each)
-    found = extremals(model, names, begin.reshape(-1, n), tuple(held), flat_kappa)
-    residuals = (
-        found.certificate.boundary,
-        found.certificate.transversality,
-        found.certificate.hamiltonian,
-        found.certificate.maximality,
-    )
-    return AveragedSolution(
-        duration=found.duration.reshape(shape),
-        cost=found.cost.reshape(shape),
-        start=begin,
-        multipliers=found.multipliers.reshape(*shape, model.target),
-        kappa=each[-1],
-        certificate=MaximumPrinciple(*(residual.reshape(shape) for residual in residuals)),
-        names=names,
-        initial_phase=np.broadcast_to(phase, shape),
-        numbers=tuple(each[:-1]),
-        model=model,
-        edges=found.edges.reshape(*shape, -1),
-        series=found.series.reshape(*shape, *found.series.shape[1:]),
-        make_system=make_system,
-        frame=frame,
-    )
 
 
 def _positive_epsilon(epsilon: float) -> float:
     value = finite("epsilon", epsilon, "a positive number")
     if value.shape or not value > 0:
-        raise ValueError(f"epsilon must be a positive number, got {epsilon!r}")
+        raise ArgumentValueError(f"epsilon must be a positive number, got {epsilon!r}", "epsilon")
     return float(value)

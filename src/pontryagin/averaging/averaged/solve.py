@@ -1,281 +1,132 @@
-"""The optimal averaged extremal: a guess, Newton's method, continuation where it fails, a mesh as needed."""
+"""The solver of the first approximation: from a system, or its compiled average, to an `AveragedSolution`."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.certificate import certify
-from pontryagin.averaging.averaged.collocation import (
-    CLOSE,
-    Path,
-    Problem,
-    newton,
-)
-from pontryagin.averaging.averaged.guess import (
-    Guess,
-    shot,
-    straight,
-)
-from pontryagin.averaging.averaged.mesh import Mesh
+from pontryagin.averaging.averaged.extremals import extremals
+from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.validation import finite, vectors
 
-COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
-GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
-TAIL = 1e-13
-"""What the last coefficients may be, in shares of the variable."""
-LAST_TAIL, MOST_PANELS = 1e-9, 40
-"""What they may be where the mesh is not refined any more."""
-LEAST_SHARE = 1e-3
-AT_ONCE = 64
-"""Problems solved side by side; more take memory and no less time each."""
+if TYPE_CHECKING:
+    from pontryagin.averaging.averaged.reference import ReferenceExtremal
+    from pontryagin.averaging.system.phase_system import PhaseSystem
 
 
-@dataclass(frozen=True, eq=False)
-class Extremals:
-    """Averaged extremals of a stack (s).
+def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
+    """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
 
-    Attributes
+    The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
+    target along its straight line, or that continues the extremals to nearer levels of the target. It
+    satisfies the necessary conditions; where a system has several averaged extremals the others are not
+    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
+    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
+
+    Parameters
     ----------
-    edges : (s, panels + 1) array
-        Of the panels of tau / duration; a stack's members may have panels of no length at the end.
-    series : (s, panels, degree + 1, 2n + 1) array
-        Chebyshev coefficients on each of (xi, eta) and of the integral of omega over tau / duration.
-    duration, cost : (s) array
-    multipliers : (s, r) array
-        alpha.
-    certificate : MaximumPrinciple
-    """
-
-    edges: Array
-    series: Array
-    duration: Array
-    cost: Array
-    multipliers: Array
-    certificate: MaximumPrinciple
-
-
-def extremals(
-    model: Model, names: Sequence[str], start: Array, numbers: tuple[Array, ...], kappa: Array
-) -> Extremals:
-    """Solve a stack of problems: start (s, n), numbers and kappa (s).
+    system : PhaseSystem
+        Its numbers may be arrays.
+    start : (..., n) array
+        a_0; leading axes, with those of the numbers and of kappa, make a stack of problems.
+    kappa : (...) array
+        Member of the family of (2.11); other than zero to explore it.
 
     Raises
     ------
     ValueError
-        If the frequency is not positive on the way, or the running cost not positive on average.
-    Infeasible, NotConverged
-        See `solve_averaged`.
+        If the frequency is not positive all the way, the running cost is not positive on average, or an
+        input is not finite or wrongly shaped.
+    Infeasible
+        If the target cannot be reached: the mean drift opposes every control and exceeds it.
+    NotConverged
+        If no extremal was found, with what was left of the target.
+
+    Examples
+    --------
+    The rotating pendulum of `PhaseSystem` is sped up from the energy 2 to 5:
+
+    >>> import sympy as sp
+    >>> from pontryagin.averaging import PhaseSystem, Quadratic, solve_averaged
+    >>> a, x, u = sp.symbols("a x u", real=True)
+    >>> speed = sp.sqrt(2 * (a + sp.cos(x)))
+    >>> pendulum = PhaseSystem(f=[speed * (u - speed / 5)], anomaly_rate=speed, control_set=Quadratic(),
+    ...                        slow=[a], control=[u], phase=x, target=[a - 5])
+    >>> solution = solve_averaged(pendulum, [2.0])
+    >>> solution.certificate.holds(1e-10)
+    True
     """
-    groups: list[tuple[NDArray[np.intp], Extremals]] = []
-    level = np.zeros((len(start), model.target))
-    problem = Problem(model, start, level, kappa, numbers)
-    for first in range(0, len(start), AT_ONCE):
-        members = np.arange(first, min(first + AT_ONCE, len(start)))
-        groups += [(members[own], found) for own, found in _stack(problem[members], names, first)]
-    return _joined(len(start), groups)
+    from pontryagin.averaging.system.phase_system import PhaseSystem
 
-
-def _joined(stack: int, groups: list[tuple[NDArray[np.intp], Extremals]]) -> Extremals:
-    if not groups:
-        raise ValueError("start must hold at least one problem, got an empty stack")
-    panels = max(found.series.shape[1] for _, found in groups)
-    degree = max(found.series.shape[2] for _, found in groups)
-    edges = np.ones((stack, panels + 1))
-    series = np.zeros((stack, panels, degree, groups[0][1].series.shape[-1]))
-    duration, cost = np.empty(stack), np.empty(stack)
-    multipliers = np.empty((stack, groups[0][1].multipliers.shape[-1]))
-    residuals = np.empty((4, stack))
-    for members, found in groups:
-        edges[members, : found.edges.shape[1]] = found.edges
-        series[members, : found.series.shape[1], : found.series.shape[2]] = found.series
-        duration[members], cost[members] = found.duration, found.cost
-        multipliers[members] = found.multipliers
-        of = found.certificate
-        residuals[:, members] = [of.boundary, of.transversality, of.hamiltonian, of.maximality]
-    return Extremals(edges, series, duration, cost, multipliers, MaximumPrinciple(*residuals))
-
-
-def _stack(problem: Problem, names: Sequence[str], first: int) -> list[tuple[NDArray[np.intp], Extremals]]:
-    """Solve problems side by side; those that end on one mesh make a group."""
-    guess = straight(problem, COARSE)
-    there = _already_there(problem)
-    _require_sound(problem, guess, names, there, first)
-    paths = []
-    if there.any():
-        still = guess.path[there]
-        paths.append((np.nonzero(there)[0], Path(COARSE, still.z, 0 * still.duration, still.multipliers)))
-    if not there.all():
-        moving = np.nonzero(~there)[0]
-        path, closeness = newton(problem[moving], guess.path[moving])
-        failed = closeness > CLOSE
-        rest = moving[~failed]
-        paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
-        for member in moving[failed]:
-            one = problem[[member]]
-            again = _tried_harder(one, names, first + int(member))
-            paths += [(np.array([member]), p) for _, p in _resolved(one, again, np.array([first + member]))]
-    return [(members, _extremals(problem[members], path, names, first + members)) for members, path in paths]
-
-
-def _tried_harder(problem: Problem, names: Sequence[str], member: int) -> Path:
-    """Solve one problem (1) that Newton's method did not solve from the first guess."""
-    for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
-        if guess is not None:
-            path, closeness = newton(problem, guess)
-            if closeness[0] <= CLOSE:
-                return path
-    return _continued(problem, names, member)
-
-
-def _extremals(problem: Problem, path: Path, names: Sequence[str], members: NDArray[np.intp]) -> Extremals:
-    """The extremals of paths on one mesh, certified."""
-    n, mesh = problem.model.slow, path.mesh
-    certificate = certify(problem, path, names, members)
-    if not certificate.holds():
-        worst = int(np.argmax(np.nan_to_num(certificate.residual, nan=np.inf)))
-        raise NotConverged(
-            f"the averaged extremal does not satisfy the maximum principle{_which(problem, members[worst])}",
-            float(certificate.residual[worst]),
-        )
-    h, omega = problem.averaged(path.z)
-    running = np.einsum("ski,ski->sk", path.z[..., n:], h.gradient[..., n:]) - h.value
-    _, terminal = problem.model.ends(path.z[:, -1, :n], problem.numbers)
-    turned = (omega.value @ mesh.integrals.T)[..., None]
-    return Extremals(
-        edges=np.broadcast_to(np.array(mesh.edges), (len(path.z), mesh.panels + 1)),
-        series=mesh.series(np.concatenate([path.z, turned], axis=-1)),
-        duration=path.duration,
-        cost=terminal.value + path.duration * (running @ mesh.integrals[-1]),
-        multipliers=path.multipliers,
-        certificate=certificate,
+    if not isinstance(system, PhaseSystem):
+        raise ArgumentTypeError(f"system must be a PhaseSystem, got {system!r}", "system")
+    begin = vectors("start", start, len(system.slow))
+    names = tuple(str(symbol) for symbol in system.slow)
+    numbers = tuple(np.asarray(value) for value in system.numbers.values())
+    return solved(
+        system.model,
+        names,
+        begin,
+        numbers,
+        partial(_identity, system),
+        kappa=kappa,
     )
 
 
-def _resolved(problem: Problem, path: Path, members: NDArray[np.intp]) -> list[tuple[NDArray[np.intp], Path]]:
-    """Refine the mesh of the members that need it until their series end in rounding."""
-    groups = []
-    active = np.arange(len(path.duration))
-    while len(active):
-        tails = path.tails()
-        last = path.mesh.panels >= MOST_PANELS
-        settled = (tails <= (LAST_TAIL if last else TAIL)).all(axis=1)
-        if settled.any():
-            groups.append((active[settled], path[settled]))
-        active, path, tails = active[~settled], path[~settled], tails[~settled]
-        if not len(active):
-            break
-        if last:
-            raise NotConverged(
-                f"the averaged extremal is not smooth enough for {path.mesh.panels} panels"
-                f"{_which(problem, members[active[0]])}",
-                float(tails.max()),
-            )
-        coarse = path.mesh == COARSE
-        finer = FINE if coarse else path.mesh.bisected(np.asarray((tails > TAIL).any(axis=0)))
-        found, closeness = newton(problem[active], path.on(finer))
-        lost = closeness > CLOSE
-        good = lost & (tails <= LAST_TAIL).all(axis=1)
-        if good.any():
-            groups.append((active[good], path[good]))
-        path, active, lost = found[~good], active[~good], lost[~good]
-        if lost.any():
-            member = members[active[np.argmax(lost)]]
-            raise NotConverged(
-                f"Newton's method lost the extremal on {finer.panels} panels{_which(problem, member)}",
-                float(tails.max()),
-            )
-    return groups
-
-
-def _already_there(problem: Problem) -> NDArray[np.bool_]:
-    """Whether the start meets the target, which is then kept where g does not say otherwise."""
-    target, terminal = problem.model.ends(problem.start, problem.numbers)
-    return (target.value == problem.level).all(axis=1) & (terminal.gradient == 0).all(axis=1)
-
-
-def _require_sound(
-    problem: Problem, guess: Guess, names: Sequence[str], there: NDArray[np.bool_], first: int
-) -> None:
-    single = problem.model.slow == 1
-    seen = slice(None) if single else slice(0, 1)
-    dead = ~(guess.frequency[:, seen] > 0)
-    if dead.any():
-        member, place = (int(i[0]) for i in np.nonzero(dead))
-        raise ValueError(
-            f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
-            f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}"
+def solved(
+    model: Model,
+    names: tuple[str, ...],
+    start: Array,
+    numbers: tuple[Array, ...],
+    make_system: Callable[[], "PhaseSystem"],
+    *,
+    kappa: ArrayLike = 0.0,
+    initial_phase: ArrayLike = 0.0,
+    frame: Callable[[AveragedSolution], "ReferenceExtremal"] | None = None,
+) -> AveragedSolution:
+    """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
+    family = finite("kappa", kappa, "a number or an array (...)")
+    phase = np.asarray(initial_phase, dtype=float)
+    try:
+        shape = np.broadcast_shapes(
+            start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
         )
-    idle = ~(guess.idle < 0)
-    if idle.any():
-        member = int(np.nonzero(idle)[0][0])
-        name = (
-            "kappa must be less than the mean running cost over omega"
-            if problem.kappa[member]
-            else ("running_cost must be positive on average")
-        )
-        raise ValueError(
-            f"{name}, at the start the cost rate is {-guess.idle[member]:.6g}"
-            f"{_which(problem, first + member)}"
-        )
-    stuck = guess.stuck & ~there[:, None]
-    if single and stuck.any():
-        member, place = (int(i[0]) for i in np.nonzero(stuck))
-        raise Infeasible(
-            f"the target cannot be reached: at {_point(names, guess.slow[member, place])} the mean drift "
-            f"opposes every control and exceeds it{_which(problem, first + member)}"
-        )
-
-
-def _point(names: Sequence[str], values: Array) -> str:
-    return ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
-
-
-def _which(problem: Problem, member: int) -> str:
-    return f" (problem {member} of the stack)" if len(problem.start) > 1 else ""
-
-
-def _continued(problem: Problem, names: Sequence[str], member: int) -> Path:
-    """Solve one problem (1) by bringing its target from the start's level to the given one in steps."""
-    model = problem.model
-    target, _ = model.ends(problem.start, problem.numbers)
-    far = target.value - problem.level
-    done, share = 0.0, 0.25
-    known: list[tuple[float, Path]] = []
-    while done < 1:
-        at = min(1.0, done + share)
-        nearer = Problem(model, problem.start, problem.level + (1 - at) * far, problem.kappa, problem.numbers)
-        path, closeness = newton(nearer, _predicted(nearer, known, at))
-        if closeness[0] <= CLOSE:
-            known = [*known[-1:], (at, path)]
-            done, share = at, 2 * share
-            continue
-        share /= 2
-        if share < LEAST_SHARE:
-            reached = _point(names, known[-1][1].z[0, -1, : model.slow]) if known else "the start"
-            raise NotConverged(
-                f"no averaged extremal was found beyond {100 * done:.1f} % of the way to the target, "
-                f"at {reached}; it may be out of reach{_which(problem, member)}",
-                float(np.abs((1 - done) * far).max()),
-            )
-    return known[-1][1]
-
-
-def _predicted(problem: Problem, known: list[tuple[float, Path]], at: float) -> Path:
-    if not known:
-        return straight(problem, FINE).path
-    if len(known) == 1:
-        return known[0][1]
-    (earlier, first), (later, second) = known
-    more = (at - later) / (later - earlier)
-    duration = second.duration + more * (second.duration - first.duration)
-    return Path(
-        second.mesh,
-        second.z + more * (second.z - first.z),
-        np.where(duration > 0, duration, second.duration),
-        second.multipliers + more * (second.multipliers - first.multipliers),
+    except ValueError:
+        raise ArgumentValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
+    n = len(names)
+    each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
+    begin = np.broadcast_to(start, (*shape, n))
+    *flat_numbers, flat_kappa = (number.reshape(-1) for number in each)
+    found = extremals(model, names, begin.reshape(-1, n), tuple(flat_numbers), flat_kappa)
+    residuals = (
+        found.certificate.boundary,
+        found.certificate.transversality,
+        found.certificate.hamiltonian,
+        found.certificate.maximality,
     )
+    return AveragedSolution(
+        duration=found.duration.reshape(shape),
+        cost=found.cost.reshape(shape),
+        start=begin,
+        multipliers=found.multipliers.reshape(*shape, model.target),
+        kappa=each[-1],
+        certificate=MaximumPrinciple(*(residual.reshape(shape) for residual in residuals)),
+        names=names,
+        initial_phase=np.broadcast_to(phase, shape),
+        numbers=tuple(each[:-1]),
+        model=model,
+        edges=found.edges.reshape(*shape, -1),
+        series=found.series.reshape(*shape, *found.series.shape[1:]),
+        make_system=make_system,
+        frame=frame,
+    )
+
+
+def _identity(system: "PhaseSystem") -> "PhaseSystem":
+    return system

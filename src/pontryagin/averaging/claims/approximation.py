@@ -6,11 +6,12 @@ from scipy.integrate import solve_ivp
 
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.claims.optimum import closed
-from pontryagin.averaging.derivation import averaged, ripple
+from pontryagin.averaging.derivation import averaged, principle, ripple, smooth
 from pontryagin.averaging.derivation.averaged import kappa
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -23,7 +24,7 @@ n = sp.Symbol("n", integer=True, positive=True)
 
 
 @claim("after (2.16): Hamiltonian", "(2.11) is Hamilton's, and ωκ + (ηf0) constant", verdict="holds")
-def averaged_hamiltonian():
+def averaged_hamiltonian() -> Evidence:
     def argument() -> Steps:
         H = averaged.averaged_hamiltonian()
         forward, backward = averaged.rates()
@@ -45,7 +46,7 @@ def averaged_hamiltonian():
     "(2.12) may have several roots there, only one of them optimal: the example after (2.13) has τ1 = 1, 2 "
     "and 3, the second a maximum.",
 )
-def optimal_kappa():
+def optimal_kappa() -> Evidence:
     def argument() -> Steps:
         J, T = closed(ripple.cost()), closed(ripple.duration())
         yield "smooth example: κ = 0 has J0 = 2, τ1 = 1", J.subs(kappa, 0) == 2 and T.subs(kappa, 0) == 1
@@ -72,7 +73,7 @@ def optimal_kappa():
 
 
 @claim("after (2.16): (ηf0)", "at the optimum (ηf0) = 0 all along", verdict="holds")
-def zero_level():
+def zero_level() -> Evidence:
     def argument() -> Steps:
         yield "h0 = −ωκ along a member", vanishes(averaged.h0 + averaged.omega * averaged.integral())
         rate = averaged.along(averaged.h0, tuple(part.subs(kappa, 0) for part in averaged.rates()))
@@ -87,15 +88,15 @@ def zero_level():
     verdict="holds",
     remark="q by H* = 0, ψ by averaging, one more by (ηf0) = 0.",
 )
-def order():
+def order() -> Evidence:
     def argument() -> Steps:
         sizes = averaged.order(n)
         listed = list(sizes.values())
         yield "2n + 2, 2n + 1, 2n, 2n − 1", listed == [2 * n + 2, 2 * n + 1, 2 * n, 2 * n - 1]
-        costate = sp.solve(ripple.v * kappa + ripple.smooth.averaged_hamiltonian(), ripple.eta)
+        costate = sp.solve(smooth.v * kappa + smooth.averaged_hamiltonian(), smooth.eta)
         yield (
             "smooth example: (2.10) gives η as a function of v",
-            len(costate) == 2 and not any(root.has(ripple.eta) for root in costate),
+            len(costate) == 2 and not any(root.has(smooth.eta) for root in costate),
         )
 
     return Proof(argument)
@@ -107,18 +108,18 @@ def order():
     verdict="holds",
     remark="For one slow variable and the cost, on which no rate depends.",
 )
-def quadrature():
+def quadrature() -> Evidence:
     def argument() -> Steps:
         yield "the cost's costate is constant", averaged.cyclic_costate() == 0
-        force = ripple.smooth.averaged_hamiltonian().diff(ripple.eta)
-        rate = force.subs(ripple.eta, ripple.costate()).subs({kappa: 0, ripple.rise: 1})
-        T = sp.integrate(1 / rate, (ripple.v, ripple.v0, ripple.v1))
+        force = smooth.averaged_hamiltonian().diff(smooth.eta)
+        rate = force.subs(smooth.eta, ripple.costate()).subs({kappa: 0, ripple.rise: 1})
+        T = sp.integrate(1 / rate, (smooth.v, smooth.v0, smooth.v1))
         yield (
             "smooth example: τ1(0) = ∫dv/f0 = (v1 − v0)/√k",
             vanishes(
                 T
                 - ripple.duration().subs(
-                    {ripple.A0: sp.sqrt(ripple.k), ripple.A1: sp.sqrt(ripple.k), ripple.rise: 1}
+                    {ripple.A0: sp.sqrt(smooth.k), ripple.A1: sp.sqrt(smooth.k), ripple.rise: 1}
                 )
             ),
         )
@@ -131,12 +132,12 @@ def quadrature():
     "the slow variables are found apart from the phase, in slow time",
     verdict="holds",
 )
-def apart_from_the_phase():
+def apart_from_the_phase() -> Evidence:
     def argument() -> Steps:
         forward, backward = averaged.rates()
         yield (
             "their rates contain neither ψ nor ε",
-            not any(part.has(averaged.psi, averaged.principle.epsilon) for part in (*forward, *backward)),
+            not any(part.has(averaged.psi, principle.epsilon) for part in (*forward, *backward)),
         )
 
     return Proof(argument)
@@ -149,7 +150,7 @@ def apart_from_the_phase():
     remark="With the true phase ψ. The phase of (2.5) is off by O(1) and will not do where u0* depends on "
     "it.",
 )
-def first_approximation():
+def first_approximation() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             speed, phase = flown(eps)

@@ -11,6 +11,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -38,10 +39,10 @@ def smooth_instance(expression: sp.Expr, at: dict[sp.Symbol, sp.Expr]) -> sp.Exp
     remark="Printed: dη/dτ = −ω'ω⁻¹(ηf0) − (η∂f0/∂ξ). Right: +ω'ω⁻¹(ηf0), as in (2.1). With the print "
     "ω(ηf0) would be constant and not (2.10), which the paper derives from it.",
 )
-def averaged_system():
+def averaged_system() -> Evidence:
     forward, backward = r"\frac{d\xi_1}{d\tau}", r"\frac{d\eta_1}{d\tau}"
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rates = averaged.standard_rates()
         return {forward: rates[0][0], backward: rates[1][0]}
 
@@ -71,7 +72,7 @@ def averaged_system():
     "differentiation commute. With another anomaly x the weight dψ/dx must be in the mean before it is "
     "differentiated.",
 )
-def mean_rates():
+def mean_rates() -> Evidence:
     def argument() -> Steps:
         for variable, rest in zip((*xi, *eta), averaged.mean_and_derivative_commute(), strict=True):
             yield f"∂⟨h*⟩/∂{variable} = ⟨∂h*/∂{variable}⟩", rest == 0
@@ -86,7 +87,7 @@ def mean_rates():
     verdict="misprint",
     remark="Printed: η(τ1) = −(αM0'). Right: η(τ1) = −(g0' + αM0'), see (1.6).",
 )
-def end_conditions():
+def end_conditions() -> Evidence:
     key = r"\eta_2(\tau_1)"
     printed = -alpha * averaged.M.diff(xi[1])
 
@@ -115,7 +116,7 @@ def end_conditions():
     "the paper's example 1, least time: p(t1) = 1/x' at the anomaly where the motion ends, η(τ1) = 1/ω, and "
     "with the mass (1 + cos(x)/2)² they are as 3 to 2 for ε as small as one likes.",
 )
-def closeness():
+def closeness() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             off = worked.deviations(eps)["costate"]
@@ -156,7 +157,7 @@ def closeness():
     verdict="misprint",
     remark="Printed: q = +εω⁻¹(ηf0*). Right: q = −εω⁻¹(ηf0*), as the paper has after (2.1).",
 )
-def phase_costate():
+def phase_costate() -> Evidence:
     key = r"q/\varepsilon"
     first = principle.leading_h()
 
@@ -175,7 +176,7 @@ def phase_costate():
 
 
 @claim("(2.5): ψ", "ψ = (1/ε)∫ω(ξ)dτ + O(1)", verdict="holds")
-def phase():
+def phase() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             scan, off = worked.in_window(eps), worked.deviations(eps)["phase"]

@@ -11,6 +11,7 @@ from pontryagin.averaging.derivation.principle import psi
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -35,7 +36,7 @@ CHIRP = sp.sin(t + x * sp.sqrt(t))
     verdict="holds",
     remark="Shown on a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
 )
-def jumping_controls():
+def jumping_controls() -> Evidence:
     def argument() -> Steps:
         mean = sp.integrate(sp.cos(phi), (phi, -sp.pi / 2, sp.pi / 2)) / sp.pi
         yield "u* = sign(p cos ψ), h* = |p cos ψ| − 1, and ⟨|cos ψ|⟩ = 2/π", mean == 2 / sp.pi
@@ -61,7 +62,7 @@ def jumping_controls():
     verdict="holds",
     remark="Where the control jumps it is the instants that move, by the order of ε in the phase.",
 )
-def small_phase_costate():
+def small_phase_costate() -> Evidence:
     def argument() -> Steps:
         yield "q enters h as qF", principle.small_part().coeff(principle.q) == principle.F
         switching = p * sp.cos(psi) + q * sp.sin(psi)
@@ -81,7 +82,7 @@ def small_phase_costate():
     "ψ and t correspond one to one, and division by ψ' gives a standard system",
     verdict="holds",
 )
-def division():
+def division() -> Evidence:
     def argument() -> Steps:
         bound, floor = sp.symbols("C omega_0", positive=True)
         slowest = (floor - epsilon * bound).subs(epsilon, floor / (2 * bound))
@@ -122,10 +123,9 @@ def gronwall() -> sp.Expr:
     remark="True where the second limit is uniform in r_k too. For each r_k by itself it follows from the "
     "first and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = 0, and x moves from 2 to "
     "about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in t, as division by ψ' gives, has "
-    "the "
-    "uniform limit if ∫(X − X0)dt is Lipschitz in x.",
+    "the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
 )
-def averaging_theorem():
+def averaging_theorem() -> Evidence:
     def argument() -> Steps:
         yield "y = x − εW, W = ∫(X − X0)dt, has y' = εX0 − ε²W_xX", near_identity() == 0
         yield (
@@ -180,7 +180,7 @@ def averaging_theorem():
     "the theorem does not give |x − ξ| ~ ε",
     verdict="holds",
 )
-def no_order():
+def no_order() -> Evidence:
     def argument() -> Steps:
         moved = sp.integrate(1 / sp.sqrt(1 + t), (t, 0, T))
         yield "X = (1 + t)^(−1/2) has X0 = 0", sp.limit(moved / T, T, sp.oo) == 0
@@ -196,11 +196,10 @@ def no_order():
     "with ∫Z dt differentiable in x and |N| ≤ d0/T, |x − ξ| ≤ dε",
     verdict="conditional",
     remark="True where the derivative of ∫Z dt by x is bounded, as it is for X periodic in t. It need not "
-    "be: "
-    "X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
+    "be: X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
     "|x − ξ| is of the order √ε.",
 )
-def sharper_estimate():
+def sharper_estimate() -> Evidence:
     def argument() -> Steps:
         yield "y = x − εW has y' = εX0 − ε²W_xX", near_identity() == 0
         d0, B, C, rate, L = sp.symbols("d_0 B C lambda L", positive=True)
@@ -253,7 +252,7 @@ def drifted(small: float) -> float:
     "canonical averaging gives further approximations in powers of ε",
     verdict="holds",
 )
-def higher_approximations():
+def higher_approximations() -> Evidence:
     def argument() -> Steps:
         h = ripple.maximum().subs(smooth.x, correction.x)
         k1, k2 = correction.anomaly_hamiltonian(h, sp.S.Zero, smooth.v)

@@ -11,6 +11,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -21,7 +22,7 @@ claim = Page("Akulenko 1977")
 
 R = sp.Rational
 first = principle.leading_h()
-KAPPA = ripple.kappa
+KAPPA = smooth.kappa
 
 
 def smooth_instance(expression: sp.Expr) -> sp.Expr:
@@ -32,11 +33,11 @@ def smooth_instance(expression: sp.Expr) -> sp.Expr:
 
 
 @claim("(2.1): a'", "the slow variables to the leading order: f at q = 0, ε = 0", verdict="holds")
-def slow_rate():
+def slow_rate() -> Evidence:
     key = r"\dot a_1/\varepsilon"
     held = principle.leading(principle.u_star)
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         small = {q: epsilon * sp.Symbol("q_1"), u: principle.u_star}
         rate = (principle.rates()[0] / epsilon).subs(u, principle.u_star).subs(q, small[q])
         return {key: rate.subs(epsilon, 0)}
@@ -56,7 +57,7 @@ def slow_rate():
     remark="Printed: −εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a. Right: +εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a, as −ω'q with "
     "q = −εω⁻¹(pf0*) of the line below it gives; (2.11) with (2.10) has the right sign.",
 )
-def costate_rate():
+def costate_rate() -> Evidence:
     key = r"\dot p_1/\varepsilon"
     printed = -omega.diff(a[0]) / omega * first - first.diff(a[0])
 
@@ -80,7 +81,7 @@ def costate_rate():
 
 
 @claim("after (2.1): q", "q = −εω⁻¹(pf0*) + O(ε²)", verdict="holds")
-def phase_costate():
+def phase_costate() -> Evidence:
     key = r"q/\varepsilon"
     return Equality(
         {key: -first / omega},
@@ -90,7 +91,7 @@ def phase_costate():
 
 
 @claim("after (2.1): remainders", "f1, P1 and Q1 are bounded, and may be dropped", verdict="holds")
-def remainders():
+def remainders() -> Evidence:
     def argument() -> Steps:
         second = principle.phase_costate()[1]
         numerator, denominator = sp.fraction(sp.together(second))
@@ -110,18 +111,18 @@ def remainders():
     "t1 as the parameter: for each t1 the problem without (2.2) has one solution",
     verdict="conditional",
     remark="An assumption of the paper, not met by its own example 1: there the motion of least time does "
-    "not "
-    "depend on the member at all, and a solution exists for one t1 only. In the smooth example, rippled or "
-    "not, it is met as long as v does not overshoot. A parameter that always runs is the phase at the end.",
+    "not depend on the member at all, and a solution exists for one t1 only. In the smooth example, rippled "
+    "or not, it is met as long as v does not overshoot. A parameter that always runs is the phase at the "
+    "end.",
 )
-def one_solution_for_each_end():
+def one_solution_for_each_end() -> Evidence:
     def argument() -> Steps:
         T = ripple.of_kappa(ripple.duration()).subs({ripple.rise: 1})
-        start, end = ripple.v0, ripple.v1
+        start, end = smooth.v0, smooth.v1
         halves = (end - start) * (
-            start / sp.sqrt(ripple.k - KAPPA * start) + end / sp.sqrt(ripple.k - KAPPA * end)
+            start / sp.sqrt(smooth.k - KAPPA * start) + end / sp.sqrt(smooth.k - KAPPA * end)
         )
-        whole = (sp.sqrt(ripple.k - KAPPA * start) + sp.sqrt(ripple.k - KAPPA * end)) ** 2
+        whole = (sp.sqrt(smooth.k - KAPPA * start) + sp.sqrt(smooth.k - KAPPA * end)) ** 2
         rest = T.diff(KAPPA) * whole - halves
         yield (
             "smooth example: dτ1/dκ = (v1 − v0)(v0/A0 + v1/A1)/(A0 + A1)² > 0, one κ for each τ1",
@@ -148,7 +149,7 @@ def one_solution_for_each_end():
 
 
 @claim("(2.2)", "h* = (pf*) = 0 at t1 picks the extremals", verdict="holds")
-def condition():
+def condition() -> Evidence:
     def argument() -> Steps:
         level = omega * q + epsilon * principle.h_star
         yield (
@@ -168,11 +169,10 @@ def condition():
     "where the root is unique, the solution of the boundary value problem is the optimum",
     verdict="conditional",
     remark="True where an optimum exists and is normal, as the form of (1.6) supposes: it is an extremal, "
-    "and "
-    "there is one. An abnormal optimum is no root: a1' = εu², a2' = ε(1 + 2u), |u| ≤ 1, least time from 0 to "
-    "a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, and the one root has J = 3.",
+    "and there is one. An abnormal optimum is no root: a1' = εu², a2' = ε(1 + 2u), |u| ≤ 1, least time from "
+    "0 to a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, and the one root has J = 3.",
 )
-def one_root():
+def one_root() -> Evidence:
     control, first_costate, second_costate = sp.symbols("u p_1 p_2", real=True)
     h = first_costate * control**2 + second_costate * (1 + 2 * control) - 1
 
@@ -182,19 +182,19 @@ def one_root():
         yield (
             "smooth example: dJ0/dκ = κ dΨ/dκ",
             vanishes(
-                sp.simplify((J.diff(KAPPA) - KAPPA * Psi.diff(KAPPA)).subs({ripple.v0: 1, ripple.v1: 2}))
+                sp.simplify((J.diff(KAPPA) - KAPPA * Psi.diff(KAPPA)).subs({smooth.v0: 1, smooth.v1: 2}))
             ),
         )
         T, gap = sp.symbols("T Delta", positive=True)
-        least = 2 * gap * sp.sqrt(ripple.k)
-        square = (sp.sqrt(ripple.k * T) - gap / sp.sqrt(T)) ** 2
+        least = 2 * gap * sp.sqrt(smooth.k)
+        square = (sp.sqrt(smooth.k * T) - gap / sp.sqrt(T)) ** 2
         yield (
             "h* at the end, −κv1, has the one root κ = 0; its J = 2|Δv|√k",
-            vanishes(J.subs(KAPPA, 0) - 2 * sp.sqrt(ripple.k) * (ripple.v1 - ripple.v0)),
+            vanishes(J.subs(KAPPA, 0) - 2 * sp.sqrt(smooth.k) * (smooth.v1 - smooth.v0)),
         )
         yield (
             "and no control does better: kT + Δv²/T is 2|Δv|√k and a square",
-            vanishes(sp.expand(ripple.k * T + gap**2 / T - least - square)),
+            vanishes(sp.expand(smooth.k * T + gap**2 / T - least - square)),
         )
 
     def counterexample() -> Steps:

@@ -3,6 +3,7 @@
 import numpy as np
 import sympy as sp
 
+from pontryagin.arrays import Array
 from pontryagin.averaging.claims import instances, worked
 from pontryagin.averaging.derivation import averaged, ripple, rotor, smooth
 from pontryagin.averaging.derivation.averaged import eta, h0, kappa, omega, xi
@@ -10,6 +11,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -21,7 +23,7 @@ R = sp.Rational
 
 
 @claim("(2.10)", "κ = −(ηf0)/ω is constant along (2.3)", verdict="holds", remark="With (2.3) as corrected.")
-def integral():
+def integral() -> Evidence:
     def argument() -> Steps:
         yield "its rate along (2.3) is 0", averaged.along(averaged.integral(), averaged.standard_rates()) == 0
 
@@ -39,7 +41,7 @@ def integral():
     verdict="holds",
     remark="f0 itself depends on η; the identity is the envelope's, or Euler's for the degree one.",
 )
-def envelope():
+def envelope() -> Evidence:
     def argument() -> Steps:
         product = sum(y * h0.diff(y) for y in eta)
         for i, y in enumerate(eta):
@@ -54,7 +56,7 @@ def envelope():
     "the mean of q is εκ, constant up to O(ε²) over times of the order of 1/ε",
     verdict="holds",
 )
-def mean_of_q():
+def mean_of_q() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             means = turn_means(eps)
@@ -70,7 +72,7 @@ def mean_of_q():
     return Proof(argument)
 
 
-def turn_means(eps: float) -> np.ndarray:
+def turn_means(eps: float) -> Array:
     """Time means of q/epsilon = -h*/v over the whole turns of the optimal motion."""
     motion = worked.optimum(eps)
     rate = -worked.level(motion["x"], motion["p"]) / motion["v"]
@@ -78,11 +80,11 @@ def turn_means(eps: float) -> np.ndarray:
     total = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * steps)])
     turns = 2 * np.pi * np.arange(int(motion["x"][-1] // (2 * np.pi)) + 1)
     work, time = (np.interp(turns, motion["x"], values) for values in (total, motion["tau"]))
-    return np.diff(work) / np.diff(time)
+    return np.asarray(np.diff(work) / np.diff(time))
 
 
 @claim("(2.11)", "averaged system with κ as a parameter", verdict="holds")
-def with_kappa():
+def with_kappa() -> Evidence:
     forward, backward = r"\frac{d\xi_1}{d\tau}", r"\frac{d\eta_1}{d\tau}"
     return Equality(
         {forward: h0.diff(eta[0]), backward: -omega.diff(xi[0]) * kappa - h0.diff(xi[0])},
@@ -93,7 +95,7 @@ def with_kappa():
 
 
 @claim("after (2.10): equivalent", "(2.3) and (2.11) with (2.12) are the same", verdict="holds")
-def equivalent():
+def equivalent() -> Evidence:
     def argument() -> Steps:
         backward = averaged.rates()[1].subs(kappa, averaged.integral())
         yield "(2.11) with κ from (2.10) is (2.3)", vanishes(backward - averaged.standard_rates()[1])
@@ -108,17 +110,17 @@ def equivalent():
 
 
 @claim("(2.12)", "ωκ + (ηf0) = 0 at τ1 ties κ to τ1", verdict="holds")
-def end_level():
+def end_level() -> Evidence:
     key = r"\tau_1(\kappa)"
     rising = {ripple.rise: 1}
 
     def argument() -> Steps:
         xi_of, eta_of = smooth.averaged_solution()
-        level = ripple.v1 * kappa + smooth.averaged_hamiltonian().subs(
+        level = smooth.v1 * kappa + smooth.averaged_hamiltonian().subs(
             smooth.eta, eta_of.subs(smooth.tau, smooth.T)
         )
         length = ripple.of_kappa(ripple.duration()).subs(rising)
-        numbers = {smooth.gap: -1, ripple.v0: 1, ripple.v1: 2, smooth.k: 1, smooth.v1: 2}
+        numbers = {smooth.gap: -1, smooth.v0: 1, smooth.v1: 2, smooth.k: 1, smooth.v1: 2}
         tried = level.subs(smooth.T, length).subs(numbers).subs(kappa, R(7, 32))
         yield (
             "smooth example, v from 1 to 2, κ = 7/32: the level at τ1(κ) is 0",
@@ -127,7 +129,7 @@ def end_level():
         start = xi_of.subs(smooth.tau, 0).subs(numbers)
         yield "and the motion starts at v = 1", vanishes(start - 1)
 
-    closed = 2 * (ripple.v1 - ripple.v0) / (ripple.A0 + ripple.A1)
+    closed = 2 * (smooth.v1 - smooth.v0) / (ripple.A0 + ripple.A1)
     return Proof(
         argument,
         Equality({key: closed}, lambda: {key: ripple.duration().subs(rising)}),
@@ -143,7 +145,7 @@ def end_level():
     "dΨ/dκ > 0 and one root. In the paper's example 1, least time, (2.13) itself fails: the motion does not "
     "depend on κ, Ψ = (a1 − a0)/u0, and κ is no parameter at all.",
 )
-def roots_near_every_kappa():
+def roots_near_every_kappa() -> Evidence:
     def argument() -> Steps:
         Psi = ripple.of_kappa(ripple.turned()).subs(worked.NUMBERS)
         low, high = worked.window()
@@ -165,9 +167,9 @@ def roots_near_every_kappa():
         slope = sp.simplify(Psi.diff(kappa)).subs(kappa, R(7, 32))
         yield f"smooth example at κ = 7/32: dΨ/dκ = {sp.N(slope, 4)}", slope.is_positive
         flat = (
-            smooth.maximum().subs(smooth.eta, ripple.costate().subs(ripple.rise, 1)).subs(smooth.v, ripple.v1)
+            smooth.maximum().subs(smooth.eta, ripple.costate().subs(ripple.rise, 1)).subs(smooth.v, smooth.v1)
         )
-        left = sp.simplify(flat).subs({kappa: R(7, 32), ripple.v1: 2})
+        left = sp.simplify(flat).subs({kappa: R(7, 32), smooth.v1: 2})
         yield f"but h* at the end is {left} for every ε, and 0 at κ = 0 alone", left == R(-7, 16)
         turned = sp.integrate(1, (rotor.a, instances.a0, instances.a1))
         yield (
@@ -188,17 +190,16 @@ def roots_near_every_kappa():
     "to minimise J0 over τ1 is to minimise it over κ with (2.12)",
     verdict="conditional",
     remark="Where τ1(κ) is one function. (2.12) can have several branches, and κ = 0 a root on each: v' = "
-    "εu, "
-    "s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
+    "εu, s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
 )
-def over_kappa():
+def over_kappa() -> Evidence:
     def argument() -> Steps:
         rising = {ripple.rise: 1}
         T = ripple.of_kappa(ripple.duration()).subs(rising)
-        slope = T.diff(kappa).subs({ripple.v0: 1, ripple.v1: 2, ripple.k: 1})
+        slope = T.diff(kappa).subs({smooth.v0: 1, smooth.v1: 2, smooth.k: 1})
         yield "smooth example: dτ1/dκ > 0, at κ = 0 it is 3/4", vanishes(slope.subs(kappa, 0) - R(3, 4))
         J, Psi = (ripple.of_kappa(form()).subs(rising) for form in (ripple.cost, ripple.turned))
-        numbers = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1}
+        numbers = {smooth.v0: 1, smooth.v1: 2, smooth.k: 1}
         yield (
             "and dJ0/dτ1 = κ(dΨ/dκ)/(dτ1/dκ) is 0 where dJ0/dκ is",
             vanishes(sp.simplify((J.diff(kappa) - kappa * Psi.diff(kappa)).subs(numbers))),

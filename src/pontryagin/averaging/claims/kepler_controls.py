@@ -22,6 +22,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -40,11 +41,11 @@ p = parameter()
     verdict="holds",
     remark="The thrust lies along the velocity.",
 )
-def controls_on_the_optimum():
+def controls_on_the_optimum() -> Evidence:
     keys = ("u_r^*", r"u_\varphi^*")
     printed = (costate_energy * v_radial / 2, costate_energy * v_transverse / 2)
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         best = principle.maximiser()
         return dict(zip(keys, (best[u].subs(OPTIMUM) for u in kepler.CONTROL), strict=True))
 
@@ -62,7 +63,7 @@ def controls_on_the_optimum():
     remark="With the controls (3.8), with either sign in (3.6), to O(ε/e); a constant u_r = 1 would turn the "
     "orbit at the mean rate εp^(1/2).",
 )
-def pericentre_stays():
+def pericentre_stays() -> Evidence:
     def argument() -> Steps:
         rate = kepler.element_rates()[gamma] / epsilon
         best = {u: principle.maximiser()[u].subs(kepler.conic()) for u in kepler.CONTROL}
@@ -88,14 +89,14 @@ def pericentre_stays():
     remark="Printed: v_r = ε p⁻¹ K sin(φ − γ0), with the small parameter. Right: the eccentricity e, as in "
     "v_φ beside it and in the remark u_r ~ e below. As printed the energy is not E.",
 )
-def velocity():
+def velocity() -> Evidence:
     keys = ("v_r", r"v_\varphi")
     printed = (
         epsilon * p**-1 * momentum * sp.sin(anomaly),
         p**-1 * momentum * (1 + e * sp.cos(anomaly)),
     )
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         return dict(zip(keys, (kepler.conic()[v] for v in (v_radial, v_transverse)), strict=True))
 
     def consequence() -> Consequence:
@@ -123,7 +124,7 @@ def velocity():
     remark="With the square in E(τ). Then EK² is constant, and with it e: the orbit keeps its shape and p = "
     "p0E0/E. The printed E(τ) would change e² from 1/2 to 3/4 for E0 = −1, E1 = −4, l = 2, K0 = 1/2.",
 )
-def shape_on_the_optimum():
+def shape_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         found = solution()
         squared = kepler.eccentricity() ** 2
@@ -149,7 +150,7 @@ def shape_on_the_optimum():
     remark="u_r* = ∓(l/(1 − e²))^(1/2) e sin x. What the first approximation leaves out is O(ε), so this is "
     "the leading term where e ≫ ε.",
 )
-def radial_control():
+def radial_control() -> Evidence:
     def argument() -> Steps:
         radial = kepler_optimum.thrust_on_the_way()[0]
         size = sp.sqrt(price / (1 - e**2))
@@ -163,7 +164,7 @@ def radial_control():
                 sp.limit(radial / e, e, 0) - kepler_optimum.direction * sp.sqrt(price) * sp.sin(anomaly)
             ),
         )
-        excess = kepler_phase.from_eccentric(kepler_optimum.ripple().diff(kepler_phase.eccentric))
+        excess = kepler_phase.from_eccentric(kepler_optimum.ripple().diff(kepler.eccentric))
         yield "h* is O(e) on the optimum, which makes up for 1/e in ψ'", vanishes(excess.subs(e, 0))
 
     return Proof(argument, display=r"u_r^* \sim e")
@@ -176,7 +177,7 @@ def radial_control():
     remark="More is true: u_φ* = ∓(l/(1 − e²))^(1/2) (1 + e cos x), and e is constant: the slowly varying "
     "function is constant, the thrust depends on the place on the orbit only, and ⟨u²⟩ = l.",
 )
-def transverse_control():
+def transverse_control() -> Evidence:
     def argument() -> Steps:
         radial, transverse = kepler_optimum.thrust_on_the_way()
         size = sp.sqrt(price / (1 - e**2))

@@ -23,6 +23,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -49,7 +50,7 @@ PLACE = {u_radial: 1, u_transverse: 0, epsilon: 1, momentum: 1, e: R(1, 2), anom
     remark="For 0 < e < 1. Slow are E, K and γ, the phase is ψ; the rates of γ and ψ grow as 1/e near the "
     "circle.",
 )
-def standard_form():
+def standard_form() -> Evidence:
     def argument() -> Steps:
         rates = kepler.element_rates()
         slow = [rates[key] / epsilon for key in (energy, momentum, gamma)]
@@ -70,10 +71,10 @@ def standard_form():
 
 
 @claim("(3.6): E and K", "how thrust changes energy and angular momentum", verdict="holds")
-def energy_and_momentum():
+def energy_and_momentum() -> Evidence:
     keys = (r"\dot E", r"\dot K")
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rates = map(kepler.along_the_motion, (kepler.energy_of_state(), kepler.momentum_of_state()))
         return dict(zip(keys, rates, strict=True))
 
@@ -98,7 +99,7 @@ def radius_rate(pericentre: sp.Expr) -> sp.Expr:
     "affected: γ' enters neither (3.8) nor the averages of E and K, and the mean of u_r* cos x, odd in x, is "
     "0 with either sign. Corrections beyond the first approximation are.",
 )
-def pericentre():
+def pericentre() -> Evidence:
     key = r"\dot\gamma"
 
     def consequence() -> Consequence:
@@ -122,7 +123,7 @@ def pericentre():
     verdict="holds",
     remark="With the right γ'. The braces are −(1 − e²)^(1/2) (2 + e cos x) sin x (1 + e cos x)^(−2).",
 )
-def phase_rate():
+def phase_rate() -> Evidence:
     key = r"\dot\psi"
     first = (1 + e) * (1 + e * cos) ** -1 * sin * (sp.sqrt(1 - e) * (1 + e) ** R(-1, 2)).diff(e)
     second = (e * sp.sqrt(1 - e**2) * (1 + e * cos) ** -1).diff(e) * sin
@@ -144,7 +145,7 @@ def phase_rate():
     remark="e cos x = r v_φ² − 1 and e sin x = r v_φ v_r give e and x; then γ = φ − x, and ψ by (3.5). For "
     "e > 0.",
 )
-def initial_data():
+def initial_data() -> Evidence:
     def argument() -> Steps:
         state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]
         on_orbit = [kepler.on_the_orbit(part) for part in state]
@@ -165,7 +166,7 @@ def initial_data():
 
 
 @claim("after (3.6): e and p", "how thrust changes eccentricity and focal parameter", verdict="holds")
-def eccentricity_and_parameter():
+def eccentricity_and_parameter() -> Evidence:
     keys = (r"\dot e", r"\dot p")
     bracket = (e * (1 + cos**2) + 2 * cos) * (1 + e * cos) ** -1
     printed = (
@@ -173,7 +174,7 @@ def eccentricity_and_parameter():
         2 * epsilon * sp.sqrt(p) ** 3 * u_transverse * (1 + e * cos) ** -1,
     )
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rates = kepler.element_rates()
         return dict(zip(keys, (rates[e], p.diff(momentum) * rates[momentum]), strict=True))
 

@@ -24,6 +24,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -44,7 +45,7 @@ CIRCLE = {energy: -R(1, 2), momentum: 1}
 @claim(
     "(3.3)", "controlled motion in the plane of a gravitating centre, in polar coordinates", verdict="holds"
 )
-def equations_of_motion():
+def equations_of_motion() -> Evidence:
     keys = (r"\dot r", r"\dot\varphi", r"\dot v_r", r"\dot v_\varphi")
     printed = (
         v_radial,
@@ -59,7 +60,7 @@ def equations_of_motion():
 
 
 @claim("after (3.3): ε = 0", "for ε = 0 the system is integrable", verdict="holds")
-def integrable():
+def integrable() -> Evidence:
     def argument() -> Steps:
         coast = [kepler.along_the_motion(part).subs(COAST) for part in kepler.laplace()]
         yield "both components of Laplace's vector are constant without thrust", all(map(vanishes, coast))
@@ -77,7 +78,7 @@ def integrable():
 
 
 @claim("(3.4): E and K", "the energy and the angular momentum as integrals", verdict="holds")
-def integrals():
+def integrals() -> Evidence:
     def argument() -> Steps:
         for name, integral in (("½(v_r² + v_φ²) − 1/r", PRINTED_ENERGY), ("r v_φ", r * v_transverse)):
             yield (
@@ -91,7 +92,7 @@ def integrals():
 
 
 @claim("(3.4): orbit", "the orbit as a conic in the true anomaly", verdict="holds")
-def conic():
+def conic() -> Evidence:
     return Equality(
         {"r": p * (1 + e * sp.cos(anomaly)) ** -1},
         lambda: {"r": kepler.conic()[r]},
@@ -100,7 +101,7 @@ def conic():
 
 
 @claim("(3.4): ξ", "the radius in the eccentric anomaly", verdict="holds")
-def radius_in_the_eccentric_anomaly():
+def radius_in_the_eccentric_anomaly() -> Evidence:
     return Equality(
         {"r": R(1, 2) * sp.Abs(energy) ** -1 * (1 - e * sp.cos(eccentric))},
         lambda: {"r": kepler.ellipse_radius()},
@@ -109,7 +110,7 @@ def radius_in_the_eccentric_anomaly():
 
 
 @claim("(3.4): time", "Kepler's equation: the time in the eccentric anomaly", verdict="holds")
-def kepler_equation():
+def kepler_equation() -> Evidence:
     return Equality(
         {r"t + \delta": PRINTED_TIME},
         lambda: {r"t + \delta": kepler.time_of_flight()},
@@ -118,7 +119,7 @@ def kepler_equation():
 
 
 @claim("after (3.4): p", "the focal parameter is K²", verdict="holds")
-def focal_parameter():
+def focal_parameter() -> Evidence:
     return Equality({"p": momentum**2}, lambda: {"p": parameter()})
 
 
@@ -129,7 +130,7 @@ def focal_parameter():
     remark="True unless E = −1/(2K²), the least energy there is for K. That is the circle: e = 0, γ is not "
     "defined and (3.6) divides by zero. There use e cos γ, e sin γ for e, γ.",
 )
-def eccentricity():
+def eccentricity() -> Evidence:
     def argument() -> Steps:
         K = momentum
         room = PRINTED_ECCENTRICITY**2
@@ -152,7 +153,7 @@ def eccentricity():
 
 
 @claim("after (3.4): γ, δ", "x = φ − γ; γ and δ are arbitrary constants", verdict="holds")
-def arbitrary_constants():
+def arbitrary_constants() -> Evidence:
     def argument() -> Steps:
         rates = kepler.equations_of_motion()
         yield "the equations hold neither φ nor t: an orbit may be turned and delayed", not rates.has(phi, t)
@@ -172,7 +173,7 @@ def arbitrary_constants():
     verdict="holds",
     remark="For E < 0.",
 )
-def bounded_and_periodic():
+def bounded_and_periodic() -> Evidence:
     def argument() -> Steps:
         radius = kepler.ellipse_radius()
         ends = [radius.subs(eccentric, angle) for angle in (0, sp.pi)]
@@ -190,7 +191,7 @@ def bounded_and_periodic():
 
 
 @claim("after (3.4): T(E)", "the period", verdict="holds")
-def period():
+def period() -> Evidence:
     return Equality(
         {"T(E)": PRINTED_PERIOD},
         lambda: {"T(E)": kepler.period()},
@@ -199,7 +200,7 @@ def period():
 
 
 @claim("before (3.5): 2π", "φ grows by 2π in a period", verdict="holds")
-def full_turn():
+def full_turn() -> Evidence:
     def argument() -> Steps:
         psi = kepler_phase.mean_of_true()
         yield "ψ(x) has the slope dψ/dx of (3.5)", vanishes(psi.diff(anomaly) - kepler.weight())
@@ -213,7 +214,7 @@ def full_turn():
 
 
 @claim("(3.5)", "the true anomaly in terms of the mean anomaly ψ", verdict="holds")
-def true_and_mean_anomaly():
+def true_and_mean_anomaly() -> Evidence:
     keys = (r"d(x - \psi)/dx", r"\psi")
     bracket = (1 - e**2) ** R(3, 2) / (1 + e * sp.cos(anomaly)) ** 2 - 1
     printed = (-bracket, 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME)
@@ -226,7 +227,7 @@ def true_and_mean_anomaly():
         )
         yield "and t + δ with them", kepler.time_of_flight().subs(eccentric, 0) == 0
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         return dict(zip(keys, (1 - kepler.weight(), kepler_phase.mean_anomaly()), strict=True))
 
     return Proof(

@@ -24,6 +24,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -58,7 +59,7 @@ def left_over(variable: sp.Symbol, path: sp.Expr) -> sp.Expr:
     remark="With E(τ) put right. J0 = 2lτ1, and by Cauchy and Schwarz no control of the averaged system "
     "costs less: the extremal is its global minimum.",
 )
-def explicit_solution():
+def explicit_solution() -> Evidence:
     def argument() -> Steps:
         found = solution()
         for name, variable in (("E", energy), ("K", momentum), ("p_E", costate_energy)):
@@ -110,7 +111,7 @@ def explicit_solution():
     "neither dE/dτ = −p_E E nor EK² = const is satisfied. τ1, ρ, p_E, K and the controls are those of the "
     "square.",
 )
-def energy_on_the_optimum():
+def energy_on_the_optimum() -> Evidence:
     def consequence() -> Consequence:
         ends = [path.subs(tau, duration).subs(SPENT) for path in (PRINTED_ENERGY, solution()[energy])]
         if ends[1] != DESCENT[energy1]:
@@ -128,7 +129,7 @@ def energy_on_the_optimum():
 
 
 @claim("(3.9): p_E", "the costate of the energy on the optimum", verdict="holds")
-def costate_on_the_optimum():
+def costate_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         yield "dp_E/dτ = ½ p_E²", vanishes(left_over(costate_energy, PRINTED_COSTATE))
         yield "p_E(τ1) = −ρ", vanishes(PRINTED_COSTATE.subs(tau, duration) + rho)
@@ -138,7 +139,7 @@ def costate_on_the_optimum():
 
 
 @claim("(3.9): K", "the angular momentum on the optimum", verdict="holds")
-def momentum_on_the_optimum():
+def momentum_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         yield "dK/dτ = ½ p_E K", vanishes(left_over(momentum, PRINTED_MOMENTUM))
         yield "K(0) = K0", vanishes(PRINTED_MOMENTUM.subs(tau, 0) - momentum0)
@@ -152,7 +153,7 @@ def momentum_on_the_optimum():
 
 
 @claim("(3.9): τ1", "the duration of the optimum in slow time", verdict="holds")
-def duration_of_the_optimum():
+def duration_of_the_optimum() -> Evidence:
     printed = sp.sqrt(2) * sp.Abs(sp.Abs(energy1) ** R(1, 2) - sp.Abs(energy0) ** R(1, 2)) * price ** R(-1, 2)
     return Equality(
         {r"\tau_1": printed},
@@ -167,7 +168,7 @@ def duration_of_the_optimum():
     verdict="holds",
     remark="For E1 ≠ E0. ρ > 0 on the way down (|E1| > |E0|): p_E < 0, the thrust brakes.",
 )
-def rho_with_its_sign():
+def rho_with_its_sign() -> Evidence:
     def argument() -> Steps:
         ending = 1 - kepler_optimum.terminal_costate() * kepler_optimum.optimal_duration() / 2
         for E0, E1, size in ((-1, -4, 1), (-4, -1, -2)):

@@ -33,6 +33,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -55,7 +56,7 @@ SAMPLE = {energy: -R(1, 2), momentum: R(1, 2), p_E: 1, p_K: 1, price: 1, kappa: 
     remark="For E1 < 0. E1 = 0 is not of that form: ω(E1) = 0, against ω ≥ ω0 > 0 in (1.1), and (3.9) "
     "divides by E1. τ1 stays finite, but K and the period grow beyond all bounds on the way.",
 )
-def problem():
+def problem() -> Evidence:
     def argument() -> Steps:
         motion = kepler.mean_motion()
         slope = motion.diff(energy)
@@ -105,7 +106,7 @@ def problem():
     "the angle does not enter the right-hand sides, so its costate vanishes identically",
     verdict="holds",
 )
-def costate_of_the_pericentre():
+def costate_of_the_pericentre() -> Evidence:
     def argument() -> Steps:
         H = principle.hamiltonian()
         yield "H holds neither γ nor φ: p_γ is constant", not H.has(gamma, phi)
@@ -126,7 +127,7 @@ def phase_influence() -> sp.Matrix:
     verdict="holds",
     remark="For 0 < e < 1: H = 0 gives it, whatever the time; p_ψ' = O(ε) alone would leave O(1).",
 )
-def costate_of_the_phase():
+def costate_of_the_phase() -> Evidence:
     def argument() -> Steps:
         H = principle.hamiltonian().subs(costate_pericentre, 0)
         yield "H is affine in p_ψ", vanishes(H.diff(costate_phase, 2))
@@ -148,7 +149,7 @@ def costate_of_the_phase():
 
 
 @claim("(3.8)", "the optimal control of the first approximation", verdict="holds")
-def optimal_control():
+def optimal_control() -> Evidence:
     keys = ("u_r^*", r"u_\varphi^*")
     printed = (p_E * v_radial / 2, (p_E * v_transverse + p_K * r) / 2)
     return Equality(
@@ -159,7 +160,7 @@ def optimal_control():
 
 
 @claim("after (3.8): dψ", "the weight with which the average over ψ is taken in x", verdict="holds")
-def average_weight():
+def average_weight() -> Evidence:
     period = 2 * sp.pi * (2 * sp.Abs(energy)) ** R(-3, 2)
     printed = 2 * sp.pi * period**-1 * sp.sqrt(parameter()) ** 3 * (1 + e * sp.cos(anomaly)) ** -2
     return Equality(
@@ -184,7 +185,7 @@ def hamiltonian_drift(momentum_costate_rate: sp.Expr) -> sp.Expr:
     "− l; the ¼ of the other term is right. The factor p_K stands, so that p_K ≡ 0 is not affected, nor is "
     "anything after it.",
 )
-def momentum_costate_rate():
+def momentum_costate_rate() -> Evidence:
     key = r"dp_K/d\tau"
     means = principle.averages()
     r_squared, sweep = (means[sp.Symbol(name)].diff(momentum) for name in ("r^2", "v_phi r"))
@@ -210,7 +211,7 @@ def momentum_costate_rate():
     verdict="holds",
     remark="For every κ, with the right and with the printed equation.",
 )
-def costate_of_the_momentum():
+def costate_of_the_momentum() -> Evidence:
     def argument() -> Steps:
         rate = principle.averaged_rates()[p_K]
         yield (

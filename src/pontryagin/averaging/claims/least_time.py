@@ -10,6 +10,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Slip,
@@ -56,7 +57,7 @@ def named(quantity: sp.Expr) -> sp.Expr:
     "⟩ is in section 2, it does not do: for m = (1 + ½cos x)², V = 0, f = cos x − ¼ that mean is 0, and "
     "yet the averaged rate is ω(u − ¼).",
 )
-def mean_of_the_force():
+def mean_of_the_force() -> Evidence:
     def argument() -> Steps:
         yield (
             "dξ/dτ = ω(u + mean of f over the angle)",
@@ -86,10 +87,10 @@ def mean_of_the_force():
     "the exact optimum may start with an arc of acceleration, of an angle of order 1 (its costate falls "
     "through 0 once): a change of τ₁ of order ε.",
 )
-def least_time_without_mean_force():
+def least_time_without_mean_force() -> Evidence:
     keys = (r"u_0\tau\,\mathrm{sign}(a_1 - a_0)", r"\langle x'\rangle")
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rate = rotor.averaged_rate(force=sp.S.Zero, control=sense * u0)
         integrand = sp.cancel(sense * u0 / rate).subs(a, y)
         return dict(zip(keys, (sp.Integral(integrand, (y, a0, xi)), rotor.mean(v)), strict=True))
@@ -137,7 +138,7 @@ def least_time_without_mean_force():
     "its energy, so ψ' = const does not happen; if ω were constant, ξ itself would be linear in τ. Should "
     "V = const not be 0, ξ − V stands for ξ.",
 )
-def square_root_of_the_energy():
+def square_root_of_the_energy() -> Evidence:
     rate = sp.Symbol("u_0*", positive=True)
     keys = (r"\xi^{1/2}", r"\tau_1")
     end = sp.Symbol("tau_1", positive=True)
@@ -146,7 +147,7 @@ def square_root_of_the_energy():
         sp.Abs(sp.sqrt(a1) - sp.sqrt(a0)) / rate,
     )
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         speed = sp.Symbol("C", real=True)
         line = sp.sqrt(a0) + sp.integrate(speed, (tau, 0, tau))
         met = sp.solve(line.subs(tau, end) - sp.sqrt(a1), speed)[0]
@@ -190,7 +191,7 @@ def square_root_of_the_energy():
     "For f₀ = −1, u₀ = ½ it would let the energy rise above ξ = 2, where no control can raise it. That "
     "there need not be a solution is not affected.",
 )
-def least_time_with_mean_force():
+def least_time_with_mean_force() -> Evidence:
     key = r"d\xi/d\tau"
 
     def consequence() -> Consequence:
@@ -218,7 +219,7 @@ def least_time_with_mean_force():
     remark="There is one exactly where u₀ + s f̄(ξ) > 0 all the way from a₀ to a₁, f̄ the mean of f over the "
     "angle and s = sign(a₁ − a₀).",
 )
-def no_solution_against_a_strong_force():
+def no_solution_against_a_strong_force() -> Evidence:
     def argument() -> Steps:
         best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))
         yield (

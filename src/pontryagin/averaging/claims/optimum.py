@@ -4,12 +4,13 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.averaging.claims import instances, worked
-from pontryagin.averaging.derivation import averaged, optimum, ripple, rotor
+from pontryagin.averaging.derivation import averaged, optimum, ripple, rotor, smooth
 from pontryagin.averaging.derivation.averaged import kappa
 from pontryagin.averaging.derivation.optimum import Psi
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -19,7 +20,7 @@ claim = Page("Akulenko 1977")
 
 R = sp.Rational
 INNER = sp.Symbol("kappa_1", real=True)
-SMOOTH = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1, ripple.rise: 1}
+SMOOTH = {smooth.v0: 1, smooth.v1: 2, smooth.k: 1, ripple.rise: 1}
 
 
 def closed(form: sp.Expr) -> sp.Expr:
@@ -33,7 +34,7 @@ def closed(form: sp.Expr) -> sp.Expr:
     verdict="holds",
     remark="With η1 = −(g' + αM'); as (2.4) is printed, the right-hand side would be 0.",
 )
-def cost_by_the_end():
+def cost_by_the_end() -> Evidence:
     def argument() -> Steps:
         yield "g'dξ1 + (η1 dξ1) = 0 wherever M'dξ1 = 0", optimum.cost_by_the_end() == 0
         printed = sp.Matrix([-averaged.alpha * averaged.M.diff(x) for x in averaged.xi])
@@ -46,7 +47,7 @@ def cost_by_the_end():
 
 
 @claim("before (2.14): dξ1", "dξ1/dκ by the end's time and along the family", verdict="holds")
-def end_by_the_chain_rule():
+def end_by_the_chain_rule() -> Evidence:
     key = r"\frac{d\xi_1}{d\kappa}"
     time, end = sp.symbols("tau tau_1", real=True)
     path, T = sp.Function("xi"), sp.Function("T")(kappa)
@@ -63,7 +64,7 @@ def end_by_the_chain_rule():
         form = sp.Lambda((time, end, kappa), time**2 * end + sp.sin(kappa * time) + end * kappa**3)
         return sp.expand(at_end(expression.replace(path, form).doit()))
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         form = time**2 * end + sp.sin(kappa * time) + end * kappa**3
         return {key: sp.expand(form.subs({time: T, end: T}).diff(kappa))}
 
@@ -77,7 +78,7 @@ def end_by_the_chain_rule():
 
 
 @claim("(2.14)", "the main result: dJ0/dκ = κ d/dκ ∫ω dτ", verdict="holds")
-def main_result():
+def main_result() -> Evidence:
     key = r"\frac{dJ_0}{d\kappa}"
 
     def argument() -> Steps:
@@ -103,7 +104,7 @@ def main_result():
     verdict="holds",
     remark="Where (2.13) fails away from κ = 0, J0 is stationary there too.",
 )
-def stationary():
+def stationary() -> Evidence:
     def argument() -> Steps:
         slope = optimum.cost_slope()
         yield "dJ0/dκ = 0 at κ = 0", slope.subs(kappa, 0).doit() == 0
@@ -130,7 +131,7 @@ def stationary():
     remark="The condition says nothing in the paper's example 1, least time, where the derivative is 0: the "
     "motion does not depend on κ.",
 )
-def second_derivative():
+def second_derivative() -> Evidence:
     key = r"\frac{d^2J_0}{d\kappa^2}\Bigr|_{\kappa = 0}"
 
     def argument() -> Steps:
@@ -156,7 +157,7 @@ def second_derivative():
 
 
 @claim("(2.16)", "sufficient for the least J0 over the whole range of κ", verdict="holds")
-def global_minimum():
+def global_minimum() -> Evidence:
     def argument() -> Steps:
         left = kappa * Psi - sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
         yield "the two sides differ by J0(κ) − J0(0)", vanishes(left - optimum.cost_difference())
@@ -181,7 +182,7 @@ def global_minimum():
 
 
 @claim("after (2.16): J0", "J0(κ) by parts from (2.14)", verdict="holds")
-def cost_by_parts():
+def cost_by_parts() -> Evidence:
     key = r"J_0(\kappa) - J_0(0)"
     inner = sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
     return Equality(

@@ -9,6 +9,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -29,7 +30,7 @@ def cost_costate(transversality: sp.Expr) -> sp.Expr:
 
 
 @claim("(1.4)", "Hamiltonian H = ωq + εh with h = (pf) + qF", verdict="holds")
-def hamiltonian():
+def hamiltonian() -> Evidence:
     H = r"H"
     small = r"h"
     return Equality(
@@ -50,7 +51,7 @@ def hamiltonian():
     "zero. Uniqueness of the optimum alone does not do: a1' = εu, |u| ≤ 1, a2' = ε, J = ∫a1²dτ, a1(0) = "
     "a2(0) = 0, M = a2 − 1 has the one optimum u = 0, along which H does not depend on u.",
 )
-def one_control():
+def one_control() -> Evidence:
     control, costate, state = sp.symbols("u p_1 a_1", real=True)
 
     def argument() -> Steps:
@@ -82,7 +83,7 @@ def one_control():
 
 
 @claim("(1.6): p'", "rate of the slow variables' costate", verdict="holds")
-def costate_rate():
+def costate_rate() -> Evidence:
     key = r"\dot p_1"
     h = p[0] * f[0] + p[1] * f[1] + q * F
     return Equality(
@@ -101,7 +102,7 @@ def costate_rate():
     "print no control is better than another: in the smooth example the cost would have the costate 0. "
     "dJ0/dκ = −(η1 dξ1/dκ) before (2.14) needs the right form, and section 3 uses it.",
 )
-def transversality():
+def transversality() -> Evidence:
     key = r"p_2(t_1)"
 
     def shown() -> Consequence:
@@ -119,7 +120,7 @@ def transversality():
 
 
 @claim("(1.6): q", "rate of the phase's costate, and its value at the end", verdict="holds")
-def phase_costate():
+def phase_costate() -> Evidence:
     rate, ending = r"\dot q", "q(t_1)"
     h = p[0] * f[0] + p[1] * f[1] + q * F
     return Equality(
@@ -135,7 +136,7 @@ def phase_costate():
     "the derivatives may be taken at u held, or after u* is put in",
     verdict="holds",
 )
-def envelope():
+def envelope() -> Evidence:
     def argument() -> Steps:
         for variable, rest in zip((*a, psi, *p, q), principle.envelope(), strict=True):
             yield f"dh(u*)/d{variable} = ∂h/∂{variable} + (∂h/∂u)(∂u*/∂{variable})", rest == 0
@@ -149,11 +150,11 @@ def envelope():
 
 
 @claim("(1.7)", "the free end time: H* = εh* = 0 at t1", verdict="holds")
-def free_end():
+def free_end() -> Evidence:
     key = "H^*|_{t_1}"
     h = p[0] * f[0] + p[1] * f[1]
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         ends, level = principle.end_conditions()
         return {key: sp.expand(level.subs(q, ends[2]))}
 
@@ -165,7 +166,7 @@ def free_end():
 
 
 @claim("(1.8)", "H* = ωq + εh* = 0 all along", verdict="holds")
-def conserved():
+def conserved() -> Evidence:
     def argument() -> Steps:
         H = omega * q + epsilon * h_star
         yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0
@@ -179,7 +180,7 @@ def conserved():
     "H* = 0 turns the canonical equations, with their term −ω'q, into a standard system",
     verdict="holds",
 )
-def reducible():
+def reducible() -> Evidence:
     def argument() -> Steps:
         first, second = principle.phase_costate()
         yield (

@@ -8,6 +8,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Steps,
     vanishes,
 )
@@ -20,7 +21,7 @@ wx, wy, wz = w
 
 
 @claim("(3.10)", "Euler's equations of a symmetric body under small torques", verdict="holds")
-def equations_of_the_body():
+def equations_of_the_body() -> Evidence:
     keys = (r"\dot\omega_x", r"\dot\omega_y", r"\dot\omega_z")
     printed = (
         epsilon * ux - (d - 1) * wy * wz,
@@ -42,7 +43,7 @@ def equations_of_the_body():
     verdict="holds",
     remark="The signs of the gyroscopic terms survive: they cancel in a' and leave ψ' = +(d − 1)c.",
 )
-def polar_variables():
+def polar_variables() -> Evidence:
     keys = (r"\dot a", r"\dot c", r"\dot\psi", "a_0", "c_0")
     start = sp.sqrt(wx**2 + wy**2)
     printed = (
@@ -53,7 +54,7 @@ def polar_variables():
         wz,
     )
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rates = rigid_body.polar_rates()
         square = sp.simplify(rigid_body.POLAR[wx] ** 2 + rigid_body.POLAR[wy] ** 2)
         radius = a * sp.sqrt((wx**2 + wy**2) / square)
@@ -71,7 +72,7 @@ def polar_variables():
     "there, so that (1.1) and section 2 do not cover it. The result does not suffer: in axes that turn "
     "with the free motion there is no 1/a (see τ₁ below).",
 )
-def standard_form():
+def standard_form() -> Evidence:
     def argument() -> Steps:
         slow, F = rigid_body.slow_rates(), rigid_body.phase_rate()
         shifted = [(q.subs(psi, psi + 2 * sp.pi) - q).simplify() for q in (*slow, F)]

@@ -9,6 +9,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -44,7 +45,7 @@ def exact_rates(control: sp.Matrix) -> sp.Matrix:
     verdict="holds",
     remark="A circle of u because I_x = I_y.",
 )
-def thrusters():
+def thrusters() -> Evidence:
     def argument() -> Steps:
         arm, thrust = sp.symbols("L f", positive=True)
         heading = sp.Symbol("theta", real=True)
@@ -70,7 +71,7 @@ def thrusters():
     "control is on its set for l = h = 1 only, and a' = ε sign p, so that the integral of sign p would be "
     "a₁ − a₀, not the printed (a₁ − a₀)/l. The conditions and τ₁ below belong to the right control.",
 )
-def controls_on_the_cylinder():
+def controls_on_the_cylinder() -> Evidence:
     keys = ("u_x", "u_y", "u_z")
     printed = sp.Matrix([sp.cos(psi) * SIGN_P, sp.sin(psi) * SIGN_P, SIGN_Q])
 
@@ -116,7 +117,7 @@ SHORT = {a0: 3, a1: 1, c0: 1, c1: 2, l: 1, h: 1}
     "throughout, and its control is any that gets there, such as a constant one. Where the two are equal "
     "nothing is singular: both thrust fully all the time, and both costates may differ from 0.",
 )
-def singular_controls():
+def singular_controls() -> Evidence:
     def argument() -> Steps:
         yield from constant_costates()
         kept = sp.Symbol("q", nonzero=True, real=True)
@@ -160,7 +161,7 @@ def singular_controls():
     "Not of the signs of the costates, which are constants: they do not jump, and the one that belongs to "
     "the singular control is 0. The jumps are not needed either: a constant u_z does as well.",
 )
-def jumps_of_the_signs():
+def jumps_of_the_signs() -> Evidence:
     def argument() -> Steps:
         reached = sp.solve(h * (switch - (T - switch)) - (c1 - c0), switch)[0]
         yield (
@@ -190,10 +191,10 @@ def jumps_of_the_signs():
     verdict="holds",
     remark="Exactly, for every ε: a' = εl sign p, c' = εh sign q without averaging.",
 )
-def integrals_of_the_signs():
+def integrals_of_the_signs() -> Evidence:
     keys = (r"\int_0^{\tau_1}\mathrm{sign}\,p\,d\tau", r"\int_0^{\tau_1}\mathrm{sign}\,q\,d\tau")
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rates = exact_rates(without_phase_costate())
         P, Q = sp.symbols("P Q")
         sums = [(a0 + P * rates[0] / SIGN_P - a1, P), (c0 + Q * rates[1] / SIGN_Q - c1, Q)]
@@ -217,7 +218,7 @@ def integrals_of_the_signs():
     remark="The exact minimum for every ε, also where ω_z changes its sign on the way: the frequency "
     "vanishes there and averaging would fail, but nothing is averaged.",
 )
-def duration_on_the_cylinder():
+def duration_on_the_cylinder() -> Evidence:
     def argument() -> Steps:
         slow = rigid_body.slow_rates()
         across = u[0] * sp.cos(psi) + u[1] * sp.sin(psi)
@@ -246,7 +247,7 @@ def duration_on_the_cylinder():
     remark="Shown by one: any body with friction, torques in a ball, brought to rest. The length G of the "
     "angular momentum obeys a closed equation; the solution is exact for every ε.",
 )
-def other_problems():
+def other_problems() -> Evidence:
     def argument() -> Steps:
         inertia = sp.diag(*rigid_body.moments)
         momentum = inertia * rigid_body.w

@@ -24,6 +24,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -57,7 +58,7 @@ def of_modulus(modulus: sp.Expr) -> sp.Expr:
     "ellipsoid: for l_x = l_y = l it has the length 1, not l, so that l = ½ is overrun twice; for l_x = "
     "2, l_y = 1, ω_x = ω_y the sum of squares is 2/5. a, ⟨R⟩ and τ₁ below belong to the right control.",
 )
-def synthesis():
+def synthesis() -> Evidence:
     keys = ("u_x", "u_y", "u_z")
     numbers = {lx: 2, ly: 1, semiaxes[2]: 1, wx: 1, wy: 1}
 
@@ -84,7 +85,7 @@ def synthesis():
     verdict="holds",
     remark="The corrected one, with l_x² and l_y².",
 )
-def synthesis_is_optimal():
+def synthesis_is_optimal() -> Evidence:
     def argument() -> Steps:
         control = rigid_body.braking()
         yield "it lies on the ellipsoid", vanishes(rigid_body.in_ellipsoid(control) - 1)
@@ -107,7 +108,7 @@ def synthesis_is_optimal():
     remark="In the first approximation. Exactly, the costate of c moves by O(ε) unless l_x = l_y, and u_z "
     "with it.",
 )
-def axial_control():
+def axial_control() -> Evidence:
     def argument() -> Steps:
         s = rigid_body.switching().subs(p_psi, 0)
         h_star = rigid_body.ellipsoid_support(s)
@@ -133,11 +134,11 @@ def axial_control():
     "reaches, in whole turns, a disc of radius ⟨R⟩τ. So the passage to a = 0, which section 2 does not "
     "cover, does no harm.",
 )
-def solution():
+def solution() -> Evidence:
     keys = (r"a(\tau)", r"c(\tau)", r"\tau_1")
     printed = (a0 - R_mean * tau, c0, a0 / R_mean)
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         rate, axial = -R_mean, rigid_body.slow_rates()[1].subs(uz, 0)
         slow = a0 + sp.integrate(rate, (tau, 0, tau))
         values = (slow, c0 + sp.integrate(axial, (tau, 0, tau)), sp.solve(slow, tau)[0])
@@ -169,10 +170,10 @@ def solution():
     "elliptic_e take the parameter, which is k here. For l_x = 1, l_y = ½: 0.7710; with √k taken for the "
     "parameter it would be 0.7203.",
 )
-def mean_deceleration():
+def mean_deceleration() -> Evidence:
     keys = (r"\langle R\rangle,\ 0 \le k < 1", r"\langle R\rangle,\ k < 0")
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         return dict(
             zip(keys, (rigid_body.mean_deceleration(), rigid_body.mean_deceleration_turned()), strict=True)
         )
@@ -223,7 +224,7 @@ SLENDER = {rigid_body.moments[0]: 1, rigid_body.moments[1]: R(6, 5), rigid_body.
     "A fixed asymmetry is not made good by a small ε: I = (1, 6/5, 1/2), unit ball of controls, a₀ ≪ c₀ "
     "along x: τ₁ ≤ 0.871a₀, against a₀.",
 )
-def nearly_symmetric_body():
+def nearly_symmetric_body() -> Evidence:
     def argument() -> Steps:
         extra_a, extra_c, extra_psi = rigid_body.asymmetry()
         yield "the addition to a' has the mean 0", rigid_body.mean(extra_a) == 0

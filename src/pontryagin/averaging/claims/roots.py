@@ -9,6 +9,7 @@ from pontryagin.averaging.derivation import optimum, ripple, smooth
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -17,7 +18,7 @@ from pontryagin.ledger.evidence import (
 claim = Page("Akulenko 1977")
 
 R = sp.Rational
-KAPPA = ripple.kappa
+KAPPA = smooth.kappa
 
 
 @claim(
@@ -28,7 +29,7 @@ KAPPA = ripple.kappa
     "the ends of the range in which h* takes both signs over a turn. The paper's smooth example has one root "
     "for every ε, and so has the least time of its example 1.",
 )
-def number_of_roots():
+def number_of_roots() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             found, expected = worked.roots(eps), worked.predicted_roots(eps)
@@ -49,10 +50,10 @@ def number_of_roots():
 
     def counterexample() -> Steps:
         end = smooth.maximum().subs(smooth.eta, ripple.costate().subs(ripple.rise, 1))
-        flat = sp.simplify(end.subs(smooth.v, ripple.v1))
+        flat = sp.simplify(end.subs(smooth.v, smooth.v1))
         yield (
             "smooth example without ripple: h* at the end is −κv1 for every ε",
-            vanishes(flat + KAPPA * ripple.v1),
+            vanishes(flat + KAPPA * smooth.v1),
         )
         yield "with the one root κ = 0", sp.solve(flat, KAPPA) == [0]
         level = sp.Symbol("p") * instances.uneven_speed() - 1
@@ -65,7 +66,7 @@ def number_of_roots():
 
 
 @claim("after (2.2): mean", "the mean of h* changes slowly with t1: d⟨h*⟩/dt1 ~ ε", verdict="holds")
-def mean_is_slow():
+def mean_is_slow() -> Evidence:
     def argument() -> Steps:
         T = ripple.of_kappa(ripple.duration()).subs({**worked.NUMBERS, ripple.rise: 1})
         slope = sp.simplify((-2 / T.diff(KAPPA)).subs(KAPPA, 0))
@@ -90,10 +91,9 @@ def mean_is_slow():
     "h* against τ1 oscillates about ⟨h*⟩, with an amplitude of the order of one and a frequency of 1/ε",
     verdict="holds",
     remark="The paper names no system; ours is its smooth example with the ripple cos(x)/2 in the force, "
-    "since "
-    "without a ripple nothing oscillates.",
+    "since without a ripple nothing oscillates.",
 )
-def first_figure():
+def first_figure() -> Evidence:
     def argument() -> Steps:
         for eps in (0.05, 0.02):
             for turn, mean, amplitude, kappa in turns(eps):
@@ -128,10 +128,9 @@ def turns(eps: float) -> list[tuple[int, float, float, float]]:
     verdict="holds",
     remark="Ours, as Figure 1. The reference to section 3, example 1, does not show it: J of the smooth "
     "example has no ripples. dJ = q(t1)dψ(t1) on H* = 0, so J is stationary at every root of (2.2), and "
-    "minima "
-    "and maxima alternate.",
+    "minima and maxima alternate.",
 )
-def second_figure():
+def second_figure() -> Evidence:
     def argument() -> Steps:
         yield "d(p Da + q Dψ)/dt = 0 along extremals with H* = 0 and one start", optimum.exact_identity() == 0
         for eps in worked.EPSILONS:
@@ -160,7 +159,7 @@ def second_figure():
     verdict="holds",
     remark="The costates too where (2.13) holds; see (2.5).",
 )
-def errors():
+def errors() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             motion, found = worked.optimum(eps), worked.roots(eps)

@@ -7,6 +7,7 @@ from pontryagin.averaging.derivation.rotor import FORCE, MASS, POTENTIAL, a, eps
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -24,7 +25,7 @@ TURN = 2 * sp.pi / sp.Integral(1 / SPEED, (x, 0, 2 * sp.pi))
 
 
 @claim("(3.1)", "a rotor with mass m(x) and potential V(x) under the forces εu and εf", verdict="holds")
-def equation_of_the_rotor():
+def equation_of_the_rotor() -> Evidence:
     printed = MASS * rotor.second + MASS.diff(x) * v**2 / 2 + POTENTIAL.diff(x)
     key = r"\varepsilon u + \varepsilon f"
     return Equality(
@@ -41,7 +42,7 @@ def equation_of_the_rotor():
     remark="ω is the harmonic mean of x' over the angle. x' > 0 at the start is not enough: the bounds need "
     "a > max V all the way, so a0 and a1 both above V₂.",
 )
-def frequency_is_bounded():
+def frequency_is_bounded() -> Evidence:
     def argument() -> Steps:
         for bound in (slow, fast):
             turn = 2 * sp.pi / rotor.over_a_turn(1 / bound)
@@ -57,8 +58,8 @@ def frequency_is_bounded():
 
 
 @claim("after (3.1): integration", "at ε = 0: energy a, and t + γ = ∫dx/x'", verdict="holds")
-def unperturbed_motion():
-    def derived():
+def unperturbed_motion() -> Evidence:
+    def derived() -> dict[str, sp.Expr]:
         lagrangian = MASS * v**2 / 2 - POTENTIAL
         return {"a": v * lagrangian.diff(v) - lagrangian, r"d(t + \gamma)/dx": 1 / rotor.speed()}
 
@@ -80,10 +81,10 @@ def unperturbed_motion():
     "energy and rotating phase: a' = εx'(u + f), ψ' = ω(a) + O(ε)",
     verdict="holds",
 )
-def standard_form():
+def standard_form() -> Evidence:
     keys = (r"\dot a/\varepsilon", "x'(a, x)", r"\omega(a)")
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         return dict(zip(keys, (rotor.slow_rate(), rotor.speed(), rotor.frequency()), strict=True))
 
     def argument() -> Steps:
@@ -107,6 +108,6 @@ def standard_form():
 
 
 @claim("after (3.1): averaging", "averages over ψ are taken over x: dψ = ω(a)dx/x'", verdict="holds")
-def averaging_over_the_angle():
+def averaging_over_the_angle() -> Evidence:
     key = r"d\psi/dx"
     return Equality({key: TURN / SPEED}, lambda: {key: rotor.phase_weight()})

@@ -9,6 +9,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Consequence,
     Equality,
+    Evidence,
     Misprint,
     Proof,
     Steps,
@@ -33,7 +34,7 @@ COST = 2 * k * T - kappa**2 * T**3 / 24 - kappa * T * gap / 2 - kappa * v1 * T
     "for m = 1, V = const: x is the phase, x' the slow variable, db/dτ = k + u²",
     verdict="holds",
 )
-def system_of_the_smooth_example():
+def system_of_the_smooth_example() -> Evidence:
     keys = (r"\dot x", r"\ddot x/\varepsilon", r"db/d\tau")
     printed = dict(zip(keys, (v, u, k + u**2), strict=True))
     return Equality(
@@ -45,7 +46,7 @@ def system_of_the_smooth_example():
 
 
 @claim("before (3.2): u*", "the optimal control is half the costate of x'", verdict="holds")
-def control_of_the_smooth_example():
+def control_of_the_smooth_example() -> Evidence:
     return Equality({"u^*": eta / 2}, lambda: {"u^*": smooth.maximiser()}, display=r"u^* = \tfrac12 p")
 
 
@@ -57,7 +58,7 @@ def control_of_the_smooth_example():
     "obeys dξ/dτ = η/2 for κ = 0 only. η, J0, the condition for τ₁, all derivatives and the solution below "
     "come from the right sign: none of them is affected.",
 )
-def averaged_solution():
+def averaged_solution() -> Evidence:
     keys = (r"\xi", r"\eta")
     numbers = {v1: 1, gap: 1, T: 1, kappa: 1, tau: 0}
 
@@ -93,7 +94,7 @@ def cost_on_the_condition() -> sp.Expr:
     "there the cost of (3.2) is kτ₁ + (Δv)²/τ₁ + κ²τ₁³/48. For k = Δv = 1, τ₁ = 2, κ = 0 the print gives "
     "4, the cost is 5/2. What follows stays on the curve.",
 )
-def cost_of_duration_and_kappa():
+def cost_of_duration_and_kappa() -> Evidence:
     def argument() -> Steps:
         rest = smooth.cost() - COST
         yield "b(τ₁) − J0 is τ₁ times the left side of (2.12)", vanishes(rest - T * smooth.transversality())
@@ -118,7 +119,7 @@ def cost_of_duration_and_kappa():
 
 
 @claim("after J0: condition", "the condition of the kind (2.12) for τ₁(κ)", verdict="holds")
-def condition_for_the_duration():
+def condition_for_the_duration() -> Evidence:
     key = r"\tau_1^2\,[\omega\kappa + h_0]_{\tau_1}"
     return Equality(
         {key: (v1 * kappa - k) * T**2 + (gap + kappa * T**2 / 4) ** 2},
@@ -128,10 +129,10 @@ def condition_for_the_duration():
 
 
 @claim("after J0: dJ0/dκ", "the total derivative of J0 by κ is 0 at κ = 0", verdict="holds")
-def first_derivative():
+def first_derivative() -> Evidence:
     key = r"dJ_0/d\kappa|_{\kappa = 0}"
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         cost = cost_on_the_condition()
         return {key: (cost.diff(kappa) + cost.diff(T) * slope).subs(kappa, 0)}
 
@@ -145,7 +146,7 @@ def first_derivative():
 
 
 @claim("after J0: dτ1/dκ", "the derivative of τ₁ by κ at κ = 0", verdict="holds")
-def derivative_of_the_duration():
+def derivative_of_the_duration() -> Evidence:
     key = r"d\tau_1/d\kappa|_{\kappa = 0}"
     return Equality(
         {key: T / (2 * k) * (v1 + gap / 2)},
@@ -162,7 +163,7 @@ def derivative_of_the_duration():
     remark="With ξ as printed in (3.2), (2.15) would give 5τ₁³/24 for τ₁³/24: the printed value comes "
     "from the right sign.",
 )
-def second_derivative():
+def second_derivative() -> Evidence:
     key = r"d^2J_0/d\kappa^2|_{\kappa = 0}"
     printed = T**3 / 24 + T / (2 * k) * (v1 + gap / 2) ** 2
 
@@ -181,7 +182,7 @@ def second_derivative():
             vanishes(wrong - 5 * T**3 / 24) and vanishes(right - T**3 / 24),
         )
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         by_kappa = smooth.turned().diff(kappa) + smooth.turned().diff(T) * slope
         return {key: by_kappa.subs(kappa, 0).subs(slope, smooth.optimal_slope())}
 
@@ -195,12 +196,12 @@ def second_derivative():
     remark="Nothing depends on the phase here, so it is exact for every ε, the only extremal, and the global "
     "minimum.",
 )
-def solution():
+def solution() -> Evidence:
     keys = ("u^*", "J_0^*", r"\tau_1(0)", r"\xi")
     length = sp.Abs(gap) / sp.sqrt(k)
     printed = (-gap / length, 2 * sp.sqrt(k) * sp.Abs(gap), length, v0 - gap / length * tau)
 
-    def derived():
+    def derived() -> dict[str, sp.Expr]:
         end = {kappa: 0, T: smooth.duration()}
         speed, costate = smooth.averaged_solution()
         control = smooth.maximiser().subs(eta, costate).subs(end)

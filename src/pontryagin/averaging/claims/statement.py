@@ -7,6 +7,7 @@ from pontryagin.averaging.derivation.principle import epsilon, psi
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
+    Evidence,
     Proof,
     Slip,
     Steps,
@@ -26,7 +27,7 @@ n = sp.Symbol("n", integer=True, positive=True)
     "averaging gives a two-point problem of smaller dimension",
     verdict="holds",
 )
-def smaller_dimension():
+def smaller_dimension() -> Evidence:
     def argument() -> Steps:
         order = averaged.order(n)
         yield (
@@ -49,7 +50,7 @@ def smaller_dimension():
     remark="The smooth example of section 3 and its rippled form, which this ledger uses throughout, are of "
     "this form with a = (v, b), ψ = x and ω = v.",
 )
-def standard_system():
+def standard_system() -> Evidence:
     def argument() -> Steps:
         rates = smooth.slow_rates(ripple.c * sp.cos(smooth.x))
         turned = rates.subs(smooth.x, smooth.x + 2 * sp.pi)
@@ -67,7 +68,7 @@ def standard_system():
 
 
 @claim("(1.2)", "1 ≤ r ≤ n − 1 conditions on the slow variables at the end", verdict="holds")
-def target():
+def target() -> Evidence:
     def argument() -> Steps:
         step = sp.Matrix(sp.symbols("da1:3"))
         normals = sp.Matrix(2, 2, sp.symbols("M11 M12 M21 M22"))
@@ -82,9 +83,9 @@ def target():
 
 
 @claim("(1.3)", "the terminal cost g(a(t1)) covers integral costs", verdict="holds")
-def terminal_cost():
+def terminal_cost() -> Evidence:
     def argument() -> Steps:
-        paid = sp.integrate(k + sp.Function("u")(tau) ** 2, (tau, 0, ripple.sp.Symbol("T")))
+        paid = sp.integrate(k + sp.Function("u")(tau) ** 2, (tau, 0, sp.Symbol("T")))
         rate = smooth.slow_rates()[1].subs(smooth.u, sp.Function("u")(tau))
         own = sp.integrate(rate.subs(smooth.k, k), (tau, 0, sp.Symbol("T")))
         yield "a slow variable b with b' = ε(k + u²), b(0) = 0 ends at ∫(k + u²)dτ", vanishes(paid - own)
@@ -98,7 +99,7 @@ def terminal_cost():
     "where ω depends on a, averaging leaves the phase with an error that does not tend to zero",
     verdict="holds",
 )
-def phase_is_known_to_the_order_of_one():
+def phase_is_known_to_the_order_of_one() -> Evidence:
     a0 = sp.Symbol("a_0", positive=True)
 
     def argument() -> Steps:
@@ -126,7 +127,7 @@ def phase_is_known_to_the_order_of_one():
     "free rigid body, are constant at ε = 0",
     verdict="holds",
 )
-def constants_of_motion():
+def constants_of_motion() -> Evidence:
     def argument() -> Steps:
         for name, quantity in (("E", kepler.energy_of_state()), ("K", kepler.momentum_of_state())):
             rate = kepler.along_the_motion(quantity)
@@ -152,10 +153,9 @@ def constants_of_motion():
     verdict="conditional",
     remark="Never shorter, as |a'| ≤ εC. Not longer where the averaged problem, at ε = 0, has an optimum. "
     "f, M and g may depend on ε, and then it can be longer: the smooth example with k = ε² has its one "
-    "optimum "
-    "at t1 = |Δv|/ε².",
+    "optimum at t1 = |Δv|/ε².",
 )
-def duration_of_the_order_of_one_over_epsilon():
+def duration_of_the_order_of_one_over_epsilon() -> Evidence:
     def argument() -> Steps:
         rate, distance = sp.symbols("C d", positive=True)
         shortest = sp.solve(epsilon * rate * t - distance, t)[0]
@@ -185,7 +185,7 @@ def duration_of_the_order_of_one_over_epsilon():
     remark="Printed: for every ε in [0, ε0]. At ε = 0 the slow variables rest, and only a start that lies on "
     "the target reaches it. Meant: (0, ε0].",
 )
-def range_of_epsilon():
+def range_of_epsilon() -> Evidence:
     def argument() -> Steps:
         cost = k * tau + gap**2 / tau
         optimum = sp.solve(cost.diff(tau), tau)

@@ -4,12 +4,13 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.averaging.claims import instances, worked
-from pontryagin.averaging.derivation import averaged, ripple
+from pontryagin.averaging.derivation import averaged, ripple, smooth
 from pontryagin.averaging.derivation.averaged import h0, kappa
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
+    Evidence,
     Proof,
     Steps,
     vanishes,
@@ -25,7 +26,7 @@ R = sp.Rational
     "with (2.5) put in, (2.2) does not fix τ1 as closely as needed, the phase being known to O(1)",
     verdict="holds",
 )
-def approximate_condition():
+def approximate_condition() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             off = worked.deviations(eps)["phase"]
@@ -73,7 +74,7 @@ def approximate_roots(eps: float) -> np.ndarray:
     "depends on the phase at all. If it does not, (2.7) and (2.8) do not suffice: v' = εu, s' = ε, ω = 1, "
     "b' = ε(k(s) − ε + u²) has a double root at ε = 0, and no root near it for ε > 0.",
 )
-def neighbourhood():
+def neighbourhood() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             near, exact = approximate_roots(eps), worked.roots(eps).duration
@@ -103,12 +104,12 @@ def neighbourhood():
 
 
 @claim("(2.7)", "the roots lie about the root of ⟨h*⟩ = 0", verdict="holds")
-def mean_condition():
+def mean_condition() -> Evidence:
     def argument() -> Steps:
         level = averaged.averaged_hamiltonian()
         yield "h0 = −ωκ at the end, so (2.7) is κ = 0", sp.solve(level.subs(h0, 0), kappa) == [0]
-        T = ripple.of_kappa(ripple.duration()).subs({ripple.rise: 1, ripple.kappa: 0})
-        yield "smooth example: τ1* = (v1 − v0)/√k", vanishes(T - (ripple.v1 - ripple.v0) / sp.sqrt(ripple.k))
+        T = ripple.of_kappa(ripple.duration()).subs({ripple.rise: 1, smooth.kappa: 0})
+        yield "smooth example: τ1* = (v1 − v0)/√k", vanishes(T - (smooth.v1 - smooth.v0) / sp.sqrt(smooth.k))
         low, high = worked.window()
         yield f"rippled: the window from κ = {low:.3f} to {high:.3f} has κ = 0 inside", low < 0 < high
 
@@ -116,13 +117,13 @@ def mean_condition():
 
 
 @claim("(2.8)", "the phase at the end runs with τ1: derivative of ∫ω dτ by τ1", verdict="holds")
-def phase_runs():
+def phase_runs() -> Evidence:
     key = r"\frac{d}{d\tau_1}\int_0^{\tau_1}\omega d\tau"
     end, time = sp.symbols("tau_1 tau", positive=True)
     w, path = sp.Function("omega"), sp.Function("xi")(time, end)
     named = sp.Symbol("omega'")
 
-    def printed():
+    def printed() -> sp.Expr:
         slope = sp.Derivative(w(path), path).doit()
         return w(path).subs(time, end) + sp.Integral(slope * path.diff(end), (time, 0, end))
 
@@ -141,7 +142,7 @@ def phase_runs():
     remark="Where h* takes both signs over a turn. The optimal τ1 is off by O(ε), with a factor that jumps "
     "from ε to ε as the best root changes.",
 )
-def interval():
+def interval() -> Evidence:
     def argument() -> Steps:
         ends = worked.averaged(ripple.duration(), np.array(worked.window()))
         for eps in worked.EPSILONS:

@@ -10,16 +10,17 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import sympy as sp
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
 from pontryagin.arrays import Array
 from pontryagin.averaging import smooth_example
-from pontryagin.averaging.derivation import ripple
+from pontryagin.averaging.derivation import ripple, smooth
 
 START, END, PAY, RIPPLE = 1.0, 2.0, 1.0, 0.5
 EPSILONS = (0.1, 0.05, 0.02)
-NUMBERS = {ripple.v0: 1, ripple.v1: 2, ripple.k: 1, ripple.rise: 1, ripple.c: ripple.sp.Rational(1, 2)}
+NUMBERS = {smooth.v0: 1, smooth.v1: 2, smooth.k: 1, ripple.rise: 1, ripple.c: sp.Rational(1, 2)}
 LOW, HIGH = 1.6, 2.8
 """Start costates between which v rises all the way and the window of kappa lies."""
 
@@ -113,9 +114,9 @@ def optimum(epsilon: float, samples: int = 4001) -> dict[str, Array]:
     return {"v": v, "x": x, "p": p, "b": b, "tau": tau}
 
 
-def averaged(form: ripple.sp.Expr, kappa: ArrayLike) -> Array:
+def averaged(form: sp.Expr, kappa: ArrayLike) -> Array:
     """A closed form of `ripple` (by A0 and A1) at values of kappa."""
-    function = ripple.sp.lambdify(ripple.kappa, ripple.of_kappa(form).subs(NUMBERS))
+    function = sp.lambdify(smooth.kappa, ripple.of_kappa(form).subs(NUMBERS))
     return np.asarray(function(np.asarray(kappa, dtype=float)))
 
 
@@ -135,7 +136,7 @@ def kappa_of(duration: ArrayLike) -> Array:
     """The averaged member of a duration: tau_1(kappa) rises, and is inverted by a table."""
     low, high = window()
     kappa = np.linspace(2 * low, (high + PAY / END) / 2, 20001)
-    return np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa)
+    return np.asarray(np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa))
 
 
 def in_window(epsilon: float) -> Members:

@@ -96,7 +96,7 @@ def cyclic_costate() -> sp.Expr:
 
 
 def order(n: int | sp.Expr) -> dict[str, sp.Expr]:
-    """Orders of the systems on the way, for n slow variables."""
+    """Orders of the exact and averaged systems, for n slow variables."""
     size = sp.sympify(n)
     whole = 2 * size + 2
     return {

@@ -22,6 +22,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+Symbols = Sequence[sp.Symbol]
 x, eps = sp.symbols("x epsilon", real=True)
 
 
@@ -60,30 +61,30 @@ def primitive(k: sp.Expr) -> sp.Expr:
 
 
 def generator(k1: sp.Expr) -> sp.Expr:
-    """S of the first order: dS/dx cancels what oscillates in k1."""
+    """S of the first order: dS/dx cancels the oscillating part of k1."""
     return -primitive(k1)
 
 
-def second_order(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
-    """What stands beside dT/dx at eps^2: K(a, P + eps S_a) + eps S_x less mean(k1)(a + eps S_P)."""
+def second_order(k1: sp.Expr, k2: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
+    """The term beside dT/dx at eps^2: K(a, P + eps S_a) + eps S_x less mean(k1)(a + eps S_P)."""
     S = generator(k1)
     shifted_costates = sum(sp.diff(k1, q) * sp.diff(S, b) for b, q in zip(a, p, strict=True))
     shifted_states = sum(sp.diff(mean(k1), b) * sp.diff(S, q) for b, q in zip(a, p, strict=True))
     return k2 + shifted_costates - shifted_states
 
 
-def mean_hamiltonian(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
+def mean_hamiltonian(k1: sp.Expr, k2: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
     """The second mean Hamiltonian: mean of k2 - (dk1/dp less its mean) d(primitive of k1)/da."""
     return mean(second_order(k1, k2, a, p))
 
 
-def second_generator(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
-    """T of the second order: dT/dx cancels what oscillates there."""
+def second_generator(k1: sp.Expr, k2: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
+    """T of the second order: dT/dx cancels the oscillating part of `second_order`."""
     return -primitive(second_order(k1, k2, a, p))
 
 
-def transformed(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
-    """K + d(generating function)/dx less the mean Hamiltonians at the new states, to eps^2: nothing."""
+def transformed(k1: sp.Expr, k2: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
+    """K + d(generating function)/dx less the mean Hamiltonians at the new states, to eps^2: zero."""
     S, T = generator(k1), second_generator(k1, k2, a, p)
     generating = eps * S + eps**2 * T
     old_costates = {q: q + eps * sp.diff(S, b) for b, q in zip(a, p, strict=True)}
@@ -97,8 +98,8 @@ def transformed(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
 # --- the cost ----------------------------------------------------------------------------------------
 
 
-def end_term(S: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
-    """What the transformation does at either end, per eps: S alone.
+def end_term(S: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
+    """The change of the cost by the transformation at either end, per eps: S alone.
 
     The action p da - K dx is P dA - (mean K) dx plus the differential of aP + eps S - AP, and the mean
     problem starts and ends at A = a + eps S_P, where its cost changes by P (A - a), as `variation` says.
@@ -113,7 +114,7 @@ def end_term(S: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
 def variation() -> sp.Expr:
     """First variation of the mean action's integrand P A' - K along an extremal, less d(P dA)/dx: -dK.
 
-    It is what makes the second mean Hamiltonian enter by its integral along the averaged solution alone.
+    Hence the second mean Hamiltonian enters J1 by its integral along the averaged solution alone.
     """
     A, P, dA, dP = (sp.Function(name)(x) for name in ("A", "P", "dA", "dP"))
     state, costate, dK, s = sp.symbols("A P dK s")
@@ -129,7 +130,7 @@ def variation() -> sp.Expr:
     return sp.simplify(change.subs(motion).doit())
 
 
-def first_correction(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> tuple[sp.Expr, sp.Expr]:
+def first_correction(k1: sp.Expr, k2: sp.Expr, a: Symbols, p: Symbols) -> tuple[sp.Expr, sp.Expr]:
     """J1 as its end term S(a, p, x), taken at the end less at the start, and its integrand per anomaly.
 
     The integrand is subtracted; with eps dx = omega dtau its integral is over the slow time.
@@ -137,6 +138,6 @@ def first_correction(k1: sp.Expr, k2: sp.Expr, a: Sequence, p: Sequence) -> tupl
     return end_term(generator(k1), a, p), mean_hamiltonian(k1, k2, a, p)
 
 
-def ending_slope(k1: sp.Expr, a: Sequence, p: Sequence) -> sp.Expr:
+def ending_slope(k1: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
     """dJ1/dtheta = mean(k1) - k1: at kappa = 0, where the mean is zero, -h*/r, which is q/eps at the end."""
     return sp.diff(first_correction(k1, sp.Integer(0), a, p)[0], x)

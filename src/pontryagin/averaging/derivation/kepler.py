@@ -76,7 +76,7 @@ def laplace() -> sp.Matrix:
 
 @functools.cache
 def conic() -> sp.Dict:
-    """Where the body is and how fast, as functions of K, e and x: the orbit of (3.4).
+    """Place and velocity as functions of K, e and x: the orbit of (3.4).
 
     Laplace's vector has the length e and makes the angle -x with the radius: solved for r, v_r, v_phi.
     """
@@ -108,7 +108,7 @@ def eccentricity() -> sp.Expr:
 
 
 def in_slow_variables(expression: sp.Expr) -> sp.Expr:
-    """An expression in K, e and x with e written out in E and K, otherwise as it stands."""
+    """An expression with e replaced by its value in terms of E and K."""
     return expression.subs(e, eccentricity())
 
 
@@ -208,7 +208,7 @@ class Model(NamedTuple):
 
 @functools.cache
 def model() -> Model:
-    """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as the engine takes it.
+    """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as `PhaseSystem` takes it.
 
     The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
     anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps

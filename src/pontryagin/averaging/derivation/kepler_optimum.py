@@ -110,7 +110,9 @@ def thrust_on_the_way() -> sp.ImmutableMatrix:
 
 
 def ending_slope() -> sp.Expr:
-    """d/dkappa at 0 of the phase turned, per unit of |E|^(1/2), (2.15): positive, so kappa = 0 is a minimum.
+    """d/dkappa at 0 of the angle that the phase covers, per unit of |E|^(1/2), (2.15).
+
+    It is positive, so that kappa = 0 is a minimum.
 
     With s = |E|^(1/2), h0 + omega kappa = 0 and p_K = 0: the phase turned is the integral of omega ds/|s'|.
     """

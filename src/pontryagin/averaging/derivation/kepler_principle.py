@@ -45,13 +45,13 @@ SLOW = (energy, momentum)
 
 
 def running_cost() -> sp.Expr:
-    """What J of (3.7) grows by in a unit of slow time: l + u_r^2 + u_phi^2."""
+    """The rate of J of (3.7) in slow time: l + u_r^2 + u_phi^2."""
     return price + sum(u**2 for u in CONTROL)
 
 
 @functools.cache
 def control_hamiltonian() -> sp.Expr:
-    """What is maximised over the control where p_gamma = p_psi = 0, as a function of the state."""
+    """The function that is maximised over the control at p_gamma = p_psi = 0, in terms of the state."""
     rates = [along_the_motion(element()) / epsilon for element in (energy_of_state, momentum_of_state)]
     return sp.expand(sum(p * rate for p, rate in zip(costates, rates, strict=True)) - running_cost())
 
@@ -70,7 +70,7 @@ def maximised() -> sp.Expr:
 
 @functools.cache
 def hamiltonian() -> sp.Expr:
-    """The whole Hamiltonian of (3.7) in E, K, gamma and psi before the maximum, written in K, e and x."""
+    """The Hamiltonian of (3.7) in E, K, gamma and psi before the maximum, written in K, e and x."""
     rates = element_rates()
     phase = mean_anomaly_rate().subs({eccentricity_rate: rates[e], pericentre_rate: rates[gamma]})
     slow = costate_energy * rates[energy] + costate_momentum * rates[momentum]

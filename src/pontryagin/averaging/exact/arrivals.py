@@ -1,4 +1,4 @@
-"""Exact extremals where the costates do not steer: one slow variable in the least time, or at a like cost.
+"""Exact extremals that only the sign of the costate controls: one slow variable, a control without cost.
 
 The control depends on the sign of p alone, so that a(x) is one trajectory for each sign, and its ends are its
 arrivals at the target. Each arrival that a costate of that sign supports is an extremal: p1 follows from
@@ -7,6 +7,7 @@ function having no zero: every one is a local minimum, and there is no family ov
 differentiate along, (2.13) and (2.15) being zero.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -32,9 +33,11 @@ from pontryagin.numerics.flow import (
 
 SIGN = sp.Symbol("sign_p", real=True)
 FINE = 64
-"""Points a turn at which an arrival is looked for."""
+"""Points of a turn between which arrivals are sought."""
 STRETCHES = 10_000
+"""Largest number of pieces in which the trajectory is followed."""
 CLOSE = 1e-9
+"""Relative distance from the start at which a trajectory backwards counts as arrived there."""
 
 
 def fixed_ending(equations: Canonical) -> bool:
@@ -70,7 +73,7 @@ def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
 
 
 def _crossings(problem: Shooting, sign: float, turns: float) -> list[tuple[float, float]]:
-    """Anomalies where the target holds on the trajectory, with a there: to a whole turn beyond the last."""
+    """Anomalies at which the trajectory meets the target, with a there, up to a turn after the last."""
     follow = _trajectory(problem.equations, sign)
     state, begin = np.append(problem.start, [0.0, 0.0]), problem.anomaly
     found: list[tuple[float, float]] = []
@@ -110,9 +113,9 @@ def _refined(problem: Shooting, sign: float, state: Array, low: float, high: flo
 
 
 def _extremal(problem: Shooting, sign: float, anomaly: float, energy: float) -> Shot | None:
-    """The extremal that ends in an arrival, if the costate supports it all the way."""
-    price, push = _end(problem.equations)(energy, anomaly, sign, *problem.parameters)
-    last = float(price / push)
+    """The extremal that ends in an arrival, if its costate keeps its sign all the way."""
+    price, rate = _end(problem.equations)(energy, anomaly, sign, *problem.parameters)
+    last = float(price / rate)
     if last * sign <= 0:
         return None
     _, gradient, jacobian, _ = problem.boundary(np.array([[energy]]), np.zeros((1, 2)))
@@ -143,15 +146,15 @@ def _trajectory(equations: Canonical, sign: float) -> Flow:
 
 
 @lru_cache(maxsize=16)
-def _target(equations: Canonical):
+def _target(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     return compiler.function("target", [*equations.slow, *equations.parameters], {"M": equations.boundary[0]})
 
 
 @lru_cache(maxsize=16)
-def _end(equations: Canonical):
+def _end(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     """The running cost, and f at the control for a sign of p: p1 is their quotient, h* being zero."""
     known = {equations.costates[0]: SIGN, y: sp.Integer(0)}
     f = equations.motion[0].subs(known)
     price = SIGN * f - equations.hamiltonian.subs(known)
     arguments = [*equations.slow, equations.anomaly, SIGN, *equations.parameters]
-    return compiler.function("end", arguments, {"price": price, "push": f})
+    return compiler.function("end", arguments, {"price": price, "rate": f})

@@ -12,6 +12,7 @@ from functools import lru_cache
 import sympy as sp
 
 from pontryagin.averaging.modes import modal
+from pontryagin.averaging.system.standard_form import StandardForm
 
 epsilon = sp.Symbol("epsilon", positive=True)
 y, tau, cost = sp.symbols("y tau J", real=True)
@@ -34,7 +35,7 @@ class Canonical:
     time_rates : tuple of 2n + 4 expressions
         d(a, p, y, tau, J, x)/dtau.
     modes : tuple of (symbol, expression)
-        Signs that stand in the rates, each with the function whose sign it is.
+        Symbols of signs in the rates, each with the function whose sign it stands for.
     control : tuple of m expressions
         u*, without modes.
     hamiltonian : expression
@@ -70,7 +71,7 @@ class Canonical:
     terminal_cost: sp.Expr
 
     def unswitched(self, expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
-        """The expressions with every mode written as the sign it is."""
+        """The expressions with every mode replaced by the sign that it stands for."""
         table: dict[sp.Expr, sp.Expr] = {}
         for mode, switching in self.modes:
             table[mode] = sp.sign(switching.xreplace(table))
@@ -82,8 +83,8 @@ class Canonical:
         return (*self.slow, *self.costates, y, tau, cost)
 
 
-def canonical(system) -> Canonical:
-    """Derive the exact equations of a `PhaseSystem`; the same expressions are derived once.
+def canonical(system: StandardForm) -> Canonical:
+    """The exact equations of a `PhaseSystem`; they are derived once for equal expressions.
 
     Examples
     --------
@@ -117,48 +118,56 @@ def canonical(system) -> Canonical:
 
 @lru_cache(maxsize=32)
 def _derived(
-    slow: Sequence,
-    costates: Sequence,
+    slow: Sequence[sp.Symbol],
+    costates: Sequence[sp.Symbol],
     anomaly: sp.Symbol,
     phase_costate: sp.Symbol,
-    control: Sequence,
-    f: Sequence,
+    control: Sequence[sp.Symbol],
+    f: Sequence[sp.Expr],
     rate: sp.Expr,
     phase_rate: sp.Expr,
     running_cost: sp.Expr,
     control_cost: sp.Expr,
-    maximiser: Sequence,
+    maximiser: Sequence[sp.Expr],
     hamiltonian: sp.Expr,
-    target: Sequence,
+    target: Sequence[sp.Expr],
     terminal_cost: sp.Expr,
-    numbers: Sequence,
+    numbers: Sequence[sp.Symbol],
 ) -> Canonical:
     scaled = {phase_costate: epsilon * y}
-    spent = running_cost + control_cost
-    free = sum((p * g for p, g in zip(costates, f, strict=True)), phase_costate * phase_rate) - spent
+    cost_rate = running_cost + control_cost
+    pontryagin = (
+        sum((p * g for p, g in zip(costates, f, strict=True)), phase_costate * phase_rate) - cost_rate
+    )
     optimal = tuple(u.subs(scaled) for u in maximiser)
     switched, modes = modal(optimal)
 
-    def at(expression: sp.Expr, controls: Sequence) -> sp.Expr:
+    def at(expression: sp.Expr, controls: Sequence[sp.Expr]) -> sp.Expr:
         return expression.subs(scaled).xreplace(dict(zip(control, controls, strict=True)))
 
-    def drop(variable: sp.Symbol) -> sp.Expr:
-        return -(y * rate.diff(variable) + free.diff(variable))
+    def costate_rate(variable: sp.Symbol) -> sp.Expr:
+        return -(y * rate.diff(variable) + pontryagin.diff(variable))
 
-    per_time = [*f, *(drop(a) for a in slow), drop(anomaly) / epsilon, sp.Integer(1), spent]
-    turning = at(rate + epsilon * phase_rate, switched)
+    per_time = [
+        *f,
+        *(costate_rate(a) for a in slow),
+        costate_rate(anomaly) / epsilon,
+        sp.Integer(1),
+        cost_rate,
+    ]
+    anomaly_rate = at(rate + epsilon * phase_rate, switched)
     in_time = [at(g, switched) for g in per_time]
     return Canonical(
         slow=tuple(slow),
         costates=tuple(costates),
         anomaly=anomaly,
         parameters=(epsilon, *numbers),
-        rates=tuple(epsilon * g / turning for g in in_time),
-        time_rates=(*in_time, turning / epsilon),
+        rates=tuple(epsilon * g / anomaly_rate for g in in_time),
+        time_rates=(*in_time, anomaly_rate / epsilon),
         modes=modes,
         control=optimal,
         hamiltonian=hamiltonian.subs(scaled) + y * rate,
-        gap=hamiltonian.subs(scaled) - at(free, optimal),
+        gap=hamiltonian.subs(scaled) - at(pontryagin, optimal),
         rate=rate,
         motion=tuple(at(g, optimal) for g in [*f, rate + epsilon * phase_rate]),
         free=control_cost == 0 and not phase_rate.has(*control),

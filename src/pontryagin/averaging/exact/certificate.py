@@ -1,9 +1,10 @@
 """Certificates of exact extremals: propagated anew in slow time by DOP853, all at once.
 
-Search and polish follow the anomaly with Taylor series; here the clock, the integrator and its error control
-are others, and h* comes from the support function, not from the control that attains it.
+The search integrates over the anomaly by Taylor series. Here the independent variable, the integrator and its
+error control are others, and h* comes from the support function, not from the control that attains it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -23,14 +24,15 @@ from pontryagin.averaging.exact.shooting import (
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
+from pontryagin.numerics.flow import Flow
 
 SAMPLES = 200
-"""Points a trajectory at which the Hamiltonian and its maximum are looked at."""
+"""The Hamiltonian and its maximum are evaluated at this many points of each trajectory."""
 
 
 @dataclass(frozen=True, eq=False)
-class Proof:
-    """Residuals of k extremals of one problem, worked out when first asked for.
+class ExactCertificates:
+    """Residuals of k extremals of one problem, computed together at the first use.
 
     Units: target and costates those of `Shooting`, the Hamiltonian and p_x/epsilon times the rate those of
     the mean running cost, the cost itself.
@@ -41,12 +43,12 @@ class Proof:
 
     def one(self, index: int) -> MaximumPrinciple:
         """The certificate of one of them."""
-        whole = self.whole
-        parts = (whole.boundary, whole.transversality, whole.hamiltonian, whole.maximality)
+        of = self.all
+        parts = (of.boundary, of.transversality, of.hamiltonian, of.maximality)
         return MaximumPrinciple(*(np.asarray(part[index]) for part in parts))
 
     @cached_property
-    def whole(self) -> MaximumPrinciple:
+    def all(self) -> MaximumPrinciple:
         """All of them, (k,)."""
         problem, shot = self.problem, self.shot
         n = len(problem.start)
@@ -93,19 +95,19 @@ def _together(problem: Shooting, starts: Array, duration: Array, shares: Array) 
 
 
 @lru_cache(maxsize=32)
-def _rates(equations: Canonical):
+def _rates(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     arguments = [*equations.states, equations.anomaly, *equations.parameters]
     outputs = {f"d{i}": rate for i, rate in enumerate(equations.time_rates)}
     return compiler.function("rates", arguments, outputs)
 
 
 @lru_cache(maxsize=32)
-def _along(equations: Canonical):
+def _along(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     arguments = [*equations.slow, *equations.costates, y, equations.anomaly, *equations.parameters]
     return compiler.function("along", arguments, {"hamiltonian": equations.hamiltonian, "gap": equations.gap})
 
 
 @lru_cache(maxsize=32)
-def _arcs(equations: Canonical):
+def _arcs(equations: Canonical) -> Flow:
     states = (*equations.states, equations.anomaly)
     return switched_flow(equations.modes, states, equations.time_rates, equations.parameters, taylor=False)

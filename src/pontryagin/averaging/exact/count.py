@@ -1,4 +1,4 @@
-"""How many extremals to expect: |Psi(kappa'') - Psi(kappa')| / (pi epsilon), from the averaged family.
+"""The expected number of extremals, |Psi(kappa'') - Psi(kappa')| / (pi epsilon), from the averaged family.
 
 A member kappa of the averaged family ends with <h*> = -omega kappa. The exact extremals near it are where h*
 vanishes on the turn at its end: at two phases if h* rises and falls once a turn, at four for the rigid body.
@@ -14,30 +14,28 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.exact.arrivals import fixed_ending
 from pontryagin.averaging.exact.canonical import (
     Canonical,
     canonical,
     y,
 )
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive
 
 POINTS = 2048
 """Anomalies over a turn at which h* is compared with zero."""
 FIRST = 1 / 16
-"""First step of kappa, in units of the mean running cost over the frequency."""
+"""First step of kappa, relative to the mean running cost over the frequency."""
 EXACT, NEAR = 1e-7, 1e-3
-"""How exactly an end of the window is found, and how exactly where there is no solution beyond."""
+"""Tolerances of an end of the window, and of one beyond which there is no solution; relative as `FIRST`."""
 CELLS = 48
-"""Parts of the window in which the roots on a turn are counted."""
+"""The roots on a turn are counted in this many parts of the window."""
 LEVEL = 1e-12
-"""Range of h* over a turn, in shares of the mean running cost, that counts as none."""
+"""A range of h* over a turn below this share of the mean running cost counts as zero."""
 
 
 @dataclass(frozen=True)
@@ -89,23 +87,23 @@ def window(solution: AveragedSolution) -> Window:
     (35, ('no further root', 'no further root'))
     """
     if solution.duration.shape or solution.kappa != 0:
-        raise ValueError("solution must be that of one problem, at kappa = 0")
+        raise ArgumentValueError("solution must be that of one problem, at kappa = 0", "solution")
     if fixed_ending(canonical(solution.system)):
-        raise ValueError(
-            "solution must leave a choice of the end, unlike the least time of one slow variable"
-        )
+        message = "solution must leave a choice of the end, unlike the least time of one slow variable"
+        raise ArgumentValueError(message, "solution")
     if np.ptp(_at_end(solution)) <= LEVEL * float(solution.cost / solution.duration):
-        raise ValueError("solution must end where h* depends on the phase: here there is one extremal")
+        message = "solution must end where h* depends on the phase: here there is one extremal"
+        raise ArgumentValueError(message, "solution")
 
     @cache
-    def one(kappa: float) -> AveragedSolution:
+    def member(kappa: float) -> AveragedSolution:
         return _members(solution, kappa)
 
     unit = float(solution.cost / solution.duration / solution.frequency([0.0])[0])
-    low, high = (_limit(one, sense, unit) for sense in (-1, 1))
+    low, high = (_limit(member, sense, unit) for sense in (-1, 1))
     kappa = np.array([low[0], high[0]])
     small = 1e-3 * unit
-    authority = (_turned(one(small)) - _turned(one(-small))) / (2 * small)
+    authority = (_phase_angle(member(small)) - _phase_angle(member(-small))) / (2 * small)
     inside = _members(solution, kappa[0] + np.ptp(kappa) * (np.arange(CELLS) + 0.5) / CELLS)
     return Window(kappa, np.array([low[1], high[1]]), _roots(inside), float(authority), (low[2], high[2]))
 
@@ -133,36 +131,36 @@ def _roots(members: AveragedSolution) -> float:
 def _limit(one: Callable[[float], AveragedSolution], sense: int, unit: float) -> tuple[float, float, str]:
     """kappa, Psi and the reason at one end of the window."""
 
-    def reach(kappa: float) -> float:
-        """How far h* at the end reaches beyond zero, against its mean -kappa omega."""
+    def excess(kappa: float) -> float:
+        """Largest h* on the turn at the end, with the sign opposite to its mean -kappa omega."""
         return float((sense * _at_end(one(kappa))).max())
 
-    def turned(kappa: float) -> float:
-        return _turned(one(kappa))
+    def angle(kappa: float) -> float:
+        return _phase_angle(one(kappa))
 
     here, step = 0.0, sense * FIRST * unit
-    last, reason = turned(0.0), "no further root"
+    last, reason = angle(0.0), "no further root"
     while abs(step) > (NEAR if reason == "no solution" else EXACT) * unit:
         try:
-            there, after = reach(here + step), turned(here + step)
+            there, after = excess(here + step), angle(here + step)
         except (NotConverged, Infeasible, ValueError):
             step, reason = step / 2, "no solution"
             continue
         if sense * (after - last) < 0:
             edges = (min(here - step, here + step), max(here - step, here + step))
-            kappa = float(minimize_scalar(lambda k: -sense * turned(k), bounds=edges, method="bounded").x)
-            if reach(kappa) >= 0:
-                return kappa, turned(kappa), "turning point"
+            kappa = float(minimize_scalar(lambda k: -sense * angle(k), bounds=edges, method="bounded").x)
+            if excess(kappa) >= 0:
+                return kappa, angle(kappa), "turning point"
             there = -1.0
         if there < 0:
-            kappa = float(brentq(reach, here, here + step, xtol=EXACT * EXACT * unit))
-            return kappa, turned(kappa), "no further root"
+            kappa = float(brentq(excess, here, here + step, xtol=EXACT * EXACT * unit))
+            return kappa, angle(kappa), "no further root"
         here, last = here + step, after
         step = step if reason == "no solution" else 2 * step
     return here, last, reason
 
 
-def _turned(solution: AveragedSolution) -> float:
+def _phase_angle(solution: AveragedSolution) -> float:
     return float(solution.phase(solution.duration, 1.0, 0.0)[0])
 
 
@@ -173,10 +171,10 @@ def _at_end(solution: AveragedSolution) -> Array:
     x = 2 * np.pi * np.arange(POINTS) / POINTS
     numbers = [np.asarray(number)[..., None] for number in solution.numbers]
     (h,) = _hamiltonian(canonical(solution.system))(*np.moveaxis(z[..., 0, :], -1, 0)[..., None], x, *numbers)
-    return h
+    return np.asarray(h)
 
 
 @lru_cache(maxsize=32)
-def _hamiltonian(equations: Canonical):
+def _hamiltonian(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     arguments = [*equations.slow, *equations.costates, equations.anomaly, *equations.parameters[1:]]
     return compiler.function("hamiltonian", arguments, {"h": equations.hamiltonian.subs(y, 0)})

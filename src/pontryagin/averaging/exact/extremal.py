@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 from typing import overload
 
 import numpy as np
+import sympy as sp
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
@@ -22,8 +23,10 @@ from pontryagin.numerics.flow import (
     flow,
 )
 from pontryagin.validation import times
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Extremal:
     """One extremal of the unaveraged problem with n slow variables.
@@ -48,7 +51,7 @@ class Extremal:
     parameters : array
         epsilon, then the system's numbers.
     certify : callable
-        Makes the certificate, when it is asked for.
+        Makes the certificate at its first use.
     turn_to_phase : callable
         psi of the slow variables (k, n) and the anomalies (k,).
     view : callable or None
@@ -65,9 +68,9 @@ class Extremal:
     initial: Array
     equations: Canonical = field(repr=False)
     parameters: Array = field(repr=False)
-    certify: Callable[[], MaximumPrinciple] = field(repr=False)
-    turn_to_phase: Callable[[Array, Array], Array] = field(repr=False)
-    view: Callable[[Array, Array], Array] | None = field(default=None, repr=False)
+    certify: Callable[[], MaximumPrinciple] = field(repr=False, compare=False)
+    turn_to_phase: Callable[[Array, Array], Array] = field(repr=False, compare=False)
+    view: Callable[[Array, Array], Array] | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def certificate(self) -> MaximumPrinciple:
@@ -81,13 +84,13 @@ class Extremal:
 
     def slow(self, tau: ArrayLike) -> Array:
         """The slow variables a at slow times (k,), as (k, n)."""
-        seen = self._seen(tau)
-        return seen[:, : _slow(seen)]
+        own = self._own(tau)
+        return own[:, : _slow_count(own)]
 
     def costate(self, tau: ArrayLike) -> Array:
         """p at slow times (k,), as (k, n)."""
-        seen = self._seen(tau)
-        return seen[:, _slow(seen) : 2 * _slow(seen)]
+        own = self._own(tau)
+        return own[:, _slow_count(own) : 2 * _slow_count(own)]
 
     def phase_costate(self, tau: ArrayLike) -> Array:
         """p_x, conjugate to the anomaly, at slow times (k,): of order epsilon, and zero at the end."""
@@ -95,12 +98,12 @@ class Extremal:
 
     def anomaly(self, tau: ArrayLike) -> Array:
         """x at slow times (k,)."""
-        return self._seen(tau)[:, -1]
+        return self._own(tau)[:, -1]
 
     def phase(self, tau: ArrayLike) -> Array:
         """The rotating phase psi at slow times (k,)."""
-        seen = self._seen(tau)
-        return self.turn_to_phase(seen[:, : _slow(seen)], seen[:, -1])
+        own = self._own(tau)
+        return self.turn_to_phase(own[:, : _slow_count(own)], own[:, -1])
 
     def spent(self, tau: ArrayLike) -> Array:
         """Integral of the running cost up to slow times (k,)."""
@@ -111,11 +114,12 @@ class Extremal:
         return self._control(self._states(tau))
 
     def _control(self, states: Array) -> Array:
-        held = states[:, : 2 * len(self.equations.slow) + 1]
-        return _control(self.equations)(*held.T, states[:, -1], *self.parameters)[0][..., 0]
+        canonical = states[:, : 2 * len(self.equations.slow) + 1]
+        (control,) = _control(self.equations)(*canonical.T, states[:, -1], *self.parameters)
+        return control[..., 0]
 
-    def _seen(self, tau: ArrayLike) -> Array:
-        """(a, p, y, tau, J, x) in the averaged solution's variables."""
+    def _own(self, tau: ArrayLike) -> Array:
+        """(a, p, y, tau, J, x) in the variables of the averaged solution."""
         states = self._states(tau)
         return states if self.view is None else self.view(states, self._control(states))
 
@@ -129,6 +133,7 @@ class Extremal:
         return _follow(self.equations)(start, grid, self.parameters)[place[1:]]
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Extremals(Sequence[Extremal]):
     """All extremals found, the least cost first.
@@ -167,7 +172,7 @@ class Extremals(Sequence[Extremal]):
     @overload
     def __getitem__(self, index: slice) -> tuple[Extremal, ...]: ...
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: int | slice) -> Extremal | tuple[Extremal, ...]:
         return self.items[index]
 
     def __len__(self) -> int:
@@ -177,9 +182,9 @@ class Extremals(Sequence[Extremal]):
         return iter(self.items)
 
 
-def _slow(states: Array) -> int:
+def _slow_count(states: Array) -> int:
     """n of states (k, 2n + 4)."""
-    return states.shape[1] // 2 - 2
+    return int(states.shape[1] // 2 - 2)
 
 
 @lru_cache(maxsize=32)
@@ -189,8 +194,6 @@ def _follow(equations: Canonical) -> Flow:
 
 
 @lru_cache(maxsize=32)
-def _control(equations: Canonical):
-    import sympy as sp
-
+def _control(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
     arguments = [*equations.slow, *equations.costates, y, equations.anomaly, *equations.parameters]
     return compiler.function("control", arguments, {"u": sp.Matrix(equations.control)})

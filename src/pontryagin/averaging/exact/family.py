@@ -6,6 +6,7 @@ family, the extremals of the problem are the roots of y1(theta), and J has its m
 zero. y1 oscillates once a turn about a slowly changing mean, minus kappa of the averaged problem's family.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,19 +25,23 @@ from pontryagin.averaging.exact.shooting import (
 from pontryagin.errors import NotConverged
 
 FEWEST, MOST = 8, 64
-"""Members a turn."""
+"""Least and largest number of members in a turn."""
 RESOLVED = 0.02
-"""How well, in shares of y1's range, members must tell what is halfway between them."""
+"""Largest error of interpolation halfway between members, relative to the range of y1."""
 FLAT = 1e-6
-"""Range of y1, in shares of its size, that counts as none."""
+"""A range of y1 below this share of its size counts as zero."""
 BETWEEN = 0.06
-"""How far, in shares of its range, y1 may reach beyond its members: (1 - cos(pi/8))/2 is 0.04."""
+"""Excess of y1 between members over its values there, relative to its range; (1 - cos(pi/8))/2 is 0.04."""
 BROKEN = 0.25
-"""Error of dJ = p_x dtheta between neighbours, in shares of y1's range, that tells they are not kin."""
+"""Neighbours whose dJ differs from p_x dtheta by more than this share of y1's range are not of one family."""
 QUIET_TURNS = 2
-"""Turns without a root after which the search ends."""
+"""The search ends after this many turns without a root."""
 TURNS = 100_000
+"""Largest number of turns that are searched."""
 VALUES = ("y", "hamiltonian", "duration", "cost")
+"""Columns of a `Shot` that a `Family` keeps."""
+Member = tuple[Array, Array, Shot, Array]
+"""theta, unknowns, shot and Jacobian of one member, (1, ...) each."""
 
 
 @dataclass(frozen=True)
@@ -79,10 +84,7 @@ class Family:
 
 @dataclass(frozen=True)
 class _Turn:
-    """Members of one turn, with the Jacobians that serve the next one.
-
-    `ends` says whether the turn breaks off below and above, and why.
-    """
+    """Members of one turn, with their Jacobians; `ends` says why it breaks off below or above."""
 
     theta: Array
     unknowns: Array
@@ -120,7 +122,7 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
 
 
 def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[_Turn, int]:
-    """The turn about theta, of as many members as resolve y1: those halfway tell what neighbours do."""
+    """The turn about theta, and the number of members that resolves y1, judged by interpolation halfway."""
     size = FEWEST
     while 2 * size < MOST:
         angles = _angles(problem, theta, 2 * size, 0)
@@ -182,7 +184,7 @@ def _outwards(
 
 
 def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int, sense: int) -> _Turn | None:
-    """The members at the angles, guessed from the turns before; None where not one is found."""
+    """The members at the angles, extrapolated from the turns before; None where none is found."""
     if len(angles) == 0:
         return None
     ends = ("start" if len(angles) < size else "", "")
@@ -207,12 +209,12 @@ def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int
         return _joined(marched[::sense], ends)
 
 
-def _complete(marched: list, angles: Array) -> bool:
+def _complete(marched: Sequence[Member], angles: Array) -> bool:
     return len(angles) == 0 or (len(marched) > 0 and marched[-1][0][0] == angles[-1])
 
 
-def _reason(problem: Shooting, marched: list, sense: int) -> str:
-    """What stopped a march: h* far off zero, hardly half a turn left to the start, or something else."""
+def _reason(problem: Shooting, marched: Sequence[Member], sense: int) -> str:
+    """What stopped a march: h* far from zero, less than half a turn left to the start, or something else."""
     if marched and abs(float(marched[-1][2].hamiltonian[0])) > FAR * problem.price:
         return "no further root"
     if sense < 0 and marched and float(marched[-1][0][0]) - problem.anomaly < np.pi:
@@ -221,14 +223,14 @@ def _reason(problem: Shooting, marched: list, sense: int) -> str:
 
 
 def _has_root(last: _Turn, following: _Turn, sense: int) -> bool:
-    """Whether y1 vanishes in the turn, between its members too."""
+    """Whether y1 may vanish in the turn, at its members or between them."""
     y = np.concatenate([last.shot.y, following.shot.y][::sense])
     seen = y[-len(following.theta) - 1 :] if sense > 0 else y[: len(following.theta) + 1]
     reach = BETWEEN * np.ptp(y)
     return bool(seen.min() <= reach and seen.max() >= -reach)
 
 
-def _joined(parts: list[tuple[Array, Array, Shot, Array]], ends: tuple[str, str]) -> _Turn:
+def _joined(parts: Sequence[Member], ends: tuple[str, str]) -> _Turn:
     theta, w, shots, jacobians = zip(*parts, strict=True)
     return _Turn(
         np.concatenate(theta), np.concatenate(w), Shot.joined(shots), np.concatenate(jacobians), ends
@@ -242,7 +244,7 @@ def local_range(theta: Array, y: Array) -> Array:
 
 
 def _unbroken(traced: Family, small: float) -> Family:
-    """The part about the centre along which the cost changes as y1 says."""
+    """The part about the centre along which dJ = p_x dtheta holds."""
     step = np.diff(traced.theta)
     expected = small * step * (traced.y[:-1] + traced.y[1:]) / 2
     size = local_range(traced.theta, traced.y)

@@ -1,109 +1,126 @@
-"""Members of the family: Newton's method for the solutions that end at given anomalies."""
+"""Members of the family of exact solutions: those that end at given anomalies, by Newton's method."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-    newton_step,
-)
+from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.newton import Evaluated, LinearisedStack, newton_stack, solved
 
 CLOSE = 1e-7
-"""Residual of a member; the roots are polished."""
-SWEEPS, QUICK = 20, 6
+"""Largest residual of a member; extremals are polished further."""
+ITERATIONS, FEW_ITERATIONS = 20, 6
 """Newton steps allowed from a rough guess, and from a neighbour."""
 SHORTEST = 1e-4
-"""Step, in shares of that between members, at which the family counts as ended."""
+"""The family counts as ended where a step must be shorter than this share of the distance between members."""
 FAR = 10.0
-"""Size of h* at the end, in units of the mean running cost, beyond which no root is looked for."""
+"""No root is sought where |h*| at the end exceeds this many times the mean running cost."""
 
 
-def members(problem: Shooting, theta: Array, guess: Array, sweeps: int = SWEEPS) -> tuple[Array, Shot, Array]:
+@dataclass(frozen=True, eq=False)
+class _Conditions:
+    """Conditions of k members at some unknowns (k, m), with Jacobians only where they are needed."""
+
+    unknowns: Array
+    residual: Array
+    jacobians: Callable[[Array, NDArray[np.intp]], Array]
+
+    def jacobian(self, rows: NDArray[np.intp]) -> Array:
+        return self.jacobians(self.unknowns[rows], rows)
+
+
+def members(
+    problem: Shooting, theta: Array, guess: Array, iterations: int = ITERATIONS
+) -> tuple[Array, Shot, Array]:
     """Unknowns, shots and Jacobians of the members that end at theta (k,), by damped Newton.
 
     Raises
     ------
     NotConverged
-        If some residual is not brought under `CLOSE`.
+        If some residual does not fall to `CLOSE`.
     """
-    w = guess
-    for _ in range(sweeps):
-        shot, slopes = problem.slopes(theta, w)
-        if (shot.error <= CLOSE).all():
-            return w, shot, slopes.residual_w
-        step = newton_step(slopes.residual_w, shot.residual)
-        w = _damped(problem, theta, w, step, shot.error)
-    raise NotConverged("Newton's method found no extremal that ends there", float(shot.error.max()))
+
+    shot, slopes = problem.slopes(theta, guess)
+
+    def conditions(rows: NDArray[np.intp], w: Array) -> LinearisedStack:
+        if np.array_equal(w, guess):
+            return Evaluated(shot.residual, slopes.residual_w)
+
+        def jacobians(w: Array, some: NDArray[np.intp]) -> Array:
+            return problem.slopes(theta[rows[some]], w)[1].residual_w
+
+        return _Conditions(w, _residuals(lambda: problem.shoot(theta[rows], w).residual, w.shape), jacobians)
+
+    found = newton_stack(
+        conditions, guess, tolerance=CLOSE, iterations=iterations, halvings=4, decrease=0.25, size=_largest
+    )
+    if not found.converged.all():
+        raise NotConverged("Newton's method found no extremal that ends there", float(found.residual.max()))
+    if not np.array_equal(found.unknowns, guess):
+        shot, slopes = problem.slopes(theta, found.unknowns)
+    return found.unknowns, shot, slopes.residual_w
 
 
 def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[float, Array]:
     """Anomaly at the end and unknowns of an extremal near a guess, by damped Newton for both.
 
-    Where the control hardly moves the anomaly at the end, no member may end at the one that is guessed.
+    Where the control hardly changes the anomaly at the end, no member may end at the guessed one.
 
     Raises
     ------
     NotConverged
         If none is found.
     """
-    z = np.append(unknowns, theta)[None]
 
-    def left(shot: Shot) -> Array:
-        return np.append(shot.residual[0], shot.hamiltonian[0] / problem.price)
+    def missing(z: Array) -> Array:
+        shot = problem.shoot(z[:, -1], z[:, :-1])
+        return np.column_stack([shot.residual, shot.hamiltonian / problem.price])
 
-    for _ in range(SWEEPS):
+    def jacobians(z: Array, _: NDArray[np.intp]) -> Array:
         shot, slopes = problem.slopes(z[:, -1], z[:, :-1])
-        missing = left(shot)
-        if np.abs(missing).max() <= CLOSE:
-            return float(z[0, -1]), z[0, :-1]
-        rate = shot.hamiltonian[0] / shot.y[0] / problem.price
-        above = np.hstack([slopes.residual_w[0], slopes.residual_theta[0][:, None]])
-        below = rate * np.append(slopes.y_w[0], slopes.y_theta[0])
-        step = newton_step(np.vstack([above, below])[None], missing[None])[0]
-        for share in 0.5 ** np.arange(8):
-            trial = z + share * step
-            try:
-                better = np.linalg.norm(left(problem.shoot(trial[:, -1], trial[:, :-1])))
-            except NotConverged:
-                continue
-            if better < (1 - share / 4) * np.linalg.norm(missing):
-                z = trial
-                break
-        else:
-            break
-    raise NotConverged("no extremal was found near the averaged one", float(np.abs(missing).max()))
+        rate = shot.hamiltonian / shot.y / problem.price
+        above = np.concatenate([slopes.residual_w, slopes.residual_theta[..., None]], axis=2)
+        below = rate[:, None] * np.column_stack([slopes.y_w, slopes.y_theta])
+        return np.concatenate([above, below[:, None]], axis=1)
+
+    found = newton_stack(
+        lambda _, z: _Conditions(z, _residuals(lambda: missing(z), z.shape), jacobians),
+        np.append(unknowns, theta)[None],
+        tolerance=CLOSE,
+        iterations=ITERATIONS,
+        halvings=8,
+        decrease=0.25,
+        size=_largest,
+    )
+    if not found.converged.all():
+        raise NotConverged("no extremal was found near the averaged one", float(found.residual[0]))
+    return float(found.unknowns[0, -1]), found.unknowns[0, :-1]
 
 
-def _damped(problem: Shooting, theta: Array, w: Array, step: Array, error: Array) -> Array:
-    """w + share step, the share halved where the residual does not fall."""
-    share = np.ones(len(w))
-    for _ in range(4):
-        try:
-            trial = problem.shoot(theta, w + share[:, None] * step).error
-        except (NotConverged, FloatingPointError):
-            share = share / 2
-            continue
-        worse = ~(trial <= (1 - share / 4) * error) & (error > CLOSE)
-        if not worse.any():
-            break
-        share = np.where(worse, share / 2, share)
-    else:
-        raise NotConverged("Newton's method found no extremal that ends there", float(error.max()))
-    return w + share[:, None] * step
+def _residuals(evaluate: Callable[[], Array], shape: tuple[int, ...]) -> Array:
+    """Residuals, or nan where a trajectory cannot be followed, which shortens Newton's steps."""
+    try:
+        return evaluate()
+    except (NotConverged, FloatingPointError):
+        return np.full(shape, np.nan)
+
+
+def _largest(_: NDArray[np.intp], __: Array, residuals: Array) -> Array:
+    return np.asarray(np.abs(residuals).max(axis=1))
 
 
 def chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[Array, Shot, Array]:
-    """Newton's method with the Jacobians of the turn before, corrected by Broyden; exact ones if slow."""
+    """Members by Broyden's method from the Jacobians of the turn before; by Newton's where that is slow."""
     shot = problem.shoot(theta, w)
     jacobians = jacobians.copy()
     for _ in range(6):
         if (shot.error <= CLOSE).all():
             return w, shot, jacobians
-        step = newton_step(jacobians, shot.residual)
+        step = solved(jacobians, -shot.residual)
         following = problem.shoot(theta, w + step)
         if not (following.error <= np.maximum(0.3 * shot.error, CLOSE)).all():
             break
@@ -111,16 +128,16 @@ def chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[
         unexplained = following.residual / length[:, None]
         jacobians += unexplained[:, :, None] * step[:, None, :]
         w, shot = w + step, following
-    return members(problem, theta, w, QUICK)
+    return members(problem, theta, w, FEW_ITERATIONS)
 
 
 def march(
     problem: Shooting, theta: float, edge: tuple[Array, Shot, Array], angles: Iterable[float]
 ) -> Iterable[tuple[Array, Array, Shot, Array]]:
-    """Member after member from the edge towards each of the angles, each guessed from the ones before.
+    """Members one after the other from the edge to each of the angles, each guessed from those before.
 
-    Steps are shortened where Newton's method does not follow, with a member at each; the march ends where it
-    follows no step, or where h* has left its size on extremals far behind.
+    Steps are shortened, with a member at each, where Newton's method fails. The march ends where it fails for
+    the shortest step, or where h* is far from its value zero on extremals.
     """
     w, _, jacobians = edge
     _, slopes = problem.slopes(np.array([theta]), w)

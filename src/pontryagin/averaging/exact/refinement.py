@@ -1,4 +1,4 @@
-"""Members added to a family where its own do not tell enough: near turns of y1 that may touch zero."""
+"""Members added to a family near extrema of y1 that may touch zero."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,20 +20,21 @@ from pontryagin.averaging.exact.shooting import (
 from pontryagin.errors import NotConverged
 
 NEAR = 0.2
-"""How near to zero, in shares of y1's range, a turn of y1 is looked at more closely."""
+"""An extremum of y1 nearer to zero than this share of its range is resolved more finely."""
 ROUNDS = 6
+"""Largest number of times that members are added."""
 
 
 def turns_resolved(problem: Shooting, traced: Family) -> Family:
-    """Members added where y1 turns near zero without reaching it, until it is clear whether it does."""
+    """Members added at extrema of y1 near zero, until it is clear whether it reaches zero there."""
     current = traced
     for _ in range(ROUNDS):
         theta, y = current.theta, current.y
         before, here, after = np.abs(y[:-2]), np.abs(y[1:-1]), np.abs(y[2:])
         one_side = (y[:-2] * y[1:-1] > 0) & (y[2:] * y[1:-1] > 0)
-        turning = one_side & (here <= before) & (here <= after)
+        extremum = one_side & (here <= before) & (here <= after)
         vertex, height = _vertex(theta, y)
-        open_ = turning & (np.abs(height) <= NEAR * local_range(theta, y)[1:-1])
+        open_ = extremum & (np.abs(height) <= NEAR * local_range(theta, y)[1:-1])
         gap = np.minimum(theta[1:-1] - theta[:-2], theta[2:] - theta[1:-1])
         open_ &= np.abs(vertex - theta[1:-1]) > 0.02 * gap
         open_ &= (np.abs(y[1:-1] - height) > 0.2 * np.abs(height)) | (height * y[1:-1] < 0)
@@ -114,7 +115,8 @@ def interpolated(current: Family, values: Array, left: NDArray[np.intp], theta: 
     count = min(4, size)
     nodes = np.clip(left - 1, 0, size - count)[:, None] + np.arange(count)
     weights = _lagrange(current.theta[nodes], theta)
-    return (weights.reshape(*weights.shape, *[1] * (values.ndim - 1)) * values[nodes]).sum(axis=1)
+    shaped = weights.reshape(*weights.shape, *[1] * (values.ndim - 1))
+    return np.asarray((shaped * values[nodes]).sum(axis=1))
 
 
 def _lagrange(nodes: Array, at: Array) -> Array:
@@ -122,11 +124,11 @@ def _lagrange(nodes: Array, at: Array) -> Array:
     same = np.eye(nodes.shape[1], dtype=bool)
     differences = np.where(same, 1.0, nodes[:, :, None] - nodes[:, None, :])
     reached = np.where(same, 1.0, at[:, None, None] - nodes[:, None, :])
-    return (reached / differences).prod(axis=2)
+    return np.asarray((reached / differences).prod(axis=2))
 
 
 def _vertex(theta: Array, y: Array) -> tuple[Array, Array]:
-    """Place and height of the parabola's vertex through each three neighbours, kept between them."""
+    """Place and height of the vertex of the parabola through each three neighbours, kept between them."""
     h0, h1 = theta[:-2] - theta[1:-1], theta[2:] - theta[1:-1]
     d0, d1 = (y[:-2] - y[1:-1]) / h0, (y[2:] - y[1:-1]) / h1
     bend = (d1 - d0) / (h1 - h0)

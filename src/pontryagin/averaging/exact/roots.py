@@ -1,17 +1,19 @@
 """All extremals of the unaveraged problem: the roots of y1 over the family, bracketed and polished."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import (
     arrivals,
     fixed_ending,
 )
-from pontryagin.averaging.exact.certificate import Proof
+from pontryagin.averaging.exact.certificate import ExactCertificates
 from pontryagin.averaging.exact.extremal import (
     Extremal,
     Extremals,
@@ -29,15 +31,10 @@ from pontryagin.averaging.exact.refinement import (
 from pontryagin.averaging.exact.shooting import (
     Shooting,
     Shot,
-    newton_step,
     shooting,
 )
-from pontryagin.averaging.system.anomaly import (
-    anomaly_at,
-    phase_at,
-)
 from pontryagin.errors import NotConverged
-from pontryagin.validation import finite, positive
+from pontryagin.numerics.newton import solved
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""
@@ -60,55 +57,57 @@ class Roots:
     slope: Array
 
 
-def extremals(solution, epsilon: ArrayLike, phase: ArrayLike) -> Extremals:
-    """All exact extremals about the averaged one, the least cost first; see `AveragedSolution.exact`.
+def extremals(
+    reference: ReferenceExtremal,
+    epsilon: float,
+    phase: float,
+    *,
+    start: float,
+    end: float,
+    to_phase: Callable[[Array, Array], Array],
+) -> Extremals:
+    """All exact extremals about an averaged one, the least cost first; see `AveragedSolution.exact`.
+
+    Parameters
+    ----------
+    reference : ReferenceExtremal
+        The averaged extremal of one problem.
+    epsilon, phase : float
+        Positive; psi_0.
+    start, end : float
+        Anomaly at the start, and at the end of the averaged extremal.
+    to_phase : callable
+        psi of slow variables (k, n) and anomalies (k,).
 
     Raises
     ------
-    ValueError
-        If epsilon is not positive, phase is not a finite number, or the solution is a stack.
     NotConverged
         If no extremal is found; at a large epsilon the averaged one may be too far from any.
     """
-    small, begin = positive("epsilon", epsilon), finite("phase", phase, "a number")
-    for name, value in (("epsilon", small), ("phase", begin)):
-        if value.ndim:
-            raise ValueError(f"{name} must be one number, got an array of shape {value.shape}")
-    if solution.duration.shape:
-        raise ValueError(f"exact takes one problem, got a stack of shape {solution.duration.shape}")
-    if not solution.duration > 0:
-        raise ValueError("exact takes a problem that is not solved at the start: the target holds there")
-    start = anomaly_at(solution.model, solution.start, begin, solution.numbers)
-    held = solution if solution.frame is None else solution.frame(solution)
-    problem = shooting(held, float(small), float(start))
-    centre = float(solution.anomaly(solution.duration, float(small), begin)[0])
-    guess = np.concatenate([held.costate([0.0])[0], np.atleast_1d(held.multipliers)])
-    traced, found = _found(problem, centre, guess)
-    proof = Proof(problem, found.shot)
-
-    def phase_of(slow: Array, anomaly: Array) -> Array:
-        return phase_at(solution.model, slow, anomaly, solution.numbers)
-
+    problem = shooting(reference, epsilon, start)
+    guess = np.concatenate([reference.costate([0.0])[0], np.atleast_1d(reference.multipliers)])
+    traced, found = _found(problem, end, guess)
+    certificates = ExactCertificates(problem, found.shot)
     starts = problem.starts(found.shot.unknowns)
     items = [
         Extremal(
             cost=float(found.shot.cost[i]),
             duration=float(found.shot.duration[i]),
             kind="minimum" if found.slope[i] > 0 else "maximum",
-            epsilon=float(small),
-            starting_anomaly=float(start),
+            epsilon=epsilon,
+            starting_anomaly=start,
             ending_anomaly=float(found.shot.theta[i]),
-            curvature=float(small * found.slope[i]),
+            curvature=float(epsilon * found.slope[i]),
             initial=starts[i],
             equations=problem.equations,
             parameters=problem.parameters,
-            certify=partial(proof.one, i),
-            turn_to_phase=phase_of,
-            view=None if solution.frame is None else held.seen,
+            certify=partial(certificates.one, int(i)),
+            turn_to_phase=to_phase,
+            view=getattr(reference, "to_slow_variables", None),
         )
         for i in np.argsort(found.shot.cost)
     ]
-    return Extremals(tuple(items), float(small), float(begin), traced)
+    return Extremals(tuple(items), epsilon, phase, traced)
 
 
 def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | None, Roots]:
@@ -159,7 +158,10 @@ def _sign_changes(current: Family) -> NDArray[np.intp]:
 def _polished(
     problem: Shooting, theta: Array, w: Array, low: Array, high: Array, y: Array
 ) -> tuple[Roots, NDArray[np.bool_]]:
-    """Newton's method for w and theta together from k guesses: the roots found, and which were."""
+    """Newton's method for w and theta together from k guesses, each Jacobian used up to four times.
+
+    Returns the roots found, and which of the guesses led to one.
+    """
     n, size = w.shape[1], float(np.ptp(y))
     theta, w = theta.copy(), w.copy()
     good, slope, open_ = np.zeros(len(theta), bool), np.zeros(len(theta)), np.ones(len(theta), bool)
@@ -169,23 +171,23 @@ def _polished(
         if len(i) == 0:
             break
         shot, slopes = problem.slopes(theta[i], w[i])
-        whole = np.empty((len(i), n + 1, n + 1))
-        whole[:, :n, :n], whole[:, :n, n] = slopes.residual_w, slopes.residual_theta
-        whole[:, n, :n], whole[:, n, n] = slopes.y_w / size, slopes.y_theta / size
+        jacobians = np.empty((len(i), n + 1, n + 1))
+        jacobians[:, :n, :n], jacobians[:, :n, n] = slopes.residual_w, slopes.residual_theta
+        jacobians[:, n, :n], jacobians[:, n, n] = slopes.y_w / size, slopes.y_theta / size
         slope[i] = slopes.along[1]
-        left = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+        residual = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
         for _ in range(4):
-            step = newton_step(whole, left)
+            step = solved(jacobians, -residual)
             w[i] += step[:, :n]
             theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])
-            before, left = left, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
-            error = np.abs(left).max(axis=1)
+            before, residual = residual, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+            error = np.abs(residual).max(axis=1)
             shots.put(i, shot)
             done = error <= POLISHED
             good[i[done]], open_[i[done]] = True, False
             keep = ~done & (error <= 0.2 * np.abs(before).max(axis=1))
-            i, whole, left = i[keep], whole[keep], left[keep]
+            i, jacobians, residual = i[keep], jacobians[keep], residual[keep]
             if len(i) == 0:
                 break
     return Roots(shots[good], slope[good]), good

@@ -1,19 +1,21 @@
-"""From guesses of the initial costates to what is missing at the end, for many guesses at once.
+"""Shooting from guesses of the initial costates to the conditions at the end, (1.6), many guesses at once.
 
-Unknowns are w = (p0, alpha); y0 follows from H = 0. The end is where the anomaly has turned to theta. What
-is left there is M(a1) and p1 + g' + alpha M', in units of the problem's own size; y1, which vanishes on
-extremals, is what the family of solutions over theta is searched for.
+Unknowns are w = (p0, alpha); y0 follows from H = 0. The end is where the anomaly has reached theta. The
+residual there is M(a1) and p1 + g' + alpha M', in units of the problem's own size. y1 vanishes on extremals:
+its roots are sought along the family of solutions over theta.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.arcs import switched_ends
+from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.canonical import (
     Canonical,
     canonical,
@@ -21,14 +23,15 @@ from pontryagin.averaging.exact.canonical import (
 )
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    TOLERANCE,
-    Ends,
-    ends,
-)
+from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics.lanes import Ends, ends
+from pontryagin.numerics.newton import solved
 
 ROUGH = 1e-9
-"""Tolerance of the flow with derivatives, which direct Newton's method; residuals come from the other."""
+"""Tolerance of the flow with derivatives, which serves Newton's matrices only and not the residuals."""
+
+Kernel = Callable[..., tuple[Array, ...]]
+Selection = int | slice | NDArray[np.intp] | NDArray[np.bool_] | list[int]
 
 
 @dataclass(frozen=True)
@@ -60,29 +63,21 @@ class Shot:
     @property
     def error(self) -> Array:
         """Largest entry of the residual, (k,)."""
-        return np.abs(self.residual).max(axis=-1)
+        return np.asarray(np.abs(self.residual).max(axis=-1))
 
-    def __getitem__(self, index) -> "Shot":
-        """Those of the guesses."""
+    def __getitem__(self, index: Selection) -> "Shot":
+        """The shots of some of the guesses."""
         return Shot(*(getattr(self, f.name)[index] for f in fields(self)))
 
-    def put(self, index, shot: "Shot") -> None:
-        """Overwrite some of the guesses."""
+    def put(self, index: Selection, shot: "Shot") -> None:
+        """Overwrite the shots of some of the guesses."""
         for f in fields(self):
             getattr(self, f.name)[index] = getattr(shot, f.name)
 
     @staticmethod
     def joined(shots: Sequence["Shot"]) -> "Shot":
-        """One after the other."""
+        """The shots one after the other."""
         return Shot(*(np.concatenate([getattr(s, f.name) for s in shots]) for f in fields(Shot)))
-
-
-def newton_step(matrices: Array, residuals: Array) -> Array:
-    """Solutions (k, m) of matrix step = -residual; of least norm if some matrix (k, m, m) is singular."""
-    try:
-        return -np.linalg.solve(matrices, residuals[..., None])[..., 0].astype(np.float64)
-    except np.linalg.LinAlgError:
-        return -(np.linalg.pinv(matrices) @ residuals[..., None])[..., 0]
 
 
 @dataclass(frozen=True)
@@ -97,7 +92,7 @@ class Slopes:
     @property
     def along(self) -> tuple[Array, Array]:
         """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
-        w = newton_step(self.residual_w, self.residual_theta)
+        w = solved(self.residual_w, -self.residual_theta)
         return w, self.y_theta + (self.y_w * w).sum(axis=-1)
 
 
@@ -204,27 +199,27 @@ class Shooting:
         )
 
 
-def shooting(solution, small: float, anomaly: float) -> Shooting:
-    """The exact problem whose first approximation is `solution`, from the anomaly given."""
-    equations = canonical(solution.system)
-    numbers = [float(number) for number in solution.numbers]
-    grid = np.linspace(0.0, 1.0, 33) * solution.duration
-    scale_a = np.abs(solution.slow(grid)).max(axis=0)
+def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Shooting:
+    """The exact problem whose first approximation is given, from an anomaly on."""
+    equations = canonical(reference.system)
+    numbers = [float(number) for number in reference.numbers]
+    grid = np.linspace(0.0, 1.0, 33) * reference.duration
+    scale_a = np.abs(reference.slow(grid)).max(axis=0)
     scale_a = np.where(scale_a > 0, scale_a, scale_a.max())
-    scale_p = np.maximum(np.abs(solution.costate(grid)).max(axis=0), abs(float(solution.cost)) / scale_a)
-    parameters = np.array([small, *numbers])
-    alpha = np.atleast_1d(solution.multipliers)
-    ends_at = solution.slow(grid)[-1]
+    scale_p = np.maximum(np.abs(reference.costate(grid)).max(axis=0), abs(float(reference.cost)) / scale_a)
+    parameters = np.array([epsilon, *numbers])
+    alpha = np.atleast_1d(reference.multipliers)
+    ends_at = reference.slow(grid)[-1]
     _, _, jacobian, _ = _boundary(equations)(*ends_at, *alpha, *parameters)
     return Shooting(
         equations,
-        np.asarray(solution.start, dtype=float),
+        np.asarray(reference.start, dtype=float),
         anomaly,
         parameters,
         scale_a,
         scale_p,
         np.abs(jacobian) @ scale_a,
-        abs(float(solution.cost / solution.duration)),
+        abs(float(reference.cost / reference.duration)),
     )
 
 
@@ -241,25 +236,25 @@ def _carry(equations: Canonical, derivatives: bool) -> Ends:
 
 
 @lru_cache(maxsize=32)
-def _rates(equations: Canonical):
+def _rates(equations: Canonical) -> Kernel:
     rates = equations.unswitched(equations.rates)
     arguments = [*equations.states, equations.anomaly, *equations.parameters]
     return compiler.function("rates", arguments, {"rates": sp.Matrix(rates)})
 
 
 @lru_cache(maxsize=32)
-def _start(equations: Canonical):
+def _start(equations: Canonical) -> Kernel:
     arguments = [*equations.slow, *equations.costates, y, equations.anomaly, *equations.parameters]
     motion = {f"motion_{i}": g for i, g in enumerate(equations.motion)}
     return compiler.function("start", arguments, {"hamiltonian": equations.hamiltonian, **motion})
 
 
 @lru_cache(maxsize=32)
-def _boundary(equations: Canonical):
+def _boundary(equations: Canonical) -> Kernel:
     target = sp.Matrix(equations.boundary)
     alpha = sp.symbols(f"alpha:{len(target)}", real=True)
-    held = equations.terminal_cost + sum(c * m for c, m in zip(alpha, target, strict=True))
-    gradient = sp.Matrix([held]).jacobian(equations.slow).T
+    lagrangian = equations.terminal_cost + sum(c * m for c, m in zip(alpha, target, strict=True))
+    gradient = sp.Matrix([lagrangian]).jacobian(equations.slow).T
     return compiler.function(
         "boundary",
         [*equations.slow, *alpha, *equations.parameters],
@@ -273,6 +268,6 @@ def _boundary(equations: Canonical):
 
 
 @lru_cache(maxsize=32)
-def _terminal(equations: Canonical):
+def _terminal(equations: Canonical) -> Kernel:
     arguments = [*equations.slow, equations.anomaly, *equations.parameters]
     return compiler.function("terminal", arguments, {"g": equations.terminal_cost, "r": equations.rate})

@@ -1,5 +1,6 @@
-"""Example 3 flown: a symmetric body under the synthesis of the first approximation, a feedback."""
+"""Example 3 under feedback: a symmetric body controlled by the synthesis of the first approximation."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import cast
@@ -10,14 +11,14 @@ from scipy.integrate import OdeSolution, solve_ivp
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.derivation import rigid_body
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive, vectors
 
 STOPPED = 1e-6
-"""Share of the first transverse rate at which the body counts as stopped: the synthesis has no value at 0."""
+"""Share of the first transverse rate at which the body counts as stopped; at 0 the synthesis is undefined."""
 PER_TURN, FEWEST = 96, 400
-"""Samples a turn, and at least."""
+"""Samples of a turn, and least number of samples."""
 
 
 @dataclass(frozen=True)
@@ -71,19 +72,19 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
     for name, value in (("semiaxes", axes), ("ratio", ratio), ("epsilon", epsilon)):
         positive(name, value)
     if not np.hypot(*start[:2]) > 0:
-        raise ValueError(
-            f"omega0 must have w_x or w_y other than 0, or there is nothing to brake, got {start}"
-        )
+        message = f"omega0 must have w_x or w_y other than 0, or there is nothing to brake, got {start}"
+        raise ArgumentValueError(message, "omega0")
     path, last = fly(start, axes, ratio, epsilon)
     turns = max(abs((ratio - 1) * start[2]), float(np.hypot(*start[:2]))) * last / (2 * np.pi)
     even = np.linspace(0.0, last, max(FEWEST, int(PER_TURN * turns)))
-    t = np.union1d(even, path.ts[path.ts < last])  # towards rest w turns to an axis of the ellipse in no time
+    # Close to rest w turns quickly to an axis of the ellipse, which the integrator's own steps resolve.
+    t = np.union1d(even, path.ts[path.ts < last])
     rates = path(t).T
     return Braking(epsilon * t, rates, synthesis(rates, axes))
 
 
 def fly(start: Array, semiaxes: Array, ratio: float, epsilon: float) -> tuple[OdeSolution, float]:
-    """omega as a function of time, (k,) to (3, k), under the synthesis, and the time at which it rests.
+    """omega under the synthesis as a function of time, (k,) to (3, k), and the time at which it stops.
 
     Raises
     ------
@@ -115,11 +116,12 @@ def fly(start: Array, semiaxes: Array, ratio: float, epsilon: float) -> tuple[Od
 
 def synthesis(rates: Array, semiaxes: Array) -> Array:
     """u of the first approximation as a function of omega (k, 3), (k, 3)."""
-    return _synthesis()(*rates.T, *semiaxes[:2], 1.0, 1.0)[1][..., 0]
+    _, control = _synthesis()(*rates.T, *semiaxes[:2], 1.0, 1.0)
+    return control[..., 0]
 
 
 @lru_cache(maxsize=1)
-def _synthesis():
+def _synthesis() -> Callable[..., tuple[Array, ...]]:
     """omega' and u as functions of omega under `rigid_body.braking`."""
     control = rigid_body.braking()
     rates = rigid_body.symmetric_rates().subs(dict(zip(rigid_body.u, control, strict=True)))

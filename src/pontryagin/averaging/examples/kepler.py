@@ -1,17 +1,18 @@
 """Example 2, (3.3) to (3.9): the energy of an orbit is changed by small thrust."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
-from pontryagin.averaging.system import generated_systems
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
+from pontryagin.averaging.examples.models import example_model, example_system
+from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive
 
 ROUND = 1e-6
-"""Eccentricities from here down have no pericentre to count the phase from."""
+"""Orbits with this or a smaller eccentricity count as round: the phase has no pericentre to start from."""
 
 
 def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> AveragedSolution:
@@ -53,34 +54,36 @@ def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> Average
     squared = 1 + 2 * begin * momentum**2
     if (squared < -1e-14).any():
         most = np.sqrt(-1 / (2 * begin))
-        raise ValueError(
+        raise ArgumentValueError(
             f"K0 must be below that of the round orbit of the energy E0, 1/sqrt(2|E0|) = "
             f"{np.broadcast_to(most, squared.shape)[squared < -1e-14].flat[0]:.6g}, "
-            f"got {np.broadcast_to(momentum, squared.shape)[squared < -1e-14].flat[0]:.6g}"
+            f"got {np.broadcast_to(momentum, squared.shape)[squared < -1e-14].flat[0]:.6g}",
+            "K0",
         )
     if (squared <= ROUND**2).any():
-        raise ValueError(
+        raise ArgumentValueError(
             f"K0 must leave an eccentricity above {ROUND:g}, got that of a round orbit, on which the phase "
-            "has no pericentre to be counted from"
+            "has no pericentre to be counted from",
+            "K0",
         )
     if (squared == 1).any():
-        raise ValueError("K0 must leave an eccentricity below 1, got one too small to tell from 0")
+        message = "K0 must leave an eccentricity below 1, got one too small to tell from 0"
+        raise ArgumentValueError(message, "K0")
     numbers = (end, price)
     shape = np.broadcast_shapes(begin.shape, momentum.shape)
     start = np.stack([np.broadcast_to(begin, shape), np.broadcast_to(momentum, shape)], axis=-1)
     return solved(
-        generated_systems.model("kepler"),
+        example_model("kepler"),
         ("E", "K"),
         start,
         numbers,
-        lambda: generated_systems.system("kepler", numbers),
+        partial(example_system, "kepler", numbers),
     )
 
 
 def _bound(name: str, value: ArrayLike) -> np.ndarray:
     energy = finite(name, value, "a negative number or an array of them")
     if not (energy < 0).all():
-        raise ValueError(
-            f"{name} must be negative, that of a bound orbit, got {energy[~(energy < 0)].flat[0]}"
-        )
+        message = f"{name} must be negative, that of a bound orbit, got {energy[~(energy < 0)].flat[0]}"
+        raise ArgumentValueError(message, name)
     return energy

@@ -18,14 +18,17 @@ from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.system.control_sets import Ellipsoid
 from pontryagin.averaging.system.phase_system import PhaseSystem
+from pontryagin.value import value_class
 
 SENSE = sp.Symbol("sense", real=True)
 AT_REST = 1e-9
+"""Share of the first transverse rate below which the body counts as at rest."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
-class Turning:
-    """The averaged solution in the turning frame: what the exact problem and the correction ask of it."""
+class RotatingFrame:
+    """The averaged solution in the rotating frame: a `ReferenceExtremal`, regular at the target."""
 
     averaged: AveragedSolution
     system: PhaseSystem
@@ -33,7 +36,7 @@ class Turning:
 
     @property
     def duration(self) -> Array:
-        """That of the solution, as are the cost and kappa."""
+        """The solution's own tau_1."""
         return self.averaged.duration
 
     @property
@@ -48,7 +51,7 @@ class Turning:
 
     @property
     def multipliers(self) -> Array:
-        """Those of z = 0: minus the costates of z."""
+        """Multipliers of z = 0: minus the costates of z."""
         return -self.costate(np.zeros(1))[..., 0, :2]
 
     def slow(self, tau: ArrayLike) -> Array:
@@ -56,10 +59,10 @@ class Turning:
         return _inserted(self.averaged.slow(tau))
 
     def costate(self, tau: ArrayLike) -> Array:
-        """Their costates."""
+        """Costates of (z_1, z_2, c), (..., k, 3)."""
         return _inserted(self.averaged.costate(tau))
 
-    def seen(self, states: Array, control: Array) -> Array:
+    def to_slow_variables(self, states: Array, control: Array) -> Array:
         """States (z, c, p, y, tau, J, chi) (k, 10) as (a, c, p_a, p_c, y, tau, J, psi) (k, 8).
 
         At rest, psi is the direction that (w_x, w_y) comes from, opposite to the control.
@@ -74,11 +77,11 @@ class Turning:
         return np.column_stack([a, states[:, 2], p_a, *states[:, 5:-1].T, chi + np.angle(along)])
 
 
-def turning(solution: AveragedSolution) -> Turning:
-    """The averaged solution of `spin_down` in the turning frame."""
+def in_rotating_frame(solution: AveragedSolution) -> RotatingFrame:
+    """The averaged solution of `spin_down` in the rotating frame."""
     numbers = dict(zip(map(str, solution.system.numbers), solution.numbers, strict=True))
-    system = turning_body()
-    return Turning(solution, system, tuple(numbers[str(symbol)] for symbol in system.numbers))
+    system = rotating_body()
+    return RotatingFrame(solution, system, tuple(numbers[str(symbol)] for symbol in system.numbers))
 
 
 def _inserted(values: Array) -> Array:
@@ -87,24 +90,24 @@ def _inserted(values: Array) -> Array:
 
 
 @cache
-def turning_body() -> PhaseSystem:
+def rotating_body() -> PhaseSystem:
     """Example 3 in z, c and chi, from Euler's equations (3.10).
 
     Examples
     --------
-    >>> turning_body().f[0]
+    >>> rotating_body().f[0]
     sense*u_y*sin(chi) + u_x*cos(chi)
     """
     z = sp.Matrix(sp.symbols("z_1 z_2", real=True))
     chi = sp.Symbol("chi", real=True)
-    turned, mirrored = sp.rot_ccw_axis3(chi)[:2, :2], sp.diag(1, SENSE)
+    rotation, mirror = sp.rot_ccw_axis3(chi)[:2, :2], sp.diag(1, SENSE)
     omega = SENSE * body.anomaly_rate()
-    place = mirrored * turned * z
+    place = mirror * rotation * z
     rates = body.symmetric_rates().subs({body.w[0]: place[0], body.w[1]: place[1], body.w[2]: body.c})
-    relative = mirrored * rates[:2, :] - turned.diff(chi) * z * omega
-    pushed = (turned.T * relative).applyfunc(_with_sense)
+    relative = mirror * rates[:2, :] - rotation.diff(chi) * z * omega
+    rates_of_z = (rotation.T * relative).applyfunc(_with_sense)
     return PhaseSystem(
-        f=[sp.expand(rate / body.epsilon) for rate in (*pushed, rates[2])],
+        f=[sp.expand(rate / body.epsilon) for rate in (*rates_of_z, rates[2])],
         omega=omega,
         control_set=Ellipsoid(list(body.semiaxes)),
         slow=[*z, body.c],
@@ -116,5 +119,5 @@ def turning_body() -> PhaseSystem:
 
 
 def _with_sense(expression: sp.Expr) -> sp.Expr:
-    """Simplified, the sense being 1 or -1."""
+    """The expression simplified with sense^2 = 1."""
     return sp.trigsimp(sp.expand(sp.expand(expression).subs(SENSE**2, 1)))

@@ -1,22 +1,21 @@
 """Example 1, (3.1): a rotor with a mass and a potential that depend on its angle, sped up or braked."""
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
+from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive
 
 if TYPE_CHECKING:
     import sympy as sp
 
-LOOK = 1440
-"""How finely a turn is searched for the potential's maximum and the mass's minimum."""
+POINTS = 1440
+"""Points of a turn at which the potential's maximum and the mass's minimum are sought."""
 
 
 def rotor(
@@ -66,7 +65,7 @@ def rotor(
     from pontryagin.averaging.system import derived_systems
 
     if (peak is None) == (k is None):
-        raise ValueError("exactly one of peak and k must be given")
+        raise ArgumentValueError("exactly one of peak and k must be given", "peak")
     bound = None if peak is None else positive("peak", peak)
     price = None if k is None else positive("k", k)
     begin = finite("a0", a0, "a number or an array (...)")
@@ -74,13 +73,14 @@ def rotor(
     m, V = _of("mass", mass, "x"), _of("potential", potential, "x")
     lightest = _over_a_turn(m).min()
     if not lightest > 0:
-        raise ValueError(f"mass must be positive for every x, got {lightest:.6g}")
+        raise ArgumentValueError(f"mass must be positive for every x, got {lightest:.6g}", "mass")
     top = _over_a_turn(V).max()
     for name, energy in (("a0", begin), ("a1", end)):
         if not (energy > top).all():
-            raise ValueError(
+            raise ArgumentValueError(
                 f"{name} must exceed the potential's maximum {top:.6g}, for omega vanishes there, "
-                f"got {energy.min():.6g}"
+                f"got {energy.min():.6g}",
+                name,
             )
     f = _of("force", force, "xv")
     return solved(
@@ -88,34 +88,25 @@ def rotor(
         ("a",),
         begin[..., None],
         (end, *(value for value in (bound, price) if value is not None)),
-        lambda: derived_systems.rotor(m, V, f, end, bound, price),
+        partial(derived_systems.rotor, m, V, f, end, bound, price),
     )
 
 
 def _of(name: str, value: Any, letters: str) -> "sp.Expr":
     """An expression in the derivation's own x and v."""
-    import sympy as sp
 
     from pontryagin.averaging.derivation import rotor as derivation
-    from pontryagin.averaging.system.checks import require_periodic
+    from pontryagin.averaging.system.checks import real_expression, require_periodic
 
-    if isinstance(value, str):
-        raise TypeError(f"{name} must be a SymPy expression or a number, got the text {value!r}")
-    try:
-        expression = sp.sympify(value)
-    except sp.SympifyError:
-        raise TypeError(f"{name} must be a SymPy expression or a number, got {value!r}") from None
-    if not isinstance(expression, sp.Expr) or expression.has(sp.nan, sp.oo, sp.zoo, sp.I):
-        raise ValueError(f"{name} must be a real, finite expression, got {value!r}")
+    expression = real_expression(name, value)
     known = {letter: getattr(derivation, letter) for letter in letters}
     unknown = sorted({str(symbol) for symbol in expression.free_symbols} - set(known))
     if unknown:
-        raise ValueError(
-            f"{name} may hold {' and '.join(known)} only, got unknown symbols {', '.join(unknown)}"
-        )
-    mine = expression.xreplace({symbol: known[str(symbol)] for symbol in expression.free_symbols})
-    require_periodic(name, mine, derivation.x, {})
-    return mine
+        message = f"{name} may hold {' and '.join(known)} only, got unknown symbols {', '.join(unknown)}"
+        raise ArgumentValueError(message, name)
+    own = expression.xreplace({symbol: known[str(symbol)] for symbol in expression.free_symbols})
+    require_periodic(name, own, derivation.x, {})
+    return own
 
 
 @lru_cache(maxsize=64)
@@ -123,5 +114,6 @@ def _over_a_turn(expression: "sp.Expr") -> np.ndarray:
     from pontryagin.averaging.derivation import rotor as derivation
     from pontryagin.numerics import compile as compiler
 
-    angles = 2 * np.pi * np.arange(LOOK) / LOOK
-    return compiler.function("values", [derivation.x], {"value": expression})(angles)[0]
+    angles = 2 * np.pi * np.arange(POINTS) / POINTS
+    (values,) = compiler.function("values", [derivation.x], {"value": expression})(angles)
+    return np.asarray(values)

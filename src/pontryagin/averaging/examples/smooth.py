@@ -1,12 +1,12 @@
 """The smooth example of section 3, (3.2): a speed is changed at the cost k + u^2."""
 
+from functools import partial
+
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
-from pontryagin.averaging.system import generated_systems
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
+from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.validation import finite, positive
 
 
@@ -44,9 +44,9 @@ def smooth_example(
     force = finite("ripple", ripple, "a number or an array (...)")
     numbers = (end, price, force)
     return solved(
-        generated_systems.model("smooth"),
+        example_model("smooth"),
         ("v",),
         begin[..., None],
         numbers,
-        lambda: generated_systems.system("smooth", numbers),
+        partial(example_system, "smooth", numbers),
     )

@@ -1,14 +1,19 @@
 """Example 3, from (3.10) on: a symmetric rigid body is freed of its precession in the least time."""
 
+from functools import partial
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solved,
-)
-from pontryagin.averaging.system import generated_systems
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solved
+from pontryagin.averaging.examples.models import example_model, example_system
+from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import positive, vectors
+
+if TYPE_CHECKING:
+    from pontryagin.averaging.examples.rotating_frame import RotatingFrame
 
 
 def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> AveragedSolution:
@@ -48,24 +53,26 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
     positive("semiaxes", axes)
     d = positive("ratio", ratio)
     if (d == 1).any():
-        raise ValueError("ratio must differ from 1: omega = (ratio - 1) w_z vanishes on a body like a sphere")
+        message = "ratio must differ from 1: omega = (ratio - 1) w_z vanishes on a body like a sphere"
+        raise ArgumentValueError(message, "ratio")
     if (w[..., 2] == 0).any():
-        raise ValueError("omega0 must have w_z other than 0: omega = (ratio - 1) w_z vanishes")
+        message = "omega0 must have w_z other than 0: omega = (ratio - 1) w_z vanishes"
+        raise ArgumentValueError(message, "omega0")
     sense = np.sign((d - 1) * w[..., 2])
     numbers = (*np.moveaxis(axes, -1, 0), d, sense)
     start = np.stack([np.hypot(w[..., 0], w[..., 1]), w[..., 2]], axis=-1)
     return solved(
-        generated_systems.model("spin_down"),
+        example_model("spin_down"),
         ("a", "c"),
         start,
         numbers,
-        lambda: generated_systems.system("spin_down", numbers),
+        partial(example_system, "spin_down", numbers),
         initial_phase=sense * np.arctan2(w[..., 1], w[..., 0]),
-        frame=_turning,
+        frame=_in_rotating_frame,
     )
 
 
-def _turning(solution: AveragedSolution):
-    from pontryagin.averaging.examples.rotating_frame import turning
+def _in_rotating_frame(solution: AveragedSolution) -> "RotatingFrame":
+    from pontryagin.averaging.examples.rotating_frame import in_rotating_frame  # loads SymPy
 
-    return turning(solution)
+    return in_rotating_frame(solution)

@@ -1,7 +1,7 @@
 """The flight in the plane along an extremal of example 2: place, thrust and osculating ellipse.
 
-Energy, angular momentum and the anomaly say where on which ellipse the spacecraft is; how the ellipse lies is
-the angle gamma of its pericentre, which is integrated here. Fixed axes through the attracting centre, the
+Energy, angular momentum and the anomaly give the place on the osculating ellipse. The ellipse's orientation,
+the angle gamma of its pericentre, is integrated here. Fixed axes through the attracting centre, the
 first through the pericentre at the start.
 """
 
@@ -18,14 +18,14 @@ from pontryagin.averaging.derivation import kepler_orbit as orbit
 from pontryagin.averaging.exact.extremal import Extremal
 from pontryagin.numerics import compile as compiler
 
-A_TURN = 80
-"""Samples a turn."""
+PER_TURN = 80
+"""Samples of a turn."""
 FINER = 4
-"""Steps of the quadrature for gamma to a sample."""
+"""Steps of the quadrature for gamma between two samples."""
 
 
 @dataclass(frozen=True)
-class Flight:
+class SpiralFlight:
     """The motion at slow times (k,).
 
     Attributes
@@ -56,17 +56,17 @@ class Flight:
         return ellipses(self.slow, self.pericentre, points)
 
 
-def fly(extremal: Extremal) -> Flight:
+def fly(extremal: Extremal) -> SpiralFlight:
     """Follow an extremal of `kepler` through the plane."""
-    samples = FINER * max(A_TURN, int(np.ceil(A_TURN * extremal.turns)))
+    samples = FINER * max(PER_TURN, int(np.ceil(PER_TURN * extremal.turns)))
     tau = np.linspace(0.0, extremal.duration, samples + 1)
     slow, control, eccentric = extremal.slow(tau), extremal.control(tau), extremal.anomaly(tau)
-    true, rate = _turning()(*slow.T, eccentric, *control.T)
+    true, rate = _pericentre_rate()(*slow.T, eccentric, *control.T)
     pericentre = CubicSpline(tau, rate).antiderivative()(tau)
     shown = slice(None, None, FINER)
     at = (*slow[shown].T, pericentre[shown], true[shown])
     thrust = _thrust()(*at, *control[shown].T)[0][..., 0]
-    return Flight(
+    return SpiralFlight(
         tau[shown],
         slow[shown],
         pericentre[shown],
@@ -105,8 +105,8 @@ def _thrust() -> Callable[..., tuple[Array, ...]]:
 
 
 @lru_cache(maxsize=1)
-def _turning() -> Callable[..., tuple[Array, ...]]:
+def _pericentre_rate() -> Callable[..., tuple[Array, ...]]:
     true = orbit.true_anomaly()
     at = [elements.energy, elements.momentum, elements.eccentric, *elements.CONTROL]
     rate = orbit.pericentre_rate().subs(elements.anomaly, true)
-    return compiler.function("turning", at, {"true": true, "rate": rate})
+    return compiler.function("pericentre", at, {"true": true, "rate": rate})

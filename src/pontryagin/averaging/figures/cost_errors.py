@@ -8,7 +8,6 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.correction import parts
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.exact.arrivals import fixed_ending
 from pontryagin.averaging.exact.canonical import canonical
@@ -23,7 +22,7 @@ X = sp.Symbol("x", real=True)
 
 
 @dataclass(frozen=True)
-class Errors:
+class CostErrors:
     """Errors of the least cost of one problem at the epsilons (k).
 
     Attributes
@@ -38,8 +37,8 @@ class Errors:
     first : float
         J0.
     terms : dict
-        The parts of J1, by `correction.parts`: numbers, or (k,) arrays where J1 varies with the anomaly that
-        the exact optimum ends at.
+        The terms of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 varies with
+        the anomaly that the exact optimum ends at.
     """
 
     name: str
@@ -52,7 +51,7 @@ class Errors:
     @property
     def correction(self) -> Array:
         """J1."""
-        return np.add.reduce([*self.terms.values()])
+        return np.asarray(np.add.reduce([*self.terms.values()]))
 
     @property
     def averaged(self) -> Array:
@@ -87,7 +86,7 @@ def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]
 
 
 @cache
-def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> Errors:
+def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
     """Solve one of `problems` exactly at each epsilon and compare.
 
     Raises
@@ -106,7 +105,7 @@ def measured(
     epsilons: Sequence[float] = EPSILONS,
     phase: float | None = None,
     name: str = "",
-) -> Errors:
+) -> CostErrors:
     """Solve a problem exactly at each epsilon and compare.
 
     Parameters
@@ -131,11 +130,11 @@ def measured(
     best = np.array([some[0].cost for some in found])
     between = np.array([least_between(some) for some in found])
     ends = [some[0].ending_anomaly for some in found] if fixed_ending(canonical(solution.system)) else [None]
-    each = [parts(solution, begin, end) for end in ends]
+    each = [solution.correction_terms(begin, end) for end in ends]
     terms = {part: np.array([float(one[part]) for one in each]) for part in each[0]}
     if len(each) == 1:
         terms = {part: value[0] for part, value in terms.items()}
-    return Errors(name, np.array(epsilons), best, between, float(solution.cost), terms)
+    return CostErrors(name, np.array(epsilons), best, between, float(solution.cost), terms)
 
 
 def least_between(found: Sequence[Extremal]) -> float:

@@ -7,10 +7,8 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.solution import (
-    AveragedSolution,
-    solve_averaged,
-)
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solve_averaged
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.display.plotting import (

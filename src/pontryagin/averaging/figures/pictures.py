@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.solution import solve_averaged
+from pontryagin.averaging.averaged.solution import AveragedSolution
+from pontryagin.averaging.averaged.solve import solve_averaged
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.averaging.examples.smooth import smooth_example
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
@@ -85,7 +86,7 @@ def averaged_family(reach: float = 0.8, size: int = 81) -> tuple[Array, Array]:
     return members.duration[order], members.cost[order]
 
 
-def _averaged():
+def _averaged() -> AveragedSolution:
     return smooth_example(V0, V1, k=K, ripple=RIPPLE)
 
 

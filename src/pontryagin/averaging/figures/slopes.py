@@ -1,6 +1,7 @@
 """The error of the cost against epsilon: averaged, corrected at the ends, corrected in full."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
@@ -42,7 +43,7 @@ def error_slopes() -> Figure:
     return figure
 
 
-def _lines(ax, epsilon: Array) -> None:
+def _lines(ax: Axes, epsilon: Array) -> None:
     ends = np.array([epsilon.min(), epsilon.max()])
     ax.plot(ends, 0.5 * ends, "-", color=INK, linewidth=0.7, label="slope 1")
     ax.plot(ends, 0.5 * ends**2, "--", color=INK, linewidth=0.7, label="slope 2")

@@ -1,8 +1,13 @@
 """Example 3: the precession dies away, and where the control runs in its ellipse."""
 
-import numpy as np
-from matplotlib.figure import Figure
+from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from pontryagin.arrays import Array
 from pontryagin.averaging.examples.braking import (
     Braking,
     brake,
@@ -18,7 +23,7 @@ from pontryagin.display.plotting import (
 
 
 @styled
-def braking(omega0, semiaxes, ratio: float, epsilon: float) -> Figure:
+def braking(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) -> Figure:
     """The transverse rates under the synthesis, the control in its ellipse beside the printed one, and a.
 
     Parameters
@@ -45,28 +50,28 @@ def braking(omega0, semiaxes, ratio: float, epsilon: float) -> Figure:
     return figure
 
 
-def _rates(ax, flight: Braking) -> None:
+def _rates(ax: Axes, flight: Braking) -> None:
     ax.plot(*flight.rates[:, :2].T, color=EXACT, linewidth=0.9)
     ax.plot(*flight.rates[0, :2], "o", color=INK)
-    ax.annotate("start", flight.rates[0, :2], (5, 4), textcoords="offset points")
+    ax.annotate("start", tuple(flight.rates[0, :2]), (5, 4), textcoords="offset points")
     ax.set(aspect="equal", xlabel=r"$\omega_x$", ylabel=r"$\omega_y$")
 
 
-def _controls(ax, flight: Braking, semiaxes) -> None:
+def _controls(ax: Axes, flight: Braking, semiaxes: Array) -> None:
     lx, ly, _ = semiaxes
     turn = np.linspace(0, 2 * np.pi, 181)
     ax.fill(lx * np.cos(turn), ly * np.sin(turn), color=SKY, alpha=0.35)
     ax.plot(*flight.control[:, :2].T, color=EXACT, linewidth=1.4)
     ax.plot(*_printed(flight, semiaxes), color=MEAN, linewidth=1.3)
-    words = {"ha": "center", "va": "center", "fontsize": 9.5}
+    words: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9.5}
     ax.text(0, 0, "admissible", color=INK, **words)
     ax.text(0, ly + 0.17, "derived", color=EXACT, **words)
     ax.text(0, 1.17, "printed", color=MEAN, **words)
     ax.set(aspect="equal", xlabel="$u_x$", ylabel="$u_y$", ylim=(-1.35, 1.35), xlim=(-1.5, 1.5))
 
 
-def _printed(flight: Braking, semiaxes):
-    """-l_x w_x/r and -l_y w_y/r, as the paper prints them."""
+def _printed(flight: Braking, semiaxes: Array) -> tuple[Array, Array]:
+    """The paper's control as printed: -l_x w_x/r and -l_y w_y/r, r^2 = l_x^2 w_x^2 + l_y^2 w_y^2."""
     lx, ly, _ = semiaxes
     wx, wy = flight.rates[:, :2].T
     r = np.hypot(lx * wx, ly * wy)

@@ -1,6 +1,7 @@
 """Example 2: the spiral of small thrust, and how its elements oscillate about their means."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
@@ -51,7 +52,7 @@ def spiral(solution: AveragedSolution, extremal: Extremal) -> Figure:
     return figure
 
 
-def _plane(ax, extremal: Extremal) -> None:
+def _plane(ax: Axes, extremal: Extremal) -> None:
     flown = fly(extremal)
     ends = flown.ellipses(121)[[0, -1]]
     ax.plot(*ends[0].T, "--", color=INK, linewidth=1.0, label="first orbit")

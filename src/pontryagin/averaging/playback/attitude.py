@@ -21,17 +21,18 @@ from pontryagin.averaging.examples.braking import (
     fly,
     synthesis,
 )
-from pontryagin.averaging.playback.replay import Pair
+from pontryagin.averaging.playback.pair import Pair
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 
-A_TURN, FEWEST = 70, 400
-"""Samples a turn of the body, and at least."""
+PER_TURN, FEWEST = 70, 400
+"""Samples of a turn of the body, and least number of samples."""
 GAUSS = np.array([-1.0, 1.0]) / (2 * 3**0.5) + 0.5
+"""Nodes of Gauss's rule with two points on the interval from 0 to 1."""
 
 
 @dataclass(frozen=True)
-class Motion:
+class BodyMotion:
     """The body at times t (k,).
 
     Attributes
@@ -67,10 +68,10 @@ class Motion:
     @property
     def form(self) -> Array:
         """u_x^2/l_x^2 + u_y^2/l_y^2 + u_z^2/l_z^2, (k,): 1 on the ellipsoid."""
-        return ((self.control / self.semiaxes) ** 2).sum(axis=-1)
+        return np.asarray(((self.control / self.semiaxes) ** 2).sum(axis=-1))
 
 
-def synthesised(pair: Pair) -> Motion:
+def synthesised_motion(pair: Pair) -> BodyMotion:
     """The motion under the averaged optimum as a synthesis, the control a function of omega alone.
 
     Raises
@@ -85,13 +86,13 @@ def synthesised(pair: Pair) -> Motion:
     return _motion(t, path, synthesis(path(t).T, axes), axes, d)
 
 
-def exact(pair: Pair) -> Motion:
+def exact_motion(pair: Pair) -> BodyMotion:
     """The motion under the control of the exact extremal, as a function of time."""
     *semiaxes, d, _ = (float(number) for number in pair.averaged.numbers)
     t = _times(pair.exact.duration / pair.epsilon, _first_rate(pair))
     control = pair.exact.control(np.minimum(pair.epsilon * t, pair.exact.duration))
     push = CubicSpline(t, control)
-    path = _turned(
+    path = _integrated(
         lambda time, w: _free()(*w, *push(time), d, pair.epsilon)[0][..., 0], _first_rate(pair), t[-1]
     )
     return _motion(t, path, control, np.array(semiaxes), d)
@@ -99,7 +100,7 @@ def exact(pair: Pair) -> Motion:
 
 def _times(last: float, rate: Array) -> Array:
     turns = float(np.linalg.norm(rate)) * last / (2 * np.pi)
-    return np.linspace(0.0, last, max(FEWEST, int(np.ceil(A_TURN * turns))) + 1)
+    return np.linspace(0.0, last, max(FEWEST, int(np.ceil(PER_TURN * turns))) + 1)
 
 
 def _first_rate(pair: Pair) -> Array:
@@ -108,7 +109,7 @@ def _first_rate(pair: Pair) -> Array:
     return np.array([a * np.cos(psi), sense * a * np.sin(psi), c])
 
 
-def _turned(rate: Callable[[float, Array], Array], start: Array, last: float) -> OdeSolution:
+def _integrated(rate: Callable[[float, Array], Array], start: Array, last: float) -> OdeSolution:
     """omega as a function of time, (k,) to (3, k)."""
     run = solve_ivp(rate, (0.0, last), start, method="DOP853", rtol=1e-10, atol=1e-12, dense_output=True)
     if not run.success:
@@ -116,11 +117,11 @@ def _turned(rate: Callable[[float, Array], Array], start: Array, last: float) ->
     return cast(OdeSolution, run.sol)
 
 
-def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: float) -> Motion:
+def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: float) -> BodyMotion:
     moments, shown = np.array([1.0, 1.0, d]), dense(t).T
     momentum = moments * shown[0]
     first = _upright(momentum)
-    return Motion(t, shown, control, _attitudes(t, dense, first), moments, semiaxes)
+    return BodyMotion(t, shown, control, _attitudes(t, dense, first), moments, semiaxes)
 
 
 def _attitudes(t: Array, dense: OdeSolution, first: Rotation) -> Array:
@@ -129,14 +130,14 @@ def _attitudes(t: Array, dense: OdeSolution, first: Rotation) -> Array:
     w = dense((t[:-1, None] + step[:, None] * GAUSS).ravel()).T.reshape(-1, 2, 3)
     mean = step[:, None] * w.sum(axis=1) / 2
     commutator = 3**0.5 / 12 * step[:, None] ** 2 * np.cross(w[:, 0], w[:, 1])
-    held = [first]
+    attitudes = [first]
     for turn in Rotation.from_rotvec(mean + commutator):
-        held.append(held[-1] * turn)
-    return Rotation.concatenate(held).as_quat(canonical=False, scalar_first=True)
+        attitudes.append(attitudes[-1] * turn)
+    return Rotation.concatenate(attitudes).as_quat(canonical=False, scalar_first=True)
 
 
 def _upright(vector: Array) -> Rotation:
-    """The least turn that brings a vector along the third axis."""
+    """The smallest rotation that takes a vector to the third axis."""
     unit = vector / np.linalg.norm(vector)
     axis = np.cross(unit, [0.0, 0.0, 1.0])
     size = float(np.linalg.norm(axis))

@@ -5,22 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.playback import (
-    attitude,
-    replay,
-)
-from pontryagin.averaging.playback.attitude import Motion
-from pontryagin.averaging.playback.replay import (
-    AVERAGED,
-    EXACT,
-    Pair,
-)
-from pontryagin.display.plotting import (
-    GREEN,
-    INK,
-    PURPLE,
-    RED,
-)
+from pontryagin.averaging.playback.attitude import BodyMotion, exact_motion, synthesised_motion
+from pontryagin.averaging.playback.pair import AVERAGED, EXACT, Pair, arrivals
+from pontryagin.display.plotting import GREEN, GREY, INK, PURPLE, RED
 from pontryagin.display.recording import (
     Events,
     Plot,
@@ -32,13 +19,12 @@ from pontryagin.display.recording import (
 
 LONG = 1.5
 """Length of the axis and of the angular momentum as drawn; the body is scaled to it."""
-GREY = "#c4c4c4"
 COMPONENTS = ("x", "y", "z")
 
 
 def record_body(pair: Pair, path: Path) -> None:
     """Record the motion under the averaged synthesis and that on the exact extremal."""
-    motions = {"synthesis": attitude.synthesised(pair), "exact": attitude.exact(pair)}
+    motions = {"synthesis": synthesised_motion(pair), "exact": exact_motion(pair)}
     size = float(np.abs(motions["exact"].rate).max())
     scenes: list[View] = [
         _scene(f"inertial axes, epsilon = {pair.epsilon:g}: averaged synthesis", "synthesis"),
@@ -78,14 +64,14 @@ def _scene(title: str, entity: str) -> Scene:
     return Scene(title, entity, ((1.9, -1.9, 1.5), (0.0, 0.0, 0.45)), trails=(f"{entity}/way",), grid=False)
 
 
-def _spans(motion: Motion) -> list[tuple[float, float]]:
+def _spans(motion: BodyMotion) -> list[tuple[float, float]]:
     most = 1.15 * float(np.abs(motion.rate[:, :2]).max())
     along = motion.rate[:, 2]
     margin = 0.1 * float(np.abs(along).max())
     return [(-most, most), (-most, most), (float(along.min()) - margin, float(along.max()) + margin)]
 
 
-def _space(recording: Recording, name: str, motion: Motion, size: float) -> None:
+def _space(recording: Recording, name: str, motion: BodyMotion, size: float) -> None:
     t, d = motion.t, float(motion.moments[2])
     edges = np.array([1.0, 1.0, np.sqrt(max(2 / d - 1, 0.01))])
     recording.body(f"{name}/body", t, motion.attitude, 0.9 * edges / edges.max())
@@ -104,7 +90,7 @@ def _space(recording: Recording, name: str, motion: Motion, size: float) -> None
     recording.arrow(f"{name}/torque", t, torque * 0.7 / longest, RED, label="torque")
 
 
-def _control(recording: Recording, name: str, motion: Motion, colour: str) -> None:
+def _control(recording: Recording, name: str, motion: BodyMotion, colour: str) -> None:
     recording.arrow(f"ellipsoid/{name}/control", motion.t, motion.control, colour, label=name)
     recording.trail(f"ellipsoid/{name}/way", motion.t, motion.control, colour, 1.0)
 
@@ -116,14 +102,14 @@ def _ellipsoid(recording: Recording, semiaxes: Array) -> None:
         recording.arrow(f"ellipsoid/axis-{name}", [0.0], axis[None], GREY, label=name)
 
 
-def _curves(recording: Recording, name: str, motion: Motion, colour: str) -> None:
+def _curves(recording: Recording, name: str, motion: BodyMotion, colour: str) -> None:
     for i, component in enumerate(COMPONENTS):
         recording.curve(f"rate-{component}/{name}", motion.t, motion.rate[:, i], name, colour)
     recording.curve(f"form/{name}", motion.t, motion.form, name, colour)
 
 
-def _arrivals(recording: Recording, pair: Pair, synthesis: Motion) -> None:
-    replay.arrivals(recording, pair)
+def _arrivals(recording: Recording, pair: Pair, synthesis: BodyMotion) -> None:
+    arrivals(recording, pair)
     duration = float(synthesis.t[-1])
     words = f"t = {duration:.2f}: synthesis arrives, cost {pair.epsilon * duration:.6f}"
     recording.event("events", duration, words)

@@ -6,18 +6,8 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.examples import spiral
-from pontryagin.averaging.playback import replay
-from pontryagin.averaging.playback.replay import (
-    AVERAGED,
-    EXACT,
-    Pair,
-)
-from pontryagin.display.plotting import (
-    GREEN,
-    INK,
-    RED,
-    SKY,
-)
+from pontryagin.averaging.playback.pair import AVERAGED, EXACT, Pair, arrivals, panel, slow_curves, slow_plots
+from pontryagin.display.plotting import GREEN, GREY, INK, RED, SKY
 from pontryagin.display.recording import (
     Events,
     Recording,
@@ -28,7 +18,6 @@ from pontryagin.display.recording import (
 
 POINTS = 97
 """Points of an ellipse as drawn."""
-GREY = "#b8b8b8"
 WORDS = {"E": "energy E", "K": "angular momentum K"}
 
 
@@ -49,24 +38,24 @@ def record_orbit(pair: Pair, path: Path) -> None:
         ),
         Events("events", "events"),
     ]
-    slow, rest = replay.slow_plots(pair, WORDS)
+    slow, rest = slow_plots(pair, WORDS)
     columns = [
         scenes,
         slow,
-        [*rest, replay.panel("control u; the thrust is epsilon u", "thrust", "LeftBottom")],
+        [*rest, panel("control u; the thrust is epsilon u", "thrust", "LeftBottom")],
     ]
     with record(path, "low-thrust spiral", columns, pair.speed, (5, 3, 3)) as recording:
         _scene(recording, pair, flight, reach)
-        replay.slow_curves(recording, pair, flight.tau)
+        slow_curves(recording, pair, flight.tau)
         t = flight.tau / pair.epsilon
         for name, values, colour in zip(
             ("along the radius", "across it"), flight.control.T, (RED, GREEN), strict=True
         ):
             recording.curve(f"thrust/{name.split()[0]}", t, values, name, colour)
-        replay.arrivals(recording, pair)
+        arrivals(recording, pair)
 
 
-def _scene(recording: Recording, pair: Pair, flight: spiral.Flight, reach: float) -> None:
+def _scene(recording: Recording, pair: Pair, flight: spiral.SpiralFlight, reach: float) -> None:
     t = flight.tau / pair.epsilon
     osculating = _in_space(flight.ellipses(POINTS))
     mean = spiral.ellipses(pair.averaged.slow(pair.grid), np.zeros(len(pair.grid)), POINTS)

@@ -1,4 +1,4 @@
-"""From the anomaly to the phase and back: psi(x) is the integral of the weight dpsi/dx from zero."""
+"""Phase and anomaly from each other: psi(x) is the integral of the weight dpsi/dx from zero."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from pontryagin.averaging.system.model import Model
 from pontryagin.errors import NotConverged
 
 FIRST, LAST = 64, 2**14
+"""Numbers of points of a turn at which the weight is sampled, at first and at most."""
 
 
 def phase_at(model: Model, slow: Array, anomaly: Array, numbers: tuple[Array, ...]) -> Array:
@@ -38,11 +39,11 @@ def anomaly_at(model: Model, slow: Array, phase: Array, numbers: tuple[Array, ..
 def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> NDArray[np.complex128]:
     """Complex Fourier coefficients (..., 1 + harmonics) of dpsi/dx, the mean being one."""
     a = np.moveaxis(slow[..., None, :], -1, 0)
-    held = tuple(number[..., None] for number in numbers)
+    values = tuple(number[..., None] for number in numbers)
     size = FIRST
     while size <= LAST:
         x = 2 * np.pi * np.arange(size) / size
-        turn = evaluate(model.pace, *a, x, *held)[..., 0]
+        turn = evaluate(model.pace, *a, x, *values)[..., 0]
         series = np.fft.rfft(turn, axis=-1) / size
         series = series / series[..., :1].real
         if (np.abs(series[..., -size // 8 :]) <= 1e-15).all():
@@ -58,9 +59,9 @@ def _phase(series: NDArray[np.complex128], x: Array) -> Array:
     k = np.arange(1, series.shape[-1])
     primitive = series[..., 1:] / (1j * k)
     swing = primitive * (np.exp(1j * np.asarray(x)[..., None] * k) - 1)
-    return x + 2 * swing.real.sum(axis=-1)
+    return np.asarray(x + 2 * swing.real.sum(axis=-1))
 
 
 def _weight(series: NDArray[np.complex128], x: Array) -> Array:
     k = np.arange(1, series.shape[-1])
-    return 1 + 2 * (series[..., 1:] * np.exp(1j * x[..., None] * k)).real.sum(axis=-1)
+    return np.asarray(1 + 2 * (series[..., 1:] * np.exp(1j * x[..., None] * k)).real.sum(axis=-1))

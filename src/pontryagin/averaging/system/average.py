@@ -1,20 +1,18 @@
-"""From a phase system to its kernels: the average in closed form where it is one, else its density."""
+"""The kernels of a phase system: its average over the phase in closed form, or the density to integrate."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import sympy as sp
 
-from pontryagin.averaging.system.jets import (
-    Kernel,
-    expressions,
-)
+from pontryagin.averaging.system.jets import expressions
 from pontryagin.averaging.system.model import Model
-from pontryagin.averaging.system.phase_system import PhaseSystem
+from pontryagin.averaging.system.standard_form import StandardForm
 from pontryagin.numerics import compile as compiler
 
 EFFORT = 400
-"""Operations in an integrand up to which a closed form is looked for."""
+"""A closed form is tried for integrands of at most this many operations."""
 
 
 def closed_mean(integrand: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
@@ -48,8 +46,8 @@ def _moment(i: int, j: int) -> sp.Rational:
     return sp.Rational(sp.factorial2(i - 1) * sp.factorial2(j - 1), sp.factorial2(i + j))
 
 
-def averages(system: PhaseSystem) -> tuple[sp.Expr, sp.Expr] | None:
-    """h0 and omega in closed form, or None where they are left to quadrature."""
+def averages(system: StandardForm) -> tuple[sp.Expr, sp.Expr] | None:
+    """h0 and omega in closed form, (2.3); None where none is found, and quadrature takes its place."""
     h = system.hamiltonian.subs(system.phase_costate, 0)
     if system.omega is not None:
         mean = closed_mean(sp.expand_mul(h * system.weight), system.phase)
@@ -59,8 +57,8 @@ def averages(system: PhaseSystem) -> tuple[sp.Expr, sp.Expr] | None:
     return None if mean is None or turn is None else (mean / turn, 1 / turn)
 
 
-def model(system: PhaseSystem) -> Model:
-    """Compile a system; systems that differ in the values of their numbers only share what is compiled."""
+def compiled_model(system: StandardForm) -> Model:
+    """The kernels of a system, compiled once for systems that differ in the values of their numbers only."""
     key = (
         *(system.slow, system.control, system.phase, tuple(system.numbers), system.f, system.target),
         *(system.omega, system.rate, system.weight, system.running_cost, system.terminal_cost),
@@ -68,17 +66,25 @@ def model(system: PhaseSystem) -> Model:
     )
     if key not in _MODELS:
         kernels: dict[str, Any] = {
-            name: None if columns is None else _compiled(name, arguments, columns)
+            name: None if columns is None else compiler.columns(name, arguments, columns)
             for name, (arguments, columns) in kernel_expressions(system).items()
         }
-        _MODELS[key] = Model(slow=len(system.slow), target=len(system.target), **kernels)
+        origin = partial(compiled_model, system)
+        _MODELS[key] = Model(slow=len(system.slow), target=len(system.target), origin=origin, **kernels)
     return _MODELS[key]
 
 
 def kernel_expressions(
-    system: PhaseSystem, averaged: sp.Expr | None = None
-) -> dict[str, tuple[tuple[sp.Symbol, ...], Sequence | None]]:
-    """Arguments and columns of every kernel of `Model`, by name; h0 may be known beforehand."""
+    system: StandardForm, averaged: sp.Expr | None = None
+) -> dict[str, tuple[tuple[sp.Symbol, ...], Sequence[sp.Expr] | None]]:
+    """Arguments and columns of every kernel of `Model`, by name.
+
+    Parameters
+    ----------
+    system : StandardForm
+    averaged : sympy.Expr, optional
+        h0, where a derivation has found it already.
+    """
     a, p, x, numbers = system.slow, system.costates, system.phase, tuple(system.numbers)
     z = (*a, *p)
     known = averages(system) if averaged is None else (averaged, system.omega)
@@ -122,8 +128,5 @@ def switching_functions(integrand: sp.Expr, x: sp.Symbol) -> list[sp.Expr]:
     return list(dict.fromkeys(kink for kink in found if kink.has(x)))
 
 
-def _compiled(name: str, arguments: Sequence[sp.Symbol], columns: Sequence[sp.Expr]) -> Kernel:
-    return compiler.columns(name, arguments, columns)
-
-
-_MODELS: dict[tuple, Model] = {}
+_MODELS: dict[tuple[object, ...], Model] = {}
+"""Compiled kernels by the expressions that they were made from."""

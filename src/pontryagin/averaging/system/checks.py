@@ -1,36 +1,44 @@
-"""What a `PhaseSystem` and its control set must satisfy, each refused by the name of its argument."""
+"""Checks of a phase system: symbols known, rates affine in the control, periodic in the anomaly."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
+from pontryagin.arrays import Array
+from pontryagin.averaging.system.control_checks import Numbers, listed
+from pontryagin.averaging.system.standard_form import StandardForm
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import common_shape, finite
 
 
-def checked(system) -> dict[str, object]:
-    """The arguments of a `PhaseSystem` as SymPy expressions and arrays, or the error that names one."""
+def checked(system: StandardForm) -> dict[str, object]:
+    """The fields of a system as SymPy expressions and arrays, or the error that names one of them."""
     slow = _symbols("slow", system.slow)
     control = _symbols("control", system.control)
     (phase,) = _symbols("phase", [system.phase])
     numbers = _numbers(system.numbers, {*slow, *control, phase})
     parameters = set(numbers)
     if len({*slow, *control, phase}) < len(slow) + len(control) + 1:
-        raise ValueError("slow, control and phase must be different symbols")
+        raise ArgumentValueError("slow, control and phase must be different symbols")
 
     in_slow = {*slow} | parameters
     in_phase = in_slow | {phase}
     everywhere = in_phase | {*control}
     f = tuple(_expression(f"f[{i}]", e, everywhere) for i, e in enumerate(_sequence("f", system.f)))
     if len(f) != len(slow):
-        raise ValueError(f"f must hold one rate for each of {len(slow)} slow variables, got {len(f)}")
+        raise ArgumentValueError(
+            f"f must hold one rate for each of {len(slow)} slow variables, got {len(f)}", "f"
+        )
     target = tuple(
         _expression(f"target[{i}]", e, in_slow) for i, e in enumerate(_sequence("target", system.target))
     )
     if not 1 <= len(target) <= len(slow):
-        raise ValueError(f"target must hold 1 to {len(slow)} expressions, got {len(target)}")
+        raise ArgumentValueError(
+            f"target must hold 1 to {len(slow)} expressions, got {len(target)}", "target"
+        )
     scalars = {
         "running_cost": _expression("running_cost", system.running_cost, in_phase),
         "terminal_cost": _expression("terminal_cost", system.terminal_cost, in_slow),
@@ -48,8 +56,9 @@ def checked(system) -> dict[str, object]:
         if expression is not None:
             require_periodic(name, expression, phase, numbers)
     if isinstance(system.control_set, type) or not hasattr(system.control_set, "require_convex"):
-        raise TypeError(
-            f"control_set must be a set of controls like Quadratic() or Ball(1), got {system.control_set!r}"
+        raise ArgumentTypeError(
+            f"control_set must be a set of controls like Quadratic() or Ball(1), got {system.control_set!r}",
+            "control_set",
         )
     system.control_set.require_convex(len(control), numbers)
     return {
@@ -63,64 +72,89 @@ def checked(system) -> dict[str, object]:
     }
 
 
-def _sequence(name: str, value: object) -> list:
+def _sequence(name: str, value: Any) -> list[Any]:
     if isinstance(value, str) or not hasattr(value, "__iter__"):
-        raise TypeError(f"{name} must be a sequence, got {value!r}")
+        raise ArgumentTypeError(f"{name} must be a sequence, got {value!r}", name)
     return list(value)
 
 
 def _symbols(name: str, values: object) -> tuple[sp.Symbol, ...]:
     symbols = tuple(_sequence(name, values))
     if not symbols:
-        raise ValueError(f"{name} must hold at least one symbol")
+        raise ArgumentValueError(f"{name} must hold at least one symbol", name)
     for symbol in symbols:
         if not isinstance(symbol, sp.Symbol):
-            raise TypeError(f"{name} must hold SymPy symbols, got {symbol!r}")
+            raise ArgumentTypeError(f"{name} must hold SymPy symbols, got {symbol!r}", name)
         if not symbol.is_real:
-            raise ValueError(f"{name} must hold real symbols: write sympy.Symbol({str(symbol)!r}, real=True)")
+            raise ArgumentValueError(
+                f"{name} must hold real symbols: write sympy.Symbol({str(symbol)!r}, real=True)", name
+            )
     return symbols
 
 
-def _numbers(values: Mapping, taken: set[sp.Symbol]) -> dict[sp.Symbol, NDArray]:
+def _numbers(values: object, taken: set[sp.Symbol]) -> dict[sp.Symbol, Array]:
     if not isinstance(values, Mapping):
-        raise TypeError(f"numbers must map symbols to numbers, got {values!r}")
-    (_symbols("numbers", values) if values else ())
+        raise ArgumentTypeError(f"numbers must map symbols to numbers, got {values!r}", "numbers")
+    if values:
+        _symbols("numbers", values)
     both = taken & set(values)
     if both:
-        raise ValueError(f"numbers must not hold slow, control or phase symbols, got {listed(both)}")
+        raise ArgumentValueError(
+            f"numbers must not hold slow, control or phase symbols, got {listed(both)}", "numbers"
+        )
     numbers = {symbol: finite(str(symbol), value, "a number or an array") for symbol, value in values.items()}
     common_shape(**{str(symbol): array.shape for symbol, array in numbers.items()})
     return numbers
 
 
-def _expression(name: str, value: object, known: set[sp.Symbol]) -> sp.Expr:
+def real_expression(name: str, value: object) -> sp.Expr:
+    """A number or SymPy expression as a finite, real expression; other things are refused.
+
+    Raises
+    ------
+    TypeError, ValueError
+        About the argument `name`, without the index in brackets that may follow it.
+    """
+    argument = name.partition("[")[0]
+    message = f"{name} must be a SymPy expression or a number, got {value!r}"
     if isinstance(value, str):
-        raise TypeError(f"{name} must be a SymPy expression or a number, got the text {value!r}")
+        message = f"{name} must be a SymPy expression or a number, got the text {value!r}"
+        raise ArgumentTypeError(message, argument)
     try:
         expression = sp.sympify(value)
     except sp.SympifyError:
-        raise TypeError(f"{name} must be a SymPy expression or a number, got {value!r}") from None
+        raise ArgumentTypeError(message, argument) from None
     if not isinstance(expression, sp.Expr):
-        raise TypeError(f"{name} must be a SymPy expression or a number, got {value!r}")
+        raise ArgumentTypeError(message, argument)
     if expression.has(sp.nan, sp.oo, sp.zoo):
-        raise ValueError(f"{name} must be finite, got {expression}")
+        raise ArgumentValueError(f"{name} must be finite, got {expression}", argument)
     if expression.has(sp.I):
-        raise ValueError(f"{name} must be real, got {expression}")
+        raise ArgumentValueError(f"{name} must be real, got {expression}", argument)
+    return expression
+
+
+def _expression(name: str, value: object, known: set[sp.Symbol]) -> sp.Expr:
+    expression = real_expression(name, value)
     unknown = expression.free_symbols - known
     if unknown:
-        raise ValueError(
+        raise ArgumentValueError(
             f"{name} holds unknown symbols {listed(unknown)}; it may hold {listed(known)} "
-            f"(symbols of the same name differ if one is declared real and the other is not)"
+            f"(symbols of the same name differ if one is declared real and the other is not)",
+            name.partition("[")[0],
         )
     return expression
 
 
-def _frequencies(system, in_slow: set[sp.Symbol], in_phase: set[sp.Symbol]) -> dict[str, sp.Expr | None]:
+def _frequencies(
+    system: StandardForm, in_slow: set[sp.Symbol], in_phase: set[sp.Symbol]
+) -> dict[str, sp.Expr | None]:
     if (system.omega is None) == (system.anomaly_rate is None):
-        raise ValueError("exactly one of omega and anomaly_rate must be given")
+        raise ArgumentValueError("exactly one of omega and anomaly_rate must be given", "omega")
     if system.omega is None:
         if sp.sympify(system.weight) != 1:
-            raise ValueError("weight must not be given beside anomaly_rate, which determines it")
+            raise ArgumentValueError(
+                "weight must not be given beside anomaly_rate, which determines it", "weight"
+            )
         rate = _expression("anomaly_rate", system.anomaly_rate, in_phase)
         result: dict[str, sp.Expr | None] = {"omega": None, "anomaly_rate": rate}
     else:
@@ -128,7 +162,7 @@ def _frequencies(system, in_slow: set[sp.Symbol], in_phase: set[sp.Symbol]) -> d
         result = {"omega": rate, "anomaly_rate": None}
     if rate.is_nonpositive:
         name = "anomaly_rate" if system.omega is None else "omega"
-        raise ValueError(f"{name} must be positive, got {rate}")
+        raise ArgumentValueError(f"{name} must be positive, got {rate}", name)
     return result
 
 
@@ -136,13 +170,15 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
     for first in control:
         slope = sp.diff(expression, first)
         if slope.has(*control) and sp.simplify(slope).has(*control):
-            raise ValueError(f"{name} must be affine in the control, its derivative in {first} is {slope}")
+            message = f"{name} must be affine in the control, its derivative in {first} is {slope}"
+            raise ArgumentValueError(message, name.partition("[")[0])
 
 
-def require_periodic(
-    name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Mapping[sp.Symbol, NDArray]
-) -> None:
-    """2 pi-periodic in the phase: by structure, or at random points where structure does not tell."""
+def require_periodic(name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Numbers) -> None:
+    """Raise ValueError unless an expression is 2 pi-periodic in the anomaly `phase`.
+
+    SymPy decides by the expression's form where it can; else values at random points are compared.
+    """
     change = expression.subs(phase, phase + 2 * sp.pi) - expression
     if change == 0:
         return
@@ -153,34 +189,5 @@ def require_periodic(
     evaluate = compiler.function("change", [*symbols, *parameters], {"change": change, "value": expression})
     difference, value = evaluate(*draws, *constants)
     if (np.abs(difference) > 1e-9 * (1 + np.abs(value))).any():
-        raise ValueError(f"{name} must be 2 pi-periodic in {phase}, got {expression}")
-
-
-def require_count(name: str, values: Sequence, dimension: int) -> None:
-    """One entry for each control, or ValueError."""
-    if len(values) != dimension:
-        raise ValueError(f"{name} must hold one for each of {dimension} controls, got {len(values)}")
-
-
-def require_positive(name: str, values: Sequence, numbers: Mapping[sp.Symbol, NDArray]) -> None:
-    """Positive at every member of the stack, or ValueError."""
-    for value in numeric(name, values, numbers):
-        least = value.min()
-        if not (np.isfinite(least) and least > 0):
-            raise ValueError(f"{name} must be positive for a convex set of controls, got {least:g}")
-
-
-def numeric(name: str, values: Sequence, numbers: Mapping[sp.Symbol, NDArray]) -> tuple[NDArray, ...]:
-    """The values as arrays, of the shape that the numbers in them broadcast to."""
-    expressions = [sp.sympify(value) for value in values]
-    held = set().union(*(expression.free_symbols for expression in expressions))
-    if held - set(numbers):
-        raise ValueError(f"{name} holds unknown symbols {listed(held - set(numbers))}")
-    symbols = sorted(held, key=str)
-    evaluate = compiler.function("values", symbols, {f"v{i}": e for i, e in enumerate(expressions)})
-    return evaluate(*(numbers[symbol] for symbol in symbols))
-
-
-def listed(symbols: set[sp.Symbol]) -> str:
-    """Symbols as text."""
-    return ", ".join(sorted(map(str, symbols)))
+        message = f"{name} must be 2 pi-periodic in {phase}, got {expression}"
+        raise ArgumentValueError(message, name.partition("[")[0])

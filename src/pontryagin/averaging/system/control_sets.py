@@ -1,16 +1,17 @@
-"""Convex sets of controls, each as the function sigma(s) = max over u of s'u less the control's own cost."""
+"""Convex sets of controls, each by sigma(s), the maximum over its controls u of s'u less the cost of u."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
-from pontryagin.averaging.system.checks import (
+from pontryagin.averaging.system.control_checks import (
+    Numbers,
     listed,
     numeric,
+    refusal,
     require_count,
     require_positive,
 )
@@ -20,7 +21,7 @@ Number: TypeAlias = "float | sp.Expr"
 
 
 class ControlSet(Protocol):
-    """What `PhaseSystem` asks of a set of controls."""
+    """The methods of a set of controls that `PhaseSystem` uses."""
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sigma(s), convex in s."""
@@ -29,10 +30,10 @@ class ControlSet(Protocol):
         """The control (m, 1) that attains it: the gradient of sigma."""
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """What the control itself costs per unit of slow time."""
+        """The cost of the control per unit of slow time."""
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
-        """Raise ValueError unless the set is convex, bounded (or strictly costed) and of this dimension."""
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
+        """Raise ValueError unless the set has this dimension, is convex, and bounds or prices controls."""
 
 
 @dataclass(frozen=True)
@@ -72,19 +73,19 @@ class Quadratic:
         row = sp.Matrix([*u])
         return sp.expand((row.T * self._matrix(len(u)) * row)[0])
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """R must be symmetric positive definite."""
         matrix = self._matrix(dimension)
         if matrix.shape != (dimension, dimension):
-            raise ValueError(
+            raise refusal(
                 f"Quadratic: weight must be a number or ({dimension}, {dimension}), got shape {matrix.shape}"
             )
         entries = np.stack(numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
         for values in entries.reshape(-1, dimension, dimension):
             if not np.allclose(values, values.T, rtol=1e-12, atol=0):
-                raise ValueError(f"Quadratic: weight must be symmetric, got {values.tolist()}")
+                raise refusal(f"Quadratic: weight must be symmetric, got {values.tolist()}")
             if not np.linalg.eigvalsh(values)[0] > 0:
-                raise ValueError(f"Quadratic: weight must be positive definite, got {values.tolist()}")
+                raise refusal(f"Quadratic: weight must be positive definite, got {values.tolist()}")
 
 
 @dataclass(frozen=True)
@@ -109,10 +110,10 @@ class Ball:
         return sp.sympify(self.radius) * _unit(s)
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Nothing."""
+        """Zero: the controls are bounded, and cost nothing."""
         return sp.Integer(0)
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The radius must be positive."""
         require_positive("Ball: radius", [self.radius], numbers)
 
@@ -148,10 +149,10 @@ class Ellipsoid:
         return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Nothing."""
+        """Zero: the controls are bounded, and cost nothing."""
         return sp.Integer(0)
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The semiaxes must be positive, one for each control."""
         require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
         require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
@@ -188,10 +189,10 @@ class Box:
         )
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Nothing."""
+        """Zero: the controls are bounded, and cost nothing."""
         return sp.Integer(0)
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The bounds must be positive, one for each control."""
         require_count("Box: bounds", self.bounds, dimension)
         require_positive("Box: bounds", self.bounds, numbers)
@@ -235,7 +236,7 @@ class BoundedQuadratic:
         """Weight times |u|^2."""
         return sp.sympify(self.weight) * sp.Add(*(part**2 for part in u))
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Radius and weight must be positive."""
         require_positive("BoundedQuadratic: radius", [self.radius], numbers)
         require_positive("BoundedQuadratic: weight", [self.weight], numbers)
@@ -275,19 +276,19 @@ class Custom:
         return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Nothing."""
+        """Zero: the controls are bounded, and cost nothing."""
         return sp.Integer(0)
 
-    def require_convex(self, dimension: int, numbers: Mapping[sp.Symbol, NDArray]) -> None:
-        """Homogeneity and subadditivity on pairs of directions, which together are convexity."""
+    def require_convex(self, dimension: int, numbers: Numbers) -> None:
+        """Sigma must be homogeneous and subadditive, and so convex: both are tried on random directions."""
         free = [sp.Dummy(f"s{i}", real=True) for i in range(dimension)]
         value = self.support(free)
         unknown = value.free_symbols - set(free) - set(numbers)
         if unknown:
-            raise ValueError(f"Custom: the support function holds unknown symbols {listed(unknown)}")
-        held = sorted(value.free_symbols & set(numbers), key=str)
-        evaluate = compiler.function("support", [*free, *held], {"sigma": value})
-        constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in held]
+            raise refusal(f"Custom: the support function holds unknown symbols {listed(unknown)}")
+        symbols = sorted(value.free_symbols & set(numbers), key=str)
+        evaluate = compiler.function("support", [*free, *symbols], {"sigma": value})
+        constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in symbols]
         pairs = np.random.default_rng(1977).standard_normal((2, dimension, 512))
         first, second, both, tripled, opposite = (
             evaluate(*s, *constants)[0]
@@ -295,9 +296,9 @@ class Custom:
         )
         scale = 1e-12 * (np.abs(first) + np.abs(second) + np.abs(both))
         if not (np.abs(tripled - 3 * first) <= 3 * scale).all():
-            raise ValueError("Custom: a support function must be homogeneous of degree one, this one is not")
+            raise refusal("Custom: a support function must be homogeneous of degree one, this one is not")
         if not (both <= first + second + scale).all() or not (first + opposite >= -scale).all():
-            raise ValueError("Custom: not the support function of a convex set, sigma is not convex")
+            raise refusal("Custom: not the support function of a convex set, sigma is not convex")
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:
@@ -309,7 +310,7 @@ def _unit(s: Sequence[sp.Expr]) -> sp.Matrix:
 
 
 def _of_one(function: type[sp.Function], value: sp.Expr) -> sp.Expr:
-    """Abs or sign of a real expression: a root in it is of a positive quantity, and stays outside."""
+    """Abs or sign of a real expression, without simplifying the roots of positive quantities in it."""
     roots = {power: sp.Dummy(positive=True) for power in value.atoms(sp.Pow) if not power.exp.is_integer}
     back = {positive: power for power, positive in roots.items()}
     return function(sp.sympify(value).xreplace(roots)).xreplace(back)

@@ -3,14 +3,18 @@
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 
-Kernel = Callable[..., tuple]
-"""Numbers or arrays to a tuple of them, written in arithmetic and NumPy's elementary functions."""
+if TYPE_CHECKING:
+    import sympy as sp
+
+Kernel = Callable[..., tuple[Any, ...]]
+"""A function of numbers or arrays to a tuple of them, in arithmetic and NumPy's elementary functions."""
 
 
 @dataclass(frozen=True)
@@ -21,15 +25,8 @@ class Jet:
     gradient: Array
     hessian: Array
 
-    def __getitem__(self, members) -> "Jet":
+    def __getitem__(self, members: NDArray[np.intp] | NDArray[np.bool_]) -> "Jet":
         return Jet(self.value[members], self.gradient[members], self.hessian[members])
-
-    def replaced(self, members: NDArray[np.intp], by: "Jet") -> "Jet":
-        """The same with other jets for some members."""
-        parts = [self.value.copy(), self.gradient.copy(), self.hessian.copy()]
-        for part, other in zip(parts, (by.value, by.gradient, by.hessian), strict=True):
-            part[members] = other
-        return Jet(*parts)
 
     def padded(self, size: int) -> "Jet":
         """The same function among `size` variables, independent of the further ones."""
@@ -56,14 +53,14 @@ class Jet:
 
 
 def width(variables: int) -> int:
-    """How many columns a jet in that many variables takes."""
+    """Number of columns of a jet in that many variables."""
     return 1 + variables + variables * (variables + 1) // 2
 
 
-def expressions(function, variables: Sequence) -> list:
+def expressions(function: "sp.Expr", variables: Sequence["sp.Symbol"]) -> list["sp.Expr"]:
     """The columns of a SymPy expression: value, gradient, upper triangle of the Hessian by rows.
 
-    Signs are constants to the derivatives, which are right on either side of a kink.
+    Signs are differentiated as constants, so that the derivatives hold on either side of a kink.
     """
     function, signs = with_constant_signs(function)
     gradient = [function.diff(variable) for variable in variables]
@@ -72,21 +69,21 @@ def expressions(function, variables: Sequence) -> list:
     return [restored(column, signs) for column in (function, *gradient, *hessian)]
 
 
-def with_constant_signs(function) -> tuple:
-    """The function with |g| written as g times a constant, and what the constants stand for."""
+def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr", "sp.Dummy"]]:
+    """The function with |g| written as g times a constant, and the constants, by g, that stand for signs."""
     import sympy as sp
 
-    signs: dict = {}
+    signs: dict[sp.Expr, sp.Dummy] = {}
 
-    def constant(g):
+    def constant(g: sp.Expr) -> sp.Dummy:
         return signs.setdefault(g, sp.Dummy("sign", real=True))
 
     function = sp.sympify(function).replace(sp.Abs, lambda g: g * constant(g))
     return function.replace(sp.sign, constant), signs
 
 
-def restored(expression, signs: dict):
-    """The expression with the signs put back for their constants, outer ones before those inside them."""
+def restored(expression: "sp.Expr", signs: dict["sp.Expr", "sp.Dummy"]) -> "sp.Expr":
+    """The expression with signs in the place of their constants, outer ones before those inside them."""
     from sympy import sign
 
     for g, constant in reversed(signs.items()):
@@ -103,7 +100,7 @@ def _triangle(variables: int) -> NDArray[np.intp]:
 
 
 def jet(columns: Array, variables: int) -> Jet:
-    """The jet whose columns (..., width) these are."""
+    """The jet of columns (..., width)."""
     return Jet(columns[..., 0], columns[..., 1 : 1 + variables], columns[..., _triangle(variables)])
 
 

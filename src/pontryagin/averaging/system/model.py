@@ -1,6 +1,9 @@
-"""The numeric side of a phase system: its kernels, and the averaged Hamiltonian by quadrature of them."""
+"""The averaged Hamiltonian h0 of a phase system, (2.3), as compiled kernels and their quadrature."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,15 +16,16 @@ from pontryagin.averaging.system.jets import (
     jet,
     width,
 )
-from pontryagin.averaging.system.means import (
+from pontryagin.numerics.periodic_means import (
     SOLVING,
-    Rule,
+    MeanRule,
     find_switches,
     mean,
 )
+from pontryagin.numerics.quadrature import Density
 
 BESIDE = 1e-9
-"""How far beside a switch its one-sided derivatives are taken; they enter Newton's matrix only."""
+"""Distance from a switch at which one-sided derivatives are taken; they enter Newton's matrix only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +53,8 @@ class Model:
         f and the whole running cost.
     pace : kernel of (a, x)
         1 / r, proportional to dpsi/dx.
+    origin : functools.partial
+        Makes the same model; pickles hold this instead of the kernels.
     """
 
     slow: int
@@ -61,26 +67,31 @@ class Model:
     control: Kernel
     rates: Kernel
     pace: Kernel
+    origin: "partial[Model]"
 
-    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: Rule = SOLVING) -> tuple[Jet, Jet]:
+    def __reduce__(self) -> tuple[Callable[..., "Model"], tuple[Any, ...]]:
+        """Pickles and copies hold what the model is made from, since compiled kernels do not pickle."""
+        return self.origin.func, self.origin.args
+
+    def averaged(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule = SOLVING) -> tuple[Jet, Jet]:
         """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
         shape = np.broadcast_shapes(z.shape[:-1], *(number.shape for number in numbers))
         flat = np.broadcast_to(z, (*shape, z.shape[-1])).reshape(-1, z.shape[-1])
-        held = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
+        values = tuple(np.broadcast_to(number, shape).reshape(-1) for number in numbers)
         a = flat[:, : self.slow].T
         if self.mean is None:
-            h, turn = self._quadrature(flat, held, rule)
+            h, turn = self._quadrature(flat, values, rule)
         else:
-            h, turn = jet(evaluate(self.mean, *flat.T, *held), 2 * self.slow), None
+            h, turn = jet(evaluate(self.mean, *flat.T, *values), 2 * self.slow), None
         if turn is None:
             assert self.frequency is not None
-            omega = jet(evaluate(self.frequency, *a, *held), self.slow).padded(2 * self.slow)
+            omega = jet(evaluate(self.frequency, *a, *values), self.slow).padded(2 * self.slow)
         else:
             omega = jet(_one(len(flat), 2 * self.slow), 2 * self.slow) / turn
             h = h / turn
         return _shaped(h, shape), _shaped(omega, shape)
 
-    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Jet, Jet | None]:
+    def _quadrature(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule) -> tuple[Jet, Jet | None]:
         """Means of the density, and of 1 / r where the frequency is an integral."""
         assert self.density is not None
         n = self.slow
@@ -96,16 +107,16 @@ class Model:
         turn = None if self.frequency is not None else jet(columns[:, own + 1 :], n).padded(2 * n)
         return h, turn
 
-    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: Rule) -> tuple[Array, Array]:
+    def controlled(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule) -> tuple[Array, Array]:
         """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
         a = tuple(z[:, : self.slow].T)
         control = _over(self.control, tuple(z.T), numbers)
 
         def density(x: Array, index: NDArray[np.intp]) -> Array:
             u = np.moveaxis(control(x, index), -1, 0)
-            here, held = [c[index, None] for c in a], [v[index, None] for v in numbers]
-            pace = evaluate(self.pace, *here, x, *held)
-            return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *held), pace], axis=-1)
+            here, values = [c[index, None] for c in a], [v[index, None] for v in numbers]
+            pace = evaluate(self.pace, *here, x, *values)
+            return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *values), pace], axis=-1)
 
         means = mean(density, self.switches(z, numbers), rule)
         means = means[:, :-1] / means[:, -1:]
@@ -117,8 +128,8 @@ class Model:
             return np.full((len(z), 0), np.nan)
         return find_switches(_over(self.switching, tuple(z.T), numbers), len(z))
 
-    def _jumps(self, density, switches: Array) -> Array:
-        """What moving switches add to the Hessian: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
+    def _jumps(self, density: Density, switches: Array) -> Array:
+        """The Hessian from switches that move: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
         count = 2 * self.slow
         point, which = np.nonzero(~np.isnan(switches))
         at = switches[point, which][:, None]
@@ -136,8 +147,8 @@ class Model:
         return jet(each[..., :-1, :], self.slow), jet(each[..., -1, :], self.slow)
 
 
-def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]):
-    """The kernel as a density: `point`'s coordinates, then x, then the numbers."""
+def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]) -> Density:
+    """The kernel as a density in x, at points given by their coordinates, with the numbers of each."""
 
     def density(x: Array, index: NDArray[np.intp]) -> Array:
         return evaluate(kernel, *(c[index, None] for c in point), x, *(v[index, None] for v in numbers))

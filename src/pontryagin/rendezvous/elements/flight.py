@@ -1,8 +1,7 @@
 """A whole extremal in Sapunkov's elements: its arcs, its end, and how the end depends on the costates.
 
-The six unknown costates are those across the turn and the relation, in which nothing is seen of a flight.
-Where the thrust jumps, the rates do: what was delta x before the switch is after it
-delta x + (f+ - f-) (grad g, delta x)/g', g = |n|^2 - 1 (the saltation matrix).
+The six unknown costates are those orthogonal to a turn of the elements and to the gradient of their
+relation, two directions in which the flight does not change. Units are those of `Scaled`.
 """
 
 from dataclasses import dataclass
@@ -12,6 +11,9 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.arcs import Arc, Piece, SwitchedFlow, follow, places, rates, sample
+from pontryagin.numerics.complex_step import jacobian
+from pontryagin.numerics.equations import ON_ARRAYS
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.elements.arcs import (
@@ -19,13 +21,13 @@ from pontryagin.rendezvous.elements.arcs import (
     COSTATES,
     COUNT,
     ELEMENTS,
-    NUMERIC,
+    OTHER,
     SPENT,
     TIME,
     Mode,
     arc,
-    rates_of,
-    steered,
+    longest_step,
+    thrust_of,
 )
 from pontryagin.rendezvous.elements.elements import (
     I1,
@@ -41,17 +43,6 @@ SWITCHES = 200
 """A flight with more switches than this is given up."""
 GRAZING = 1e-7
 """Rate of |n|^2 by phi at a switch below which the thrust may switch off and on again in between."""
-STEP = 1e-30
-
-
-@value_class
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """One arc: phi where it begins, its mode, states and derivatives there."""
-
-    begin: float
-    mode: Mode
-    whole: Array
 
 
 @value_class
@@ -70,7 +61,7 @@ class ElementFlight:
     phi : float
         Half-angle at the end.
     pieces : tuple of Piece
-        Its arcs.
+        Its arcs: phi where each begins, its mode, states and derivatives there.
     end : (18,) array
         A, B, a, b, the time, and the integral of p^2 or |p|.
     slopes : (18, 6) array
@@ -83,7 +74,7 @@ class ElementFlight:
     law: Law
     costates: Array
     phi: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Piece[Mode], ...]
     end: Array
     slopes: Array
     taylor: bool | None
@@ -110,28 +101,18 @@ class ElementFlight:
 
     def sample(self, grid: Array) -> Array:
         """The 18 states at ascending phi, (k, 18)."""
-        starts = np.array([piece.begin for piece in self.pieces])
-        which = np.clip(np.searchsorted(starts, grid, side="right") - 1, 0, None)
-        rows = np.empty((len(grid), COUNT))
-        for i in np.unique(which):
-            piece, chosen = self.pieces[i], np.flatnonzero(which == i)
-            inside, back = np.unique(np.append(grid[chosen], piece.begin), return_inverse=True)
-            constants = self.law.constants(piece.mode)
-            states = arc(piece.mode, self.taylor).sample(piece.whole, inside, constants)
-            rows[chosen] = states[back[:-1]]
-        return rows
+        return sample(flow_of(self.law, self.taylor), self.pieces, grid)
 
     def modes(self, grid: Array) -> list[Mode]:
         """The mode flown at each phi."""
-        starts = np.array([piece.begin for piece in self.pieces])
-        return [self.pieces[i].mode for i in np.searchsorted(starts, grid, side="right") - 1]
+        return [self.pieces[i].mode for i in places(self.pieces, grid)]
 
     def thrust(self, states: Array, grid: Array) -> Array:
         """p in inertial axes (k, 3) of the modes flown."""
         n = switching(states, grid)
         rows = np.empty_like(n)
         for i, mode in enumerate(self.modes(grid)):
-            rows[i] = steered(mode, n[i], self.law.constants(mode), np.sqrt, np.tanh)[0]
+            rows[i] = thrust_of(mode, ON_ARRAYS, n[i], self.law.constants(mode))[0]
         return rows
 
     def angle_at(self, times: Array) -> Array:
@@ -165,6 +146,16 @@ def basis(craft: Elements) -> Array:
     return np.linalg.svd(np.stack([turn, relation_gradient(craft)]))[2][2:].T
 
 
+def flow_of(law: Law, taylor: bool | None, rough: bool = False) -> SwitchedFlow[Mode]:
+    """How the thrust of a law switches; where it jumps, so do the rates."""
+
+    def arc_of(mode: Mode) -> Arc:
+        constants = law.constants(mode)
+        return Arc(arc(mode, taylor, rough), constants, longest_step(mode, constants))
+
+    return SwitchedFlow(arc_of, lambda mode, _: OTHER[law.kind, mode], law.jumps, GRAZING, SWITCHES)
+
+
 def fly_elements(
     scaled: Scaled,
     costates: Array,
@@ -179,61 +170,29 @@ def fly_elements(
     ------
     NotConverged
         Where the integrator stops short, |n| = 0 under a thrust that does not vanish with it, or the thrust
-        switches where |n| only touches its level.
+        switches where |n| only touches its level, or too often.
     """
     start = start_of(scaled)
     across = basis(start)
     columns = np.zeros((COUNT, COLUMNS))
     columns[COSTATES] = across
     state = np.concatenate([start.A, start.B, across @ costates, [0.0, 0.0]])
-    whole = np.concatenate([state, columns.ravel()])
     mode = law.mode(float(np.linalg.norm(switching(state, np.array(0.0)))))
-    pieces: list[Piece] = []
-    begin, switched = 0.0, True
-    while switched:
-        pieces.append(Piece(begin, mode, whole))
-        if len(pieces) > SWITCHES:
-            raise NotConverged("the thrust switches too often", phi - begin)
-        begin, whole, switched = arc(mode, taylor, rough).run(whole, begin, phi, law.constants(mode))
-        if switched:
-            following = OTHER[law.kind, mode]
-            whole = _over(whole, begin, law, mode, following) if law.jumps else whole
-            mode = following
-    if not np.isfinite(whole).all():
+    pieces, last = follow(flow_of(law, taylor, rough), np.append(state, columns), mode, 0.0, phi)
+    if not np.isfinite(last).all():
         raise NotConverged("the extremal leaves the domain of the equations", float("inf"))
-    end, slopes = whole[:COUNT], whole[COUNT:].reshape(COUNT, -1)
-    return ElementFlight(scaled, law, np.array(costates), phi, tuple(pieces), end, slopes, taylor)
-
-
-OTHER: dict[tuple[str, Mode], Mode] = {
-    ("square", "saturated"): "unsaturated",
-    ("square", "unsaturated"): "saturated",
-    ("fuel", "saturated"): "coast",
-    ("fuel", "coast"): "saturated",
-}
-
-
-def _over(whole: Array, phi: float, law: Law, before: Mode, after: Mode) -> Array:
-    """States and derivatives on the other side of a switch at which the thrust jumps."""
-    state, columns = whole[:COUNT], whole[COUNT:].reshape(COUNT, -1)
-    gradient, by_phi = switching_gradient(state, phi)
-    rates = [np.array(rates_of(mode, state, phi, law.constants(mode), NUMERIC)) for mode in (before, after)]
-    pace = gradient @ rates[0] + by_phi
-    if abs(pace) < GRAZING:
-        raise NotConverged("|n| only touches the level at which the thrust switches", float(abs(pace)))
-    jump = np.outer(rates[1] - rates[0], gradient @ columns) / pace
-    return np.concatenate([state, (columns + jump).ravel()])
+    end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
+    return ElementFlight(scaled, law, np.array(costates), phi, pieces, end, slopes, taylor)
 
 
 def switching_gradient(state: Array, phi: float) -> tuple[Array, float]:
     """Gradient of |n|^2 in the 18 states, and its derivative in phi, by complex steps."""
-    inputs = np.append(state[:16], phi)[:, None] + 1j * STEP * np.eye(17)
-    n = np.array(kernels.element_switching(*inputs))
-    slopes = np.sum(n**2, axis=0).imag / STEP
-    return np.concatenate([slopes[:16], [0.0, 0.0]]), float(slopes[16])
+    _, (slopes,) = jacobian(
+        lambda x: [sum(part**2 for part in kernels.element_switching(*x))], np.append(state[:16], phi)
+    )
+    return np.append(slopes[:16], [0.0, 0.0]), float(slopes[16])
 
 
 def end_rates(flight: ElementFlight) -> Array:
     """Rates of the 18 states at the end."""
-    mode = flight.pieces[-1].mode
-    return np.array(rates_of(mode, flight.end, flight.phi, flight.law.constants(mode), NUMERIC))
+    return rates(flow_of(flight.law, flight.taylor).arc(flight.pieces[-1].mode), flight.phi, flight.end)

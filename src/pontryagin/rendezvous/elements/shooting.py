@@ -33,7 +33,7 @@ FIRST_ARC, ARCS = 0.01, 100
 """First step along a curve that is followed round its folds, and the most points."""
 DIFFERENCE = 1e-4
 """Difference of the parameter for the slope of the equations; flights there are good to 1e-10."""
-PACES = {"duration": (0.1, 0.3, 40), "ratio": (math.log(2) / 4, math.log(2), 60)}
+PACES = {"duration": (0.025, 0.1, 160), "ratio": (0.2, 0.3, 80)}
 """Over the logarithm of each number: the first step, the largest, and the most steps tried."""
 LEAST_PACE = 1e-3
 """Step of such a logarithm below which a family is given up."""

@@ -9,28 +9,20 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.arcs import Arc, Piece, SwitchedFlow, follow, sample
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.arcs import (
     COUNT,
+    OTHER,
     Mode,
     arc,
-    identity,
+    equations,
 )
 from pontryagin.value import value_class
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
-
-
-@value_class
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """One arc: where it begins, in which mode."""
-
-    begin: float
-    mode: Mode
-    whole: Array
 
 
 @value_class
@@ -53,7 +45,7 @@ class Flight:
     chart : int
         Chart of chi.
     pieces : tuple of Piece
-        Its arcs.
+        Its arcs: where each begins, its mode, states and derivatives there.
     end : (12,) array
         r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3, chi, p_max at the end.
     slopes : (12, 7) array
@@ -68,7 +60,7 @@ class Flight:
     peak: float
     bang: bool
     chart: int
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Piece[Mode], ...]
     end: Array
     slopes: Array
     taylor: bool | None
@@ -90,16 +82,8 @@ class Flight:
 
     def sample(self, times: Array) -> Array:
         """The twelve states at ascending times, (k, 12)."""
-        starts = np.array([piece.begin for piece in self.pieces])
-        which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, None)
-        rows = np.empty((len(times), COUNT))
-        for i in np.unique(which):
-            piece, chosen = self.pieces[i], np.flatnonzero(which == i)
-            grid, back = np.unique(np.append(times[chosen], piece.begin), return_inverse=True)
-            integrator = arc(piece.mode, self.has_switches, self.taylor)
-            states = integrator.sample(piece.whole, grid, self.scaled.eccentricity, self.chart)
-            rows[chosen] = states[back[:-1]]
-        return rows
+        flow = flow_of(self.scaled.eccentricity, self.has_switches, self.chart, self.taylor)
+        return sample(flow, self.pieces, times)
 
     def attitude(self, states: Array) -> Array:
         """lambda0~ o lambda (..., 4) of states (..., 12)."""
@@ -130,6 +114,18 @@ def chart_of(costates: Array) -> int:
     return 1 if costates[5] >= 0 else -1
 
 
+def flow_of(
+    eccentricity: float, has_switches: bool, chart: int, taylor: bool | None, rough: bool = False
+) -> SwitchedFlow[Mode]:
+    """How the thrust switches: at every event to the other mode, continuously."""
+    parameters = (eccentricity, float(chart))
+    return SwitchedFlow(
+        arc=lambda mode: Arc(arc(mode, has_switches, taylor, rough), parameters),
+        following=lambda mode, _: OTHER[mode],
+        most=SWITCHES,
+    )
+
+
 def fly(
     scaled: Scaled,
     costates: Array,
@@ -140,31 +136,24 @@ def fly(
     taylor: bool | None = None,
     rough: bool = False,
 ) -> Flight:
-    """Follow the extremal that starts with the given costates; roughly, where it is but a guess.
+    """Follow the extremal that starts with the given costates; roughly, where it is only a guess.
 
     Raises
     ------
     NotConverged
-        Where the integrator stops short: at the centre of attraction, or at |n| = 0 under alpha2 = 0.
+        Where the integrator stops short: at the centre of attraction, or at |n| = 0 under alpha2 = 0; and
+        where the thrust switches too often.
     """
     bound = peak if peak < np.inf else 1.0
     chosen = chart_of(costates) if chart is None else chart
     start = np.concatenate([scaled.start, [scaled.anomaly], costates, [0.0, bound]])
-    whole = np.concatenate([start, identity().ravel()])
-    loud = bang or float(np.sum(switching(start) ** 2)) > (2 * peak) ** 2
-    pieces: list[Piece] = []
-    time, left = 0.0, True
-    while left:
-        mode: Mode = "saturated" if loud else "unsaturated"
-        pieces.append(Piece(time, mode, whole))
-        if len(pieces) > SWITCHES:
-            raise NotConverged("the thrust switches too often", duration - time)
-        integrator = arc(mode, not bang and peak < np.inf, taylor, rough)
-        time, whole, left = integrator.run(whole, time, duration, scaled.eccentricity, chosen)
-        loud = not loud
-    end, slopes = whole[:COUNT], whole[COUNT:].reshape(COUNT, -1)
-    if not np.isfinite(whole).all():
+    saturated = bang or float(np.sum(switching(start) ** 2)) > (2 * peak) ** 2
+    mode: Mode = "saturated" if saturated else "unsaturated"
+    has_switches = not bang and peak < np.inf
+    whole = np.append(start, equations(mode, has_switches).identity)
+    flow = flow_of(scaled.eccentricity, has_switches, chosen, taylor, rough)
+    pieces, last = follow(flow, whole, mode, 0.0, duration)
+    if not np.isfinite(last).all():
         raise NotConverged("the extremal leaves the domain of the equations", float("inf"))
-    return Flight(
-        scaled, np.array(costates), duration, peak, bang, chosen, tuple(pieces), end, slopes, taylor
-    )
+    end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
+    return Flight(scaled, np.array(costates), duration, peak, bang, chosen, pieces, end, slopes, taylor)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
 from pontryagin.triple_integrator.norms.minimal_element import minimal_elements
 from pontryagin.triple_integrator.norms.quadratic_programme import (
     BLOCK,
@@ -134,11 +134,12 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
 def exponent(q: float) -> float:
     """q as a float, checked."""
     if isinstance(q, bool) or not isinstance(q, Real):
-        raise TypeError(f"q must be a number, 1 < q < inf, got {q!r}")
+        raise ArgumentTypeError(f"q must be a number, 1 < q < inf, got {q!r}", "q")
     value = float(q)
     if not 1 < value < np.inf:
         ends = {1.0: "; q = 1 is minimum_impulse", np.inf: "; q = inf is minimum_peak"}
-        raise ValueError(f"q must be a number, 1 < q < inf, got {q!r}{ends.get(value, '')}")
+        message = f"q must be a number, 1 < q < inf, got {q!r}{ends.get(value, '')}"
+        raise ArgumentValueError(message, "q")
     return value
 
 

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
@@ -122,7 +123,7 @@ def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
         where = f"; not so at index {lost}" if lost else ""
-        raise ValueError(
-            f"xf must give, with x0 and tf - t0, a control within the range of floating point{where}"
+        raise ArgumentValueError(
+            f"xf must give, with x0 and tf - t0, a control within the range of floating point{where}", "xf"
         )
     return numbers

@@ -1,4 +1,4 @@
-"""Means over a turn of the anomaly: the trapezoid where smooth, Gauss's rule between switches."""
+"""Means of functions over a turn: by the trapezoid where smooth, by Gauss's rule between switches."""
 
 import functools
 from collections.abc import Callable
@@ -8,38 +8,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.quadrature import EVERY, Density, Halving, gauss, integrals
 
-Density = Callable[[Array, NDArray[np.intp]], Array]
-"""Anomalies (points or 1, nodes) and the points' indices to columns (points, nodes, columns)."""
-
-Judged = NDArray[np.intp] | slice
-EVERY = slice(None)
+Selection = NDArray[np.intp] | slice
 
 
-class Rule(NamedTuple):
-    """Nodes to begin with: of the trapezoid, which start somewhere, and of Gauss's rule between switches."""
+class MeanRule(NamedTuple):
+    """Numbers of nodes that the trapezoid and Gauss's rule begin with, and the trapezoid's first node."""
 
     trapezoid: int
     gauss: int
     start: float
 
 
-SOLVING = Rule(16, 6, 0.0)
-CHECKING = Rule(24, 9, 1.0)
-"""Its nodes are other ones: a harmonic that escapes both rules does so by different amounts."""
+SOLVING = MeanRule(16, 6, 0.0)
+CHECKING = MeanRule(24, 9, 1.0)
+"""A rule with other nodes than `SOLVING`: a harmonic that one of them misses is seen by the other."""
 LAST, GAUSS_LAST = 2**9, 384
+"""Largest numbers of nodes of the trapezoid, and of Gauss's rule on one interval."""
 HALF_DIGITS, FALL = 1e-8, 1e-2
-PARTS, HALVINGS = 8, 40
+"""Change by a doubling that is accepted as the last one, and the ratio of changes that shows convergence."""
+PARTS = 8
+"""Panels of a turn before they are halved."""
+HALVING = Halving(nodes=16)
 ROUNDING = 1e-14
-"""A column that cancels to nothing is not asked for more than this share of the largest."""
+"""A column that cancels to zero is computed to this share of the largest column only."""
 LOOK = 128
-"""How finely a turn is searched for switches."""
+"""Points of a turn at which signs are compared to find switches."""
 
 
-def mean(density: Density, switches: Array, rule: Rule, judged: Judged = EVERY) -> Array:
-    """Means (points, columns) of functions smooth between switches (points, s), the absent ones nan.
+def mean(density: Density, switches: Array, rule: MeanRule, judged: Selection = EVERY) -> Array:
+    """Means (points, columns) of functions that are smooth between switches (points, s), filled up by nan.
 
-    Only the `judged` columns say when a rule is fine enough: the others are their derivatives.
+    Only the `judged` columns decide when a rule is fine enough; the others are their derivatives.
     """
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
@@ -54,24 +55,24 @@ def mean(density: Density, switches: Array, rule: Rule, judged: Judged = EVERY) 
     return result
 
 
-def smooth_mean(density: Density, points: int, rule: Rule = SOLVING, judged: Judged = EVERY) -> Array:
-    """Means of periodic functions by the trapezoid, its nodes doubled until nothing changes.
+def smooth_mean(density: Density, points: int, rule: MeanRule = SOLVING, judged: Selection = EVERY) -> Array:
+    """Means of periodic functions by the trapezoid, its nodes doubled until the means change no more.
 
-    The first three rules, of which the third is the earliest to be believed, share one call of the density.
-    Where it does not settle (a density that is nearly not smooth), `halved_mean` takes its place. Returns
-    (points, columns); nan where the density is not defined.
+    The first three rules share one call of the density; the third is the earliest that can be accepted.
+    Where the trapezoid does not converge (a density that is nearly not smooth), `halved_mean` takes over.
+    Returns (points, columns); nan where the density is not defined.
     """
     size = 4 * rule.trapezoid
 
-    def begin(active: NDArray[np.intp]) -> tuple[list[NDArray], NDArray]:
+    def begin(active: NDArray[np.intp]) -> tuple[list[Array], Array]:
         values = density(rule.start + 2 * np.pi * np.arange(size)[None] / size, active)
         coarse = np.abs(values[:, ::4])
         return list(np.moveaxis(_nested(size) @ values, -2, 0)), coarse.mean(axis=-2)
 
-    def doubled(active: NDArray[np.intp], total: NDArray) -> NDArray:
+    def doubled(active: NDArray[np.intp], total: Array) -> Array:
         nonlocal size
         x = rule.start + 2 * np.pi * (np.arange(size)[None] + 0.5) / size
-        halfway = density(x, active).mean(axis=-2)
+        halfway: Array = density(x, active).mean(axis=-2)
         size *= 2
         return (total + halfway) / 2
 
@@ -91,79 +92,52 @@ def _nested(size: int) -> Array:
     return weights
 
 
-def halved_mean(density: Density, points: int, judged: Judged = EVERY) -> Array:
-    """Means by Gauss's rule on intervals that are halved until nothing changes, as (points, columns).
-
-    Where intervals become so short that the density is known to fewer digits, fewer are asked for.
-    """
-    nodes, weights = _gauss(16)
-    point = np.repeat(np.arange(points), PARTS)
-    low = np.tile(np.arange(PARTS) / PARTS, points)
-    length = np.full(len(low), 1 / PARTS)
-
-    def integral(point: NDArray, low: NDArray, length: NDArray) -> tuple[NDArray, NDArray]:
-        values = density(2 * np.pi * (low[:, None] + length[:, None] * nodes), point)
-        scaled = (length[:, None] * weights)[..., None]
-        return (scaled * values).sum(axis=1), (scaled * np.abs(values)).sum(axis=1)
-
-    value, size = integral(point, low, length)
-    scale = np.zeros((points, size.shape[1]))
-    np.add.at(scale, point, size)
-    result = np.zeros_like(scale)
-    for halving in range(HALVINGS):
-        asked = ROUNDING if halving < HALVINGS // 2 else FALL * HALF_DIGITS
-        first, _ = integral(point, low, length / 2)
-        second, _ = integral(point, low + length / 2, length / 2)
-        change = np.abs(first + second - value)[:, judged]
-        own = scale[point][:, judged]
-        settled = (change <= asked * np.maximum(own, own.max(axis=-1, keepdims=True))).all(axis=-1)
-        np.add.at(result, point[settled], (first + second)[settled])
-        more = ~settled
-        if not more.any():
-            return result
-        if not np.isfinite(change[more]).all():
-            break
-        point, low, length = (
-            np.concatenate([point[more]] * 2),
-            np.concatenate([low[more], low[more] + length[more] / 2]),
-            np.concatenate([length[more] / 2] * 2),
-        )
-        value = np.concatenate([first[more], second[more]])
-    result[point] = np.nan
-    return result
+def halved_mean(density: Density, points: int, judged: Selection = EVERY) -> Array:
+    """Means by `integrals` on halved intervals, as (points, columns); nan where they do not converge."""
+    member = np.repeat(np.arange(points), PARTS)
+    edges = 2 * np.pi * np.arange(PARTS + 1) / PARTS
+    low, high = np.tile(edges[:-1], points), np.tile(edges[1:], points)
+    values, finished = integrals(density, member, low, high, judged, HALVING)
+    return np.where(finished[:, None], values / (2 * np.pi), np.nan)
 
 
 def split_mean(
-    density: Density, switches: Array, first: int = SOLVING.gauss, judged: Judged = EVERY
+    density: Density, switches: Array, first: int = SOLVING.gauss, judged: Selection = EVERY
 ) -> Array:
-    """Means of functions that are smooth between switches (points, s), ascending, the absent ones nan."""
+    """Means of functions that are smooth between switches (points, s), ascending, filled up by nan."""
     size = first
 
-    def sums(active: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+    def sums(active: NDArray[np.intp]) -> tuple[Array, Array]:
         x, weights = split_rule(switches[active], size)
         values = density(x, active)
         weights = weights[..., None]
         return (weights * values).sum(axis=1), (weights * np.abs(values)).sum(axis=1)
 
-    def doubled(active: NDArray[np.intp], _: NDArray) -> NDArray:
+    def doubled(active: NDArray[np.intp], _: Array) -> Array:
         nonlocal size
         size *= 2
         return sums(active)[0]
 
-    def begin(active: NDArray[np.intp]) -> tuple[list[NDArray], NDArray]:
+    def begin(active: NDArray[np.intp]) -> tuple[list[Array], Array]:
         value, scale = sums(active)
         return [value, doubled(active, value)], scale
 
     return _refined(begin, doubled, len(switches), (GAUSS_LAST // first).bit_length() - 1, judged)
 
 
-def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> Array:
-    """Double a rule at the points where it has not settled, after those that `begin` has already.
+def _refined(
+    begin: Callable[[NDArray[np.intp]], tuple[list[Array], Array]],
+    doubled: Callable[[NDArray[np.intp], Array], Array],
+    points: int,
+    doublings: int,
+    judged: Selection,
+) -> Array:
+    """Means by a rule that is doubled at the points where it has not settled; `begin` gives the first ones.
 
-    The error of a rule that converges geometrically is squared by each doubling: a change below half of all
-    digits is the last to be seen, provided that the change before was either much larger, which shows that
-    the rule does converge so, or nothing, or that this one is nothing; the first change alone says nothing of
-    a density with symmetries.
+    Each doubling squares the error of a rule that converges geometrically, so that a change in the second
+    half of the digits can be the last. It is accepted where it is much smaller than the change before, which
+    shows that the rule converges so, or where one of the two is rounding. The first change alone proves
+    nothing for a density with symmetries.
     """
     active = np.arange(points)
     (coarse, value, *known), scale = begin(active)
@@ -186,28 +160,21 @@ def _refined(begin, doubled, points: int, doublings: int, judged: Judged) -> Arr
     return result
 
 
-def split_rule(switches: Array, size: int) -> tuple[NDArray, NDArray]:
+def split_rule(switches: Array, size: int) -> tuple[Array, Array]:
     """Nodes and weights (points, panels * size) of Gauss's rule from switch to switch over one turn."""
-    nodes, weights = _gauss(size)
+    nodes, weights = gauss(size)
     last = switches[:, :1] + 2 * np.pi
     edges = np.concatenate([np.where(np.isnan(switches), last, switches), last], axis=1)
     lengths = np.diff(edges, axis=1)[..., None]
     flat = (len(switches), -1)
-    return (edges[:, :-1, None] + lengths * nodes).reshape(flat), (lengths * weights / (2 * np.pi)).reshape(
-        flat
-    )
-
-
-@functools.cache
-def _gauss(size: int) -> tuple[Array, Array]:
-    nodes, weights = np.polynomial.legendre.leggauss(size)
-    return (nodes + 1) / 2, weights / 2
+    at = edges[:, :-1, None] + lengths * nodes
+    return at.reshape(flat), (lengths * weights / (2 * np.pi)).reshape(flat)
 
 
 def find_switches(switching: Density, points: int) -> Array:
-    """Where the switching functions change sign over a turn, (points, s), ascending, filled up by nan.
+    """Angles where switching functions change sign in a turn, (points, s), ascending, filled up by nan.
 
-    `switching` gives the functions and, as a second half of its columns, their derivatives in the anomaly.
+    The columns of `switching` are the functions, then as many derivatives of them in the angle.
     """
     grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
     columns = switching(grid[None], np.arange(points))
@@ -232,14 +199,14 @@ def find_switches(switching: Density, points: int) -> Array:
     return result
 
 
-def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[NDArray, ...] | None:
-    """Brackets of two switches between neighbouring nodes: an extremum there that has the other sign."""
+def _close_pairs(switching: Density, grid: Array, columns: Array) -> tuple[Array, ...] | None:
+    """Brackets of two switches between neighbouring nodes, where an extremum between has the other sign."""
     count = columns.shape[-1] // 2
     value, slope = columns[..., :count], columns[..., count:]
     towards = value * slope
     near = np.abs(value) < 2 * np.abs(slope) * (grid[1] - grid[0])
-    turning = (towards[:, :-1] < 0) & (towards[:, 1:] > 0) & (value[:, :-1] * value[:, 1:] > 0)
-    point, cell, which = np.nonzero(turning & (near[:, :-1] | near[:, 1:]))
+    extremum = (towards[:, :-1] < 0) & (towards[:, 1:] > 0) & (value[:, :-1] * value[:, 1:] > 0)
+    point, cell, which = np.nonzero(extremum & (near[:, :-1] | near[:, 1:]))
     if not len(point):
         return None
     rows = np.arange(len(point))
@@ -262,10 +229,15 @@ def _close_pairs(switching: Density, grid: NDArray, columns: NDArray) -> tuple[N
 
 
 def _refine(
-    switching: Density, low: NDArray, high: NDArray, point: NDArray, which: NDArray, falling: NDArray
+    switching: Density,
+    low: Array,
+    high: Array,
+    point: NDArray[np.intp],
+    which: NDArray[np.intp],
+    falling: NDArray[np.bool_],
 ) -> Array:
-    """Newton's method, bisecting wherever it leaves the bracket."""
-    x = (low + high) / 2
+    """Switches in brackets by Newton's method, with bisection where it leaves the bracket."""
+    x: Array = (low + high) / 2
     rows = np.arange(len(point))
     for _ in range(60):
         columns = switching(x[:, None], point)[:, 0]

@@ -1,4 +1,7 @@
-"""Piecewise Chebyshev series on [0, 1]: panels with their extreme points, integrals, values, slopes."""
+"""Collocation on panels of [0, 1]: piecewise Chebyshev series with the matrix that integrates them.
+
+A boundary value problem z' = f(z) becomes z - z(0) = integrals @ f(z) at the points of a `Mesh`.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -25,7 +28,7 @@ class Mesh:
 
     @property
     def panels(self) -> int:
-        """How many there are."""
+        """Number of panels."""
         return len(self.edges) - 1
 
     @functools.cached_property
@@ -48,7 +51,7 @@ class Mesh:
         return result
 
     def series(self, values: Array) -> Array:
-        """Coefficients (..., panels, degree + 1, w) of what has these values (..., points, w)."""
+        """Chebyshev coefficients (..., panels, degree + 1, w) of values (..., points, w)."""
         starts = np.arange(self.panels)[:, None] * self.degree
         return _to_coefficients(self.degree) @ values[..., starts + np.arange(self.degree + 1), :]
 
@@ -63,20 +66,20 @@ class Mesh:
 def evaluate(edges: Array, series: Array, s: Array) -> Array:
     """Values (..., k, w) at s (..., k) of series (..., panels, degree + 1, w), edges (..., panels + 1).
 
-    Leading axes broadcast; panels of no length at the end are passed over.
+    Leading axes broadcast; panels of no length at the end are ignored.
     """
     own, share, _ = _located(edges, series, s)
-    return (polynomials(share, series.shape[-2] - 1)[..., None, :] @ own)[..., 0, :]
+    return np.asarray((polynomials(share, series.shape[-2] - 1)[..., None, :] @ own)[..., 0, :])
 
 
 def derivative(edges: Array, series: Array, s: Array) -> Array:
-    """Derivatives in s of the same, not at an edge."""
+    """Derivatives in s of the series of `evaluate`, at arguments that are not edges."""
     own, share, length = _located(edges, series, s)
     return (_slopes(share, series.shape[-2] - 1)[..., None, :] @ own)[..., 0, :] / length[..., None]
 
 
 def _located(edges: Array, series: Array, s: Array) -> tuple[Array, Array, Array]:
-    """The coefficients (..., k, degree + 1, w) of the panel each s is on, its share of it, and its length."""
+    """For each s: the coefficients (..., k, degree + 1, w) of its panel, its place in it, and its length."""
     if series.shape[-3] == 1:
         low, length = edges[..., :1], edges[..., 1:] - edges[..., :1]
         return series, np.clip((s - low) / length, 0.0, 1.0), length
@@ -101,7 +104,7 @@ def polynomials(s: Array, degree: int) -> Array:
 def _slopes(s: Array, degree: int) -> Array:
     angle = 2 * np.arcsin(np.sqrt(1 - s))[..., None]
     k = np.arange(degree + 1)
-    return 2 * k * np.sin(k * angle) / np.sin(angle)
+    return np.asarray(2 * k * np.sin(k * angle) / np.sin(angle))
 
 
 @functools.cache
@@ -126,4 +129,4 @@ def _integrals(degree: int) -> Array:
         antiderivative[k + 1, k] = 1 / (4 * (k + 1))
         antiderivative[k - 1, k] -= 0 if k == 1 else 1 / (4 * (k - 1))
     at = polynomials(_points(degree), degree + 1)
-    return (at - at[0]) @ antiderivative @ _to_coefficients(degree)
+    return np.asarray(at - at[0]) @ antiderivative @ _to_coefficients(degree)

@@ -1,7 +1,7 @@
-"""pykep's least-time problem: its own process, because it pins another version of heyoka than we do.
+"""pykep's least-time problem in a process of its own, since pykep requires another version of heyoka.
 
-Where build/pykep holds no such interpreter the rows are left out:
-``python3 -m venv build/pykep && build/pykep/bin/pip install pykep==3.0.1`` makes one.
+The interpreter is expected in build/pykep; without it the rows are left out. It is made by
+``python3 -m venv build/pykep && build/pykep/bin/pip install pykep==3.0.1``.
 """
 
 import json
@@ -19,19 +19,19 @@ from pontryagin.rendezvous.witness.cartesian import (
 
 
 def interpreter() -> Path:
-    """Of the environment that holds pykep."""
+    """The interpreter of the environment that holds pykep."""
     return files.repository() / "build" / "pykep" / "bin" / "python"
 
 
 def absent() -> str | None:
-    """One line that says how to have pykep's rows, or None where they can be had."""
+    """One line that says why pykep's rows are left out, or None if they are not."""
     if interpreter().is_file():
         return None
-    return "build/pykep holds no pykep: its rows are left out (see benchmarks/rendezvous/elsewhere.py)"
+    return "build/pykep holds no pykep: its rows are left out (see benchmarks/rendezvous/pykep_peer.py)"
 
 
-def by_pykep(problem: Rendezvous, start: Extremal, rounds: int) -> dict[str, Any]:
-    """Newton's method of a least-time problem from a neighbour's costates: duration, residual, times."""
+def solve(problem: Rendezvous, start: Extremal, rounds: int) -> dict[str, Any]:
+    """Duration, residual and times of Newton's method on a least-time problem from a neighbour's costates."""
     scaled = problem.scaled
     place, target = start_of(start.flight), target_by_kepler(scaled, 0.0)
     given = {
@@ -50,4 +50,5 @@ def by_pykep(problem: Rendezvous, start: Extremal, rounds: int) -> dict[str, Any
         check=True,
         timeout=300,
     )
-    return json.loads(done.stdout.splitlines()[-1])
+    answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return answer

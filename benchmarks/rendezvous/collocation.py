@@ -1,4 +1,6 @@
-"""SciPy's solve_bvp on the repaired form, given its Jacobians, from the trajectory of a neighbour."""
+"""SciPy's solve_bvp on the repaired form, with its Jacobians, from a neighbouring problem's trajectory."""
+
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_bvp
@@ -10,13 +12,14 @@ from pontryagin.rendezvous.reduced.conditions import SEEN
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 NODES, MOST = 60, 20_000
+"""Numbers of nodes: of the initial mesh, and at most."""
 
 
-def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
-    """SciPy's solution; its ``status`` is 0 where solve_bvp has met its tolerance.
+def collocate(problem: Rendezvous, start: Extremal, tolerance: float) -> Any:
+    """SciPy's solution, whose ``status`` is 0 if solve_bvp has reached its tolerance.
 
-    Unknown functions are the eleven states over the share of the duration; at a free duration, which is asked
-    for least time alone, it is a parameter. Every derivative is given, by a complex step, exact to rounding.
+    The unknown functions are the eleven states over the share of the duration. A free duration, which only
+    problems of least time have here, is a parameter. Derivatives are exact to rounding, by a complex step.
     """
     scaled, free = problem.scaled, problem.free
     chart = chart_of(start.flight.costates)
@@ -75,8 +78,8 @@ def collocated(problem: Rendezvous, start: Extremal, tolerance: float):
         )
 
 
-def cost(problem: Rendezvous, found) -> float:
-    """The cost of a solution in the user's units, nan where there is none."""
+def cost(problem: Rendezvous, found: Any) -> float:
+    """The cost of a solution in the user's units; nan if solve_bvp failed."""
     scaled = problem.scaled
     if found.status:
         return float("nan")

@@ -1,4 +1,4 @@
-"""What the replays of all examples have in common: the averaged extremal and an exact one against time.
+"""An averaged extremal and an exact one, and the plots of both against time that all recordings share.
 
 Time is t = tau/epsilon. The averaged extremal is orange, the exact one blue.
 """
@@ -24,11 +24,13 @@ from pontryagin.display.recording import (
     Recording,
     View,
 )
+from pontryagin.errors import ArgumentValueError
 
 AVERAGED, EXACT = ORANGE, BLUE
 SECONDS = 40.0
-"""How long a replay takes."""
+"""Duration of a replay."""
 AVERAGED_SAMPLES = 201
+"""Number of samples of the averaged extremal."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +49,9 @@ class Pair:
     def __post_init__(self) -> None:
         shape = self.averaged.duration.shape
         if shape:
-            raise ValueError(f"solution must be that of one problem, got a stack of shape {shape}")
+            raise ArgumentValueError(
+                f"solution must be that of one problem, got a stack of shape {shape}", "solution"
+            )
 
     @property
     def epsilon(self) -> float:
@@ -94,14 +98,14 @@ def slow_curves(recording: Recording, pair: Pair, tau: Array) -> None:
     """The curves of `slow_plots`, the exact ones at slow times (k,)."""
     averaged, exact = pair.averaged.slow(pair.grid), pair.exact.slow(tau)
     both = tau[tau <= float(pair.averaged.duration)]
-    apart = (exact[: len(both)] - pair.averaged.slow(both)) / pair.epsilon
+    differences = (exact[: len(both)] - pair.averaged.slow(both)) / pair.epsilon
     curves = {f"slow-{name}": (averaged[:, i], exact[:, i]) for i, name in enumerate(pair.averaged.names)}
     curves["cost"] = (pair.averaged_cost(), pair.exact.spent(tau))
     curves["costate"] = (np.zeros(len(pair.grid)), pair.exact.phase_costate(tau) / pair.epsilon)
     for entity, (first, second) in curves.items():
         recording.curve(f"{entity}/averaged", pair.grid / pair.epsilon, first, "averaged", AVERAGED)
         recording.curve(f"{entity}/exact", tau / pair.epsilon, second, "exact", EXACT)
-    for name, values, colour in zip(pair.averaged.names, apart.T, (GREEN, PURPLE), strict=False):
+    for name, values, colour in zip(pair.averaged.names, differences.T, (GREEN, PURPLE), strict=False):
         recording.curve(f"difference/{name}", both / pair.epsilon, values, name, colour)
 
 

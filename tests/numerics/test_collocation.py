@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from pontryagin.averaging.averaged.mesh import (
+from pontryagin.numerics.collocation import (
     Mesh,
     derivative,
     evaluate,

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import ellipe
 
-from pontryagin.averaging.system.means import (
+from pontryagin.numerics.periodic_means import (
     CHECKING,
     SOLVING,
     find_switches,

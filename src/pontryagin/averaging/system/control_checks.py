@@ -1,0 +1,49 @@
+"""Checks that control sets share: one number for each control, positive numbers, known symbols."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+import sympy as sp
+
+from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
+from pontryagin.numerics import compile as compiler
+
+Numbers = Mapping[sp.Symbol, Array]
+"""Values of the symbols that stand for numbers of a system."""
+
+
+def refusal(message: str) -> ArgumentValueError:
+    """The error that refuses a control set."""
+    return ArgumentValueError(message, "control_set")
+
+
+def require_count(name: str, values: Sequence[object], dimension: int) -> None:
+    """Raise ValueError unless there is one entry for each control."""
+    if len(values) != dimension:
+        raise refusal(f"{name} must hold one for each of {dimension} controls, got {len(values)}")
+
+
+def require_positive(name: str, values: Sequence[object], numbers: Numbers) -> None:
+    """Raise ValueError unless the values are positive for every problem of the stack."""
+    for value in numeric(name, values, numbers):
+        least = value.min()
+        if not (np.isfinite(least) and least > 0):
+            raise refusal(f"{name} must be positive for a convex set of controls, got {least:g}")
+
+
+def numeric(name: str, values: Sequence[object], numbers: Numbers) -> tuple[Array, ...]:
+    """The values as arrays of the shape that the numbers in them broadcast to."""
+    expressions = [sp.sympify(value) for value in values]
+    used = set().union(*(expression.free_symbols for expression in expressions))
+    unknown = used - set(numbers)
+    if unknown:
+        raise refusal(f"{name} holds unknown symbols {listed(unknown)}")
+    symbols = sorted(used, key=str)
+    evaluate = compiler.function("values", symbols, {f"v{i}": e for i, e in enumerate(expressions)})
+    return evaluate(*(numbers[symbol] for symbol in symbols))
+
+
+def listed(symbols: Iterable[sp.Symbol]) -> str:
+    """Symbols in alphabetical order, with commas between."""
+    return ", ".join(sorted(map(str, symbols)))

@@ -1,0 +1,194 @@
+"""Arcs between switches: flows of several modes, each smooth, that change at the zeros of event functions.
+
+A mode is what holds between two switches: which right-hand side, with which parameters. `SwitchedFlow` says
+how each mode flows and which one follows; `follow` finds the arcs of a trajectory, with its derivatives in
+the initial values, and `sample` evaluates it. Where the rates jump at a switch, f- before and f+ after, the
+derivatives jump as well, by the saltation matrix: with the event function g,
+
+    dx+ = dx- + (f+ - f-) (grad g, dx-)/g',    g' = (grad g, f-) + dg/dt.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Generic, NamedTuple, TypeVar
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import NotConverged
+from pontryagin.numerics.equations import Values
+from pontryagin.numerics.flow import Integrator, Reached
+from pontryagin.value import value_class
+
+Mode = TypeVar("Mode")
+
+
+class Arc(NamedTuple):
+    """How one mode flows.
+
+    Attributes
+    ----------
+    integrator : Integrator
+        Of its equations, whose event functions are negative on the arc.
+    parameters : (p,) sequence
+        Their values in this mode.
+    longest : float
+        Longest step of the integrator.
+    """
+
+    integrator: Integrator
+    parameters: Values
+    longest: float = math.inf
+
+
+@value_class
+@dataclass(frozen=True, eq=False)
+class Piece(Generic[Mode]):
+    """One arc of a trajectory.
+
+    Attributes
+    ----------
+    begin : float
+        Time where it begins.
+    mode : Mode
+    whole : (n + n m,) array
+        The states there, followed by the rows of their derivatives.
+    """
+
+    begin: float
+    mode: Mode
+    whole: Array
+
+
+@dataclass(frozen=True)
+class SwitchedFlow(Generic[Mode]):
+    """A flow of several modes.
+
+    Attributes
+    ----------
+    arc : function (mode) -> Arc
+        How a mode flows.
+    following : function (mode, event) -> mode
+        The mode after an event, by its index.
+    jumps : bool
+        Whether the rates jump at a switch, and with them the derivatives.
+    grazing : float
+        Rate of an event function at a switch up to which it counts as a tangency.
+    most : int
+        A trajectory with more switches than this is given up.
+    """
+
+    arc: Callable[[Mode], Arc]
+    following: Callable[[Mode, int], Mode]
+    jumps: bool = False
+    grazing: float = 0.0
+    most: int = 200
+
+    def crossed(self, mode: Mode, reached: Reached) -> Piece[Mode]:
+        """The beginning of the arc after the event that ended one."""
+        assert reached.event is not None
+        after = self.following(mode, reached.event)
+        n = len(self.arc(mode).integrator.equations.identity)
+        if not self.jumps or len(reached.whole) == n:
+            return Piece(reached.time, after, reached.whole)
+        state, columns = reached.whole[:n], reached.whole[n:].reshape(n, -1)
+        equations, parameters, _ = self.arc(mode)
+        gradient, by_time = equations.equations.event_gradient(reached.event, reached.time, state, parameters)
+        before, behind = (rates(self.arc(m), reached.time, state) for m in (mode, after))
+        pace = float(gradient @ before) + by_time
+        if abs(pace) <= self.grazing:
+            raise NotConverged("a switching function touches zero without crossing it", abs(pace))
+        jumped = columns + np.outer(behind - before, gradient @ columns / pace)
+        return Piece(reached.time, after, np.concatenate([state, jumped.ravel()]))
+
+
+def rates(arc: Arc, time: float, state: Array) -> Array:
+    """x' (n,) of a mode."""
+    return arc.integrator.equations.rates(time, state, arc.parameters)
+
+
+def follow(
+    flow: SwitchedFlow[Mode], whole: Array, mode: Mode, begin: float, end: float
+) -> tuple[tuple[Piece[Mode], ...], Array]:
+    """The arcs of a trajectory, and the states and derivatives at its end.
+
+    Parameters
+    ----------
+    flow : SwitchedFlow
+    whole : (n + n m,) array
+        States and derivatives at the beginning.
+    mode : Mode
+        The mode there.
+    begin, end : float
+        Times.
+
+    Raises
+    ------
+    NotConverged
+        Where an integrator stops short, a switching function touches zero without crossing it, or there is
+        no end of switches.
+    """
+    pieces = [Piece(begin, mode, whole)]
+    last: Integrator | None = None
+    while True:
+        piece = pieces[-1]
+        integrator, parameters, longest = flow.arc(piece.mode)
+        reached = integrator.run(
+            piece.whole, piece.begin, end, parameters, longest, resume=integrator is last
+        )
+        if reached.event is None:
+            return tuple(pieces), reached.whole
+        last = integrator
+        pieces.append(flow.crossed(piece.mode, reached))
+        if len(pieces) > flow.most:
+            raise NotConverged("the right-hand side switches too often", abs(end - reached.time))
+
+
+def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Array) -> Array:
+    """The states at ascending times of the trajectory that begins at the first of them, (k, n).
+
+    It is integrated once, where `follow` and `sample` would do so twice.
+    """
+    n = len(flow.arc(mode).integrator.equations.identity)
+    rows = np.empty((len(times), n))
+    rows[0] = whole[:n]
+    piece, done, switches = Piece(float(times[0]), mode, whole), 1, 0
+    last: Integrator | None = None
+    while done < len(times):
+        integrator, parameters, longest = flow.arc(piece.mode)
+        grid = np.append(piece.begin, times[done:])
+        found, reached = integrator.sample(piece.whole, grid, parameters, longest, resume=integrator is last)
+        rows[done : done + len(found) - 1] = found[1:]
+        done += len(found) - 1
+        if reached.event is None:
+            break
+        piece, last, switches = flow.crossed(piece.mode, reached), integrator, switches + 1
+        while done < len(times) and times[done] <= piece.begin:  # the grid meets the switch
+            rows[done] = piece.whole[:n]
+            done += 1
+        if switches > flow.most:
+            raise NotConverged("the right-hand side switches too often", float(times[-1]) - piece.begin)
+    return rows
+
+
+def sample(flow: SwitchedFlow[Mode], pieces: Sequence[Piece[Mode]], times: Array) -> Array:
+    """The states of a trajectory, whose arcs are known, at times in any order, (k, n)."""
+    which = places(pieces, times)
+    n = len(flow.arc(pieces[0].mode).integrator.equations.identity)
+    rows = np.empty((len(times), n))
+    for i in np.unique(which):
+        piece, chosen = pieces[i], np.flatnonzero(which == i)
+        grid, back = np.unique(np.append(times[chosen], piece.begin), return_inverse=True)
+        integrator, parameters, longest = flow.arc(piece.mode)
+        states, reached = integrator.sample(piece.whole, grid, parameters, longest)
+        missing = len(grid) - len(states)  # at the end of the arc the event may come first, by rounding
+        states = np.vstack([states, *[reached.whole[:n]] * missing])
+        rows[chosen] = states[back[:-1]]
+    return rows
+
+
+def places(pieces: Sequence[Piece[Mode]], times: Array) -> Array:
+    """Index of the arc that holds at each time, (k,)."""
+    begins = np.array([piece.begin for piece in pieces])
+    return np.clip(np.searchsorted(begins, times, side="right") - 1, 0, None)

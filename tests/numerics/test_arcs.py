@@ -1,0 +1,161 @@
+"""Arcs between switches, on problems whose switch times and derivatives are known in closed form."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from numpy.testing import assert_allclose
+
+from pontryagin.errors import NotConverged
+from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid, places, sample
+from pontryagin.numerics.equations import Kernel, Symbolic
+from pontryagin.numerics.flow import has_heyoka, integrator
+from pontryagin.numerics.lanes import Lanes
+
+x, v, u = sp.symbols("x v u", real=True)
+KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]
+HEYOKA = pytest.mark.skipif(not has_heyoka(), reason="heyoka is not installed")
+
+
+def relay(taylor):
+    """x'' = -u with u the sign of x: one system whose parameter changes its sign at every event."""
+    system = Symbolic((x, v), (v, -u), (u,), wrt=(x, v), event_functions=(-u * x,))
+    along = integrator(system, taylor)
+    return SwitchedFlow(lambda sign: Arc(along, (sign,)), lambda sign, _: -sign, jumps=True)
+
+
+def start(system, state):
+    return np.append(state, system.identity)
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_a_relay_oscillator_switches_every_half_period(taylor):
+    """From rest at x0 the first switch is after sqrt(2 x0), the others every 2 sqrt(2 x0)."""
+    flow, x0 = relay(taylor), 0.8
+    equations = flow.arc(1.0).integrator.equations
+    pieces, last = follow(flow, start(equations, [x0, 0.0]), 1.0, 0.0, 10.0)
+    quarter = np.sqrt(2 * x0)
+    begins = np.array([piece.begin for piece in pieces])
+    assert_allclose(begins[1:], quarter * np.arange(1, 2 * len(pieces) - 2, 2), rtol=1e-12)
+    assert [piece.mode for piece in pieces] == [(-1.0) ** i for i in range(len(pieces))]
+    assert len(pieces) == 1 + int((10.0 / quarter + 1) / 2)
+
+    def end(a):
+        """The same by the period, from rest at a."""
+        q = np.sqrt(2 * a)
+        s, sign = (10.0 + q) % (4 * q) - q, 1.0
+        if s > q:
+            s, sign = s - 2 * q, -1.0
+        return sign * np.array([a - s * s / 2, -s])
+
+    assert_allclose(last[:2], end(x0), atol=1e-12)
+    step = 1e-6
+    by_x0 = (end(x0 + step) - end(x0 - step)) / (2 * step)
+    assert_allclose(last[2:].reshape(2, 2)[:, 0], by_x0, atol=1e-8)
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
+    flow, x0 = relay(taylor), 0.5
+    times = np.linspace(0.0, 4.0, 41)  # the switches at 1 and 3 stand in the grid
+    s = (times + 1) % 4 - 1
+    s, sign = np.where(s > 1, s - 2, s), np.where(s > 1, -1.0, 1.0)
+    expected = np.stack([sign * (0.5 - s * s / 2), -sign * s], axis=1)
+    equations = flow.arc(1.0).integrator.equations
+    assert_allclose(follow_on_grid(flow, start(equations, [x0, 0.0]), 1.0, times), expected, atol=1e-12)
+    pieces, _ = follow(flow, start(equations, [x0, 0.0]), 1.0, 0.0, 4.0)
+    shuffled = np.random.default_rng(2).permutation(len(times))
+    assert_allclose(sample(flow, pieces, times[shuffled]), expected[shuffled], atol=1e-12)
+    assert places(pieces, np.array([0.0, 0.9, 1.1, 3.9])).tolist() == [0, 0, 1, 2]
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_an_oscillator_that_runs_backwards_is_where_it_began(taylor):
+    flow = relay(taylor)
+    equations = flow.arc(1.0).integrator.equations
+    pieces, last = follow(flow, start(equations, [0.8, 0.3]), 1.0, 0.0, 7.0)
+    _, back = follow(flow, start(equations, last[:2]), pieces[-1].mode, 7.0, 0.0)
+    assert_allclose(back[:2], [0.8, 0.3], atol=1e-12)
+    assert_allclose(back[2:].reshape(2, 2) @ last[2:].reshape(2, 2), np.eye(2), atol=1e-10)
+
+
+def bang_bang(taylor):
+    """Least time to rest at 0 for x'' = u, |u| <= 1: u = -1 above the curve x = -v|v|/2, then +1."""
+    names = ("x", "v")
+    braking = Kernel(names, lambda of, t, z, p: [z[1], -1.0 + 0.0 * z[1]], 0, (0, 1), (curve,))
+    final = Kernel(names, lambda of, t, z, p: [z[1], 1.0 + 0.0 * z[1]], 0, (0, 1))
+    arcs = {name: Arc(integrator(system, taylor), ()) for name, system in (("-", braking), ("+", final))}
+    return SwitchedFlow(arcs.__getitem__, lambda mode, event: "+", jumps=True)
+
+
+def curve(of, t, z, p):
+    """Below the switching curve x = v^2/2, where v < 0."""
+    return z[1] * z[1] / 2 - z[0]
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
+    """From rest at x0 the switch is at sqrt(x0); kernels are plain functions, one for each mode."""
+    flow, x0 = bang_bang(taylor), 1.3
+    equations = flow.arc("-").integrator.equations
+    pieces, last = follow(flow, start(equations, [x0, 0.0]), "-", 0.0, 2 * np.sqrt(x0))
+    assert [piece.mode for piece in pieces] == ["-", "+"]
+    assert_allclose(pieces[1].begin, np.sqrt(x0), rtol=1e-14)
+    assert_allclose(last[:2], 0.0, atol=1e-14)
+    # With t1 = sqrt(x0): v(T) = T - 2 t1, dx(T)/dx0 = 1 - 2 (T - t1) dt1/dx0, which vanishes at T = 2 t1.
+    by_x0 = [0.0, -1.0 / np.sqrt(x0)]
+    assert_allclose(last[2:].reshape(2, 2)[:, 0], by_x0, atol=1e-12)
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_a_tangency_is_no_switch_to_differentiate(taylor):
+    """x falls to 0 at a speed of 0.14, less than the 0.2 that counts as grazing; short steps see it."""
+    flow = SwitchedFlow(
+        lambda mode: Arc(integrator(Kernel(("x", "v"), gravity, 0, (0,), (height,)), taylor), (), 0.1),
+        lambda mode, event: mode + 1,
+        jumps=True,
+        grazing=0.2,
+    )
+    equations = flow.arc(0).integrator.equations
+    touch = start(equations, [0.49, -1.0])
+    with pytest.raises(NotConverged, match="touches zero without crossing"):
+        follow(flow, touch, 0, 0.0, 3.0)
+    clear = start(equations, [0.5 + 1e-3, -1.0])
+    assert len(follow(flow, clear, 0, 0.0, 3.0)[0]) == 1
+
+
+def gravity(of, t, z, p):
+    return [z[1], 1.0 + 0.0 * z[1]]
+
+
+def height(of, t, z, p):
+    return -z[0]
+
+
+@pytest.mark.parametrize("taylor", KINDS)
+def test_switches_without_end_are_given_up(taylor):
+    flow = relay(taylor)
+    few = SwitchedFlow(flow.arc, flow.following, jumps=True, most=5)
+    equations = flow.arc(1.0).integrator.equations
+    with pytest.raises(NotConverged, match="switches too often"):
+        follow(few, start(equations, [0.01, 0.0]), 1.0, 0.0, 50.0)
+    with pytest.raises(NotConverged, match="switches too often"):
+        follow_on_grid(few, start(equations, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
+
+
+@HEYOKA
+def test_lanes_switch_each_in_its_own_time():
+    """A ramp x' = u that turns at x = 1, u to -u, side by side with others of other slopes."""
+    turning = Kernel(("x",), lambda of, t, z, p: [p[0] + 0.0 * z[0]], 1, (0,), (one_passed,), 1e-14)
+    slopes = np.linspace(0.5, 3.0, 11)
+    ends = np.linspace(3.0, 1.0, 11)
+    found = Lanes(turning).carry(
+        np.zeros((11, 1)), np.zeros(11), ends, slopes[:, None], np.full(11, 1000), lambda _, p: -p, 5
+    )
+    turned = slopes * ends > 1
+    assert_allclose(found.states[:, 0], np.where(turned, 2 - slopes * ends, slopes * ends), atol=1e-12)
+    assert found.switches.tolist() == turned.astype(int).tolist()
+    assert (found.left == 0).all() and (found.slopes == 1).all()
+
+
+def one_passed(of, t, z, p):
+    return z[0] - 1.0
