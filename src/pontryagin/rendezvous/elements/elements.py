@@ -105,19 +105,19 @@ class Elements:
     @property
     def Q(self) -> Array:
         """A^2 + B^2, twice the semi-axis, (...)."""
-        return np.sum(np.square(self.A) + np.square(self.B), axis=-1)
+        return np.asarray(np.sum(np.square(self.A) + np.square(self.B), axis=-1))
 
     @property
     def u(self) -> Array:
         """A cos phi + B sin phi, (..., 4)."""
         phi = np.asarray(self.phi)[..., None]
-        return self.A * np.cos(phi) + self.B * np.sin(phi)
+        return np.asarray(self.A * np.cos(phi) + self.B * np.sin(phi))
 
     @property
     def w(self) -> Array:
         """du/d phi at constant A and B, (..., 4)."""
         phi = np.asarray(self.phi)[..., None]
-        return self.B * np.cos(phi) - self.A * np.sin(phi)
+        return np.asarray(self.B * np.cos(phi) - self.A * np.sin(phi))
 
     @property
     def position(self) -> Array:
@@ -127,7 +127,7 @@ class Elements:
     @property
     def velocity(self) -> Array:
         """V, (..., 3)."""
-        return place(self.A, self.B, self.phi)[..., 3:] * np.sqrt(self.gravity)
+        return np.asarray(place(self.A, self.B, self.phi)[..., 3:] * np.sqrt(self.gravity))
 
     @property
     def relation(self) -> Array:
