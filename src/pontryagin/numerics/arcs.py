@@ -19,6 +19,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.equations import Values
 from pontryagin.numerics.flow import Integrator, Reached
+from pontryagin.value import value_class
 
 Mode = TypeVar("Mode")
 
@@ -41,7 +42,8 @@ class Arc(NamedTuple):
     longest: float = math.inf
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Piece(Generic[Mode]):
     """One arc of a trajectory.
 

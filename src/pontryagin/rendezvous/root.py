@@ -12,6 +12,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton import ROUNDING, newton
+from pontryagin.value import value_class
 
 F = TypeVar("F", covariant=True)
 """The flight of an extremal."""
@@ -40,7 +41,8 @@ class Conditions(Protocol[F]):
         """Its derivatives in the unknowns, (n, n)."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Root(Generic[F]):
     """A meeting: the unknowns, and the conditions there."""
 

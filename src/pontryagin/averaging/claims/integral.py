@@ -60,9 +60,9 @@ def mean_of_q() -> Evidence:
     def argument() -> Steps:
         for eps in worked.EPSILONS:
             means = turn_means(eps)
-            spread = np.ptp(means)
+            spread = float(np.ptp(means))
             member = float(worked.kappa_of(worked.optimum(eps)["tau"][-1]))
-            off = np.abs(means - member).max()
+            off = float(np.abs(means - member).max())
             yield (
                 f"rippled example, ε = {eps}: over {means.size} turns the mean of q/ε stays within "
                 f"{spread / eps:.2f}ε, and is κ up to {off / eps:.2f}ε",

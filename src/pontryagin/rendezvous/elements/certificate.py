@@ -4,10 +4,12 @@ The witness has Cartesian coordinates, other costates and another integrator; it
 the switch times.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import MaximumPrinciple
@@ -35,11 +37,13 @@ from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,
 )
+from pontryagin.value import value_class
 
 SAMPLES = 201
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class ElementsCertificate(MaximumPrinciple):
     """Residuals of a rendezvous in the elements, in units with p* = c* = fM = 1; no bound on other costs.
 
@@ -89,7 +93,9 @@ class ElementsCertificate(MaximumPrinciple):
     def residual(self) -> Array:
         """The largest of all but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
-        return np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)
+        return np.asarray(
+            np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)
+        )
 
 
 def certify(root: Root[ElementFlight], free: bool) -> ElementsCertificate:
@@ -127,7 +133,7 @@ def running_cost(flight: ElementFlight, thrust: Array) -> Array:
     size = np.linalg.norm(thrust, axis=1)
     if flight.law.bang:
         return np.ones_like(size)
-    return flight.law.ratio + (size**2 if flight.law.kind == "square" else size)
+    return np.asarray(flight.law.ratio + (size**2 if flight.law.kind == "square" else size))
 
 
 def maximality(flight: ElementFlight, n: Array, thrust: Array) -> Array:
@@ -142,7 +148,7 @@ def maximality(flight: ElementFlight, n: Array, thrust: Array) -> Array:
         most = size * best - best**2
     used = np.sum(n * thrust, axis=1) - running_cost(flight, thrust) + (1.0 if law.bang else law.ratio)
     excess = np.maximum(np.linalg.norm(thrust, axis=1) - law.peak, 0.0)
-    return np.abs(most - used) + excess
+    return np.asarray(np.abs(most - used) + excess)
 
 
 def turn_momentum(states: Array) -> float:
@@ -176,7 +182,9 @@ def fly_cartesian(flight: ElementFlight, times: Array) -> Array:
             else (kernels.cartesian_saturated, peak)
         )
 
-        def rate(_: float, x: Array, kernel=kernel, scale: float = scale) -> Array:
+        def rate(
+            _: float, x: Array, kernel: Callable[..., ArrayLike] = kernel, scale: float = scale
+        ) -> Array:
             return np.array(kernel(*x, 1.0, scale))
 
         inside = (times >= begin) & (times <= end)

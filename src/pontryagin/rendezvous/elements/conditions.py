@@ -25,12 +25,14 @@ from pontryagin.rendezvous.elements.flight import (
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
+from pontryagin.value import value_class
 
 Goal = Callable[[float], tuple[Array, Array]]
 """Time to R and V (6,) and their rates (6,)."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class ElementsSetting:
     """What is solved for, and under which law of thrust; units of `Scaled`.
 
@@ -78,7 +80,8 @@ class ElementsSetting:
         return replace(self, law=replace(self.law, **of_law), **changes)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class ElementsEquations:
     """Residual (7,) and Jacobian (7, 7) at one flight."""
 

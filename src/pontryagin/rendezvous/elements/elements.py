@@ -1,6 +1,7 @@
 """Sapunkov's elements A, B and phi of a place and a velocity, and back."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,12 +11,14 @@ from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
 from pontryagin.validation import common_shape, finite, positive, vectors
+from pontryagin.value import value_class
 
 I1 = np.array([0.0, 1.0, 0.0, 0.0])
 RELATED = 1e-6
 """Largest residual of the bilinear relation that is accepted, relative to A^2 + B^2."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Elements:
     """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.
@@ -48,10 +51,16 @@ class Elements:
     array([0., 1., 0.])
     """
 
-    A: ArrayLike
-    B: ArrayLike
-    phi: ArrayLike = 0.0
+    A: Array
+    B: Array
+    phi: Array = 0.0  # type: ignore[assignment]
     gravity: float = 1.0
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, A: ArrayLike, B: ArrayLike, phi: ArrayLike = 0.0, gravity: float = 1.0
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         A, B = vectors("A", self.A, 4), vectors("B", self.B, 4)
@@ -105,19 +114,19 @@ class Elements:
     @property
     def Q(self) -> Array:
         """A^2 + B^2, twice the semi-axis, (...)."""
-        return np.sum(np.square(self.A) + np.square(self.B), axis=-1)
+        return np.asarray(np.sum(np.square(self.A) + np.square(self.B), axis=-1))
 
     @property
     def u(self) -> Array:
         """A cos phi + B sin phi, (..., 4)."""
         phi = np.asarray(self.phi)[..., None]
-        return self.A * np.cos(phi) + self.B * np.sin(phi)
+        return np.asarray(self.A * np.cos(phi) + self.B * np.sin(phi))
 
     @property
     def w(self) -> Array:
         """du/d phi at constant A and B, (..., 4)."""
         phi = np.asarray(self.phi)[..., None]
-        return self.B * np.cos(phi) - self.A * np.sin(phi)
+        return np.asarray(self.B * np.cos(phi) - self.A * np.sin(phi))
 
     @property
     def position(self) -> Array:
@@ -127,7 +136,7 @@ class Elements:
     @property
     def velocity(self) -> Array:
         """V, (..., 3)."""
-        return place(self.A, self.B, self.phi)[..., 3:] * np.sqrt(self.gravity)
+        return np.asarray(place(self.A, self.B, self.phi)[..., 3:] * np.sqrt(self.gravity))
 
     @property
     def relation(self) -> Array:

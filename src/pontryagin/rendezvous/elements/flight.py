@@ -37,6 +37,7 @@ from pontryagin.rendezvous.elements.elements import (
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of
+from pontryagin.value import value_class
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
@@ -44,6 +45,7 @@ GRAZING = 1e-7
 """Rate of |n|^2 by phi at a switch below which the thrust may switch off and on again in between."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ElementFlight:
     """An extremal in the units of `Scaled`.

@@ -169,4 +169,4 @@ def rescaled_unknowns(gentle: Root[ElementFlight], law: Law) -> Array:
     size = float(np.sqrt(np.mean(switching(flight.sample(grid), grid) ** 2) * 3))
     share = min(0.9, size / 2 / law.peak)
     factor = max(0.1, 1 + law.width * math.atanh(2 * share - 1)) / size
-    return gentle.unknowns * np.append(np.full(6, factor), 1.0)
+    return np.asarray(gentle.unknowns * np.append(np.full(6, factor), 1.0))

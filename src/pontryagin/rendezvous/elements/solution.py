@@ -21,8 +21,10 @@ from pontryagin.rendezvous.elements.flight import (
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.root import Root
 from pontryagin.validation import times
+from pontryagin.value import value_class
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class ElementsExtremal:
     """A rendezvous in the elements that satisfies the maximum principle.

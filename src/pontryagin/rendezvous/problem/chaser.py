@@ -1,9 +1,11 @@
 """The state of the craft under control at the start, (4)."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.rendezvous.problem.checks import number, unit_quaternion
 from pontryagin.value import value_class
 
@@ -39,7 +41,11 @@ class Chaser:
     r: float
     v1: float
     c: float
-    attitude: ArrayLike
+    attitude: Array
+
+    if TYPE_CHECKING:
+
+        def __init__(self, r: float, v1: float, c: float, attitude: ArrayLike) -> None: ...
 
     def __post_init__(self) -> None:
         checked = {

@@ -2,10 +2,12 @@
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.checks import number, unit_quaternion
@@ -42,8 +44,14 @@ class Orbit:
 
     parameter: float
     eccentricity: float
-    attitude: ArrayLike
+    attitude: Array
     anomaly: float
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, parameter: float, eccentricity: float, attitude: ArrayLike, anomaly: float
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         checked = {

@@ -5,6 +5,7 @@ inertial axes. The attitude is tested against (6) as the 16 equations carry it; 
 attitude.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -26,6 +27,7 @@ from pontryagin.rendezvous.witness.cartesian import (
     integrate,
     target_by_kepler,
 )
+from pontryagin.value import value_class
 
 SAMPLES = 201
 FAINT = 1e-3
@@ -33,7 +35,8 @@ FAINT = 1e-3
 TINY = 1e-300
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class RendezvousCertificate(MaximumPrinciple):
     """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on other controls' cost.
 
@@ -83,7 +86,7 @@ class RendezvousCertificate(MaximumPrinciple):
     def residual(self) -> Array:
         """The largest of all but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
-        return np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0)
+        return np.asarray(np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0))
 
 
 def certify(root: Root[Flight], weights: tuple[float, float], free: bool) -> RendezvousCertificate:
@@ -119,7 +122,7 @@ def fly_full(flight: Flight, times: Array) -> Array:
     pair = anomaly_constant(flight) / grown
     start = np.concatenate([scaled.start, [scaled.anomaly, 1, 0, 0, 0], z[:3], [pair, 0.0], z[3:]])
 
-    def rates(mode: str):
+    def rates(mode: str) -> Callable[[Array], Array]:
         kernel, scale = getattr(kernels, f"full_{mode}"), flight.peak if mode == "saturated" else 1.0
         return lambda x: np.array(kernel(*x, 1.0, 1.0, scaled.eccentricity, 1.0, scale))
 
@@ -174,7 +177,7 @@ def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[floa
     most = size * best - weights[1] * best**2
     used = np.sum(n * thrust, axis=-1) - weights[1] * np.sum(thrust**2, axis=-1)
     excess = np.maximum(np.linalg.norm(thrust, axis=-1) - flight.peak, 0.0)
-    return np.abs(most - used) + excess
+    return np.asarray(np.abs(most - used) + excess)
 
 
 def agreement(flight: Flight, reduced: Array, whole: Array) -> float:

@@ -21,6 +21,7 @@ from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
+from pontryagin.value import value_class
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
 """r, v1, c, nu and chi among the twelve states."""
@@ -28,7 +29,8 @@ I3 = np.array([0.0, 0.0, 0.0, 1.0])
 """The third axis as a quaternion."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Setting:
     """What is solved for, and under which constants; units of `Scaled`.
 
@@ -90,7 +92,8 @@ class Setting:
         return replace(self, **changes)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Equations:
     """Residuals and derivatives at one point.
 

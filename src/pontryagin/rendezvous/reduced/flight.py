@@ -19,12 +19,14 @@ from pontryagin.rendezvous.reduced.arcs import (
     arc,
     equations,
 )
+from pontryagin.value import value_class
 
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Flight:
     """An extremal in the units of `Scaled`.
 

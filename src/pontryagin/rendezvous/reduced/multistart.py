@@ -26,6 +26,7 @@ from pontryagin.rendezvous.reduced.solution import (
     distinct,
 )
 from pontryagin.validation import positive, vectors
+from pontryagin.value import value_class
 
 ITERATIONS, HALVINGS = 30, 6
 FAINT = 1e-8
@@ -34,7 +35,8 @@ NEAR = 1e-8
 """Residual below which a start is left to Newton's method for one flight."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Carried:
     """Where extremals of given costates lead.
 

@@ -23,11 +23,13 @@ from pontryagin.rendezvous.reduced.quadrature import angle, energy
 from pontryagin.rendezvous.reduced.search_log import Search
 from pontryagin.rendezvous.root import Root
 from pontryagin.validation import times
+from pontryagin.value import value_class
 
 SAME = 1e-7
 """Relative difference of durations and of costs below which two extremals count as one."""
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Extremal:
     """A rendezvous that satisfies the maximum principle.

@@ -7,6 +7,7 @@ which is then stretched; from a guess of a free one the family over the duration
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -24,6 +25,9 @@ from pontryagin.rendezvous.reduced.flight import (
 from pontryagin.rendezvous.reduced.search_log import Search
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.root import Root
+
+GoalPath = Callable[[float], tuple[Array, Array]]
+"""The share of the way to the goal (7,) and its rate (7,)."""
 
 SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
 """Costates of coasting; nu is not quite zero, so that it has a direction."""
@@ -127,7 +131,7 @@ def coasting_twist(scaled: Scaled, duration: float) -> float:
     return twist(product(conjugate(flight.attitude(flight.end)), goal[3:]))
 
 
-def _path(flight: Flight, goal: Array, revolutions: int):
+def _path(flight: Flight, goal: Array, revolutions: int) -> GoalPath:
     """The goal (7,) and its rate as functions of the share of the way."""
     place = flight.attitude(flight.end)
     relative = product(conjugate(place), goal[3:])
@@ -152,7 +156,7 @@ def _path(flight: Flight, goal: Array, revolutions: int):
     return goal_at
 
 
-def _chase(setting: Setting, costates: Array, done: float, reached: float, path) -> Array | None:
+def _chase(setting: Setting, costates: Array, done: float, reached: float, path: GoalPath) -> Array | None:
     """Costates that follow the goal from one share of its path to another; None where they cannot.
 
     They are predicted along the path and corrected by Newton's method without damping.
@@ -179,7 +183,7 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path)
                 return None
             z, last = z + step, size
             if size < 1e-8 * (1e-6 + np.linalg.norm(z)):
-                return z
+                return np.asarray(z)
     except (NotConverged, np.linalg.LinAlgError):
         pass
     return None
