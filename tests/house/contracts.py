@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from pontryagin.papers import PAPERS
+from pontryagin.papers import packages
 
 ABOVE = ("cli", "report")
 """Packages that find the papers through `pontryagin.papers` and are imported by nothing below them."""
@@ -17,14 +17,13 @@ COMPUTING = ("numerics", "io")
 GROUND = ("papers", "certificate", "value", "validation", "errors", "arrays")
 
 
-def packages() -> tuple[str, ...]:
-    """The papers' packages, each once, in the order of the list."""
-    return tuple(dict.fromkeys(paper.package for paper in PAPERS))
-
-
 def configuration(papers: Iterable[str]) -> str:
     """The contracts as an INI file: layers, walls between papers, derivations free of numerical libraries."""
-    floors = [" : ".join(ABOVE), " | ".join(papers), *(" : ".join(one) for one in (SHOWING, COMPUTING, GROUND))]
+    floors = [
+        " : ".join(ABOVE),
+        " | ".join(papers),
+        *(" : ".join(one) for one in (SHOWING, COMPUTING, GROUND)),
+    ]
     layers = "\n".join(f"    {floor}" for floor in floors)
     return f"""[importlinter]
 root_package = pontryagin

@@ -1,7 +1,7 @@
-"""``python -m tests.house.interpreters``: mypy on every supported interpreter that can be had, the others named.
+"""``python -m tests.house.interpreters``: mypy on every supported interpreter; one that is missing is named.
 
-An interpreter other than the one that runs this gets an environment of its own in ``build/types-VERSION``, with
-mypy and the packages that have types, at the versions of requirements.lock.
+An interpreter other than the one that runs this gets an environment of its own in ``build/types-VERSION``,
+with mypy and the packages that have types, at the versions of requirements.lock.
 """
 
 import subprocess
@@ -10,7 +10,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SUPPORTED = ("3.11", "3.12", "3.13")
-TYPED = ("lazy-loader", "matplotlib", "mypy", "numba", "numpy", "rich", "scipy", "scipy-stubs", "sympy", "typer")
+TYPED = (
+    "lazy-loader",
+    "matplotlib",
+    "mypy",
+    "numba",
+    "numpy",
+    "rich",
+    "scipy",
+    "scipy-stubs",
+    "sympy",
+    "typer",
+)
 """The packages whose types mypy reads."""
 UV = str(Path(sys.executable).with_name("uv"))
 

@@ -1,18 +1,13 @@
-"""``python -m tests.house.selection [PAPER]``: the folders whose tests belong to one paper, or to the core."""
+"""``python -m tests.house.selection [PAPER]``: folders with the tests of one paper, or of the core."""
 
 import sys
 from pathlib import Path
 
-from pontryagin.papers import PAPERS
+from pontryagin.papers import packages
 
 ROOT = Path(__file__).resolve().parents[2]
 APART = {"benchmarks", "properties", "report", "__pycache__"}
 """Folders that belong neither to a paper nor to the core: `make test` runs their tests."""
-
-
-def papers() -> list[str]:
-    """The papers' packages."""
-    return list(dict.fromkeys(paper.package for paper in PAPERS))
 
 
 def folders(paper: str = "") -> list[Path]:
@@ -25,12 +20,14 @@ def folders(paper: str = "") -> list[Path]:
     """
     if paper:
         name = paper.replace("-", "_")
-        if name not in papers():
-            raise ValueError(f"PAPER: got {paper!r}, takes one of {', '.join(papers())}")
+        if name not in packages():
+            raise ValueError(f"PAPER: got {paper!r}, takes one of {', '.join(packages())}")
         return [ROOT / "tests" / name, ROOT / "src" / "pontryagin" / name]
-    others = APART | set(papers())
+    others = APART | set(packages())
     inside = [*(ROOT / "tests").iterdir(), *(ROOT / "src" / "pontryagin").iterdir()]
-    return sorted(path for path in inside if path.name not in others and (path.is_dir() or path.suffix == ".py"))
+    return sorted(
+        path for path in inside if path.name not in others and (path.is_dir() or path.suffix == ".py")
+    )
 
 
 if __name__ == "__main__":

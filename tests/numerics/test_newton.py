@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.newton import Evaluated, expected, newton, newton_stack, solved
+from pontryagin.numerics.newton import expected, newton
+from pontryagin.numerics.newton_stack import Evaluated, newton_stack, solved
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ Ends = Callable[..., tuple[Array, Array]]
 
 
 @dataclass(frozen=True)
-class Carried:
+class LaneEnds:
     """Where k trajectories of n states with m derivatives end.
 
     Attributes
@@ -71,7 +71,7 @@ class Lanes:
         steps: Array,
         switched: Callable[[int, Array], Array] | None = None,
         most_switches: int = 0,
-    ) -> Carried:
+    ) -> LaneEnds:
         """Carry trajectories to their ends.
 
         Parameters
@@ -95,7 +95,7 @@ class Lanes:
         (count, n), m = starts.shape, self.equations.identity.shape[1]
         lanes, held = taylor.state.shape[-1], len(taylor.pars)
         identity = self.equations.identity.reshape(-1, 1)
-        found = Carried(
+        found = LaneEnds(
             np.full((count, n), np.nan),
             np.full((count, n, m), np.nan),
             np.array(np.abs(end - begin)),
@@ -147,7 +147,7 @@ class Lanes:
         return found
 
 
-def _store(found: Carried, which: NDArray[np.int64], wholes: Array) -> None:
+def _store(found: LaneEnds, which: NDArray[np.int64], wholes: Array) -> None:
     """Keep the ends, columns of ``wholes``, that are finite."""
     n, finite = found.states.shape[1], np.isfinite(wholes).all(axis=0)
     kept = which[finite]

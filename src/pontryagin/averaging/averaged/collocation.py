@@ -9,7 +9,7 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.system.jets import Jet
 from pontryagin.averaging.system.model import Model
 from pontryagin.numerics.collocation import Mesh, evaluate
-from pontryagin.numerics.newton import newton_stack
+from pontryagin.numerics.newton_stack import newton_stack
 
 Selection = NDArray[np.intp] | NDArray[np.bool_] | list[int]
 

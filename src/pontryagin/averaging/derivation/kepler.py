@@ -193,7 +193,7 @@ def weight() -> sp.Expr:
     return sp.powsimp(sp.simplify(motion / anomaly_rate()))
 
 
-class Model(NamedTuple):
+class OrbitModel(NamedTuple):
     """Example 2 as a system in (E, K) and the true anomaly x: what `model` returns."""
 
     slow: tuple[sp.Symbol, ...]
@@ -207,7 +207,7 @@ class Model(NamedTuple):
 
 
 @functools.cache
-def model() -> Model:
+def model() -> OrbitModel:
     """E' = eps rates, x' = mean_motion/weight + eps phase_rate: example 2 as `PhaseSystem` takes it.
 
     The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
@@ -218,7 +218,7 @@ def model() -> Model:
     """
     rates = element_rates()
     slow = sp.Matrix([affine(rates[energy] / epsilon), affine(rates[momentum] / epsilon)])
-    return Model(
+    return OrbitModel(
         slow=(energy, momentum),
         control=(u_radial, u_transverse),
         anomaly=anomaly,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.newton import Evaluated, LinearisedStack, newton_stack, solved
+from pontryagin.numerics.newton_stack import Evaluated, LinearisedStack, newton_stack, solved
 
 CLOSE = 1e-7
 """Largest residual of a member; extremals are polished further."""

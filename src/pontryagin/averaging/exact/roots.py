@@ -34,7 +34,7 @@ from pontryagin.averaging.exact.shooting import (
     shooting,
 )
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.newton import solved
+from pontryagin.numerics.newton_stack import solved
 
 POLISHED = 1e-11
 """Residual of an extremal in the problem's own units."""

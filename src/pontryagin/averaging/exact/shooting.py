@@ -25,7 +25,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.lanes import Ends, ends
-from pontryagin.numerics.newton import solved
+from pontryagin.numerics.newton_stack import solved
 
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which serves Newton's matrices only and not the residuals."""

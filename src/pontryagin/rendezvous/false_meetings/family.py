@@ -19,7 +19,7 @@ from pontryagin.rendezvous.false_meetings.printed_conditions import printed_jaco
 from pontryagin.rendezvous.false_meetings.rotated_target import newton_at_angle, rotated_target_family
 from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
-from pontryagin.rendezvous.reduced.conditions import Equations
+from pontryagin.rendezvous.reduced.conditions import ReducedEquations
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.solution import Extremal, require_extremal
 from pontryagin.rendezvous.reduced.solve import solve
@@ -222,14 +222,14 @@ def _member(solution: Extremal, angle: float, root: Root[Flight]) -> RotatedMeet
 
 def _curve(
     solution: Extremal, angles: list[float]
-) -> tuple[list[Point[Equations]], dict[float, Root[Flight]]]:
+) -> tuple[list[Point[ReducedEquations]], dict[float, Root[Flight]]]:
     """The curve from a true meeting until it passes the last of some angles of one sign, nearest first.
 
     Returns its points, of which the last is the first beyond, and the solutions at the angles.
     """
     family, points, roots = (
         rotated_target_family(solution),
-        list[Point[Equations]](),
+        list[Point[ReducedEquations]](),
         dict[float, Root[Flight]](),
     )
     left = list(angles)

@@ -18,7 +18,7 @@ from pontryagin.numerics.continuation import Family
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.conditions import (
-    Equations,
+    ReducedEquations,
     Setting,
     by_goal,
     end_rates,
@@ -37,7 +37,7 @@ FLAT = 1e-12
 """Largest component out of the plane of the quaternion between two orbits that count as coplanar."""
 
 
-def rotated_target_family(solution: Extremal) -> Family[Equations]:
+def rotated_target_family(solution: Extremal) -> Family[ReducedEquations]:
     """The repaired equations of a true meeting as a family in the angle by which the target is rotated."""
     scaled = solution.problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
@@ -51,7 +51,7 @@ def in_one_plane(scaled: Scaled) -> bool:
     return bool(np.hypot(*scaled.orientation[1:3]) < FLAT)
 
 
-def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[Equations, Array]:
+def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[ReducedEquations, Array]:
     """`shooting.equations` towards lambda* rotated about nu* by an angle, and their slope in the angle."""
     unrotated = equations(setting, unknowns)
     flight = unrotated.flight
@@ -71,7 +71,7 @@ def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[
     return replace(unrotated, jacobian=jacobian, residual=residual), by_angle
 
 
-def newton_at_angle(family: Family[Equations], unknowns: Array, angle: float) -> Root[Flight]:
+def newton_at_angle(family: Family[ReducedEquations], unknowns: Array, angle: float) -> Root[Flight]:
     """The solution at an angle, by Newton's method.
 
     Raises

@@ -94,7 +94,7 @@ class Setting:
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class Equations:
+class ReducedEquations:
     """Residuals and derivatives at one point.
 
     Attributes
@@ -147,7 +147,7 @@ def goal_of(setting: Setting, anomaly: float) -> tuple[Array, Array]:
     return setting.scaled.target(anomaly, ahead)
 
 
-def equations(setting: Setting, unknowns: Array) -> Equations:
+def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
     """Residuals of a setting and their derivatives.
 
     Raises
@@ -175,7 +175,7 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
     by_lead = by_goal(flight, goal, turning)
     if not setting.free:
         zero = np.zeros(6)
-        return Equations(flight, values, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
+        return ReducedEquations(flight, values, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
     rates = end_rates(flight)
     by_time = by_state @ rates + by_goal(flight, goal, moving)
     law, law_by_state = _terminal(setting, flight)
@@ -186,7 +186,7 @@ def equations(setting: Setting, unknowns: Array) -> Equations:
     wanted = setting.end_switching
     by_ratio, by_peak = (0.0, -1.0 / setting.peak) if setting.bang else setting.end_switching_slopes
     share = (law + 1) / wanted
-    return Equations(
+    return ReducedEquations(
         flight,
         np.append(values, law),
         jacobian,

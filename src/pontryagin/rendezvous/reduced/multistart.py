@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.complex_step import jacobian
-from pontryagin.numerics.newton import Evaluated, newton_stack
+from pontryagin.numerics.newton_stack import Evaluated, newton_stack
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.estimate import require_rendezvous

@@ -11,7 +11,7 @@ from functools import cached_property
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, between
-from pontryagin.rendezvous.reduced.conditions import Equations, Setting
+from pontryagin.rendezvous.reduced.conditions import ReducedEquations, Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
 from pontryagin.rendezvous.reduced.search_log import Search
@@ -53,7 +53,7 @@ def _walk(
     setting: Setting, first: Root[Flight], sign: int, log: Search, best: float
 ) -> list[UnboundedExtremal]:
     found: list[UnboundedExtremal] = []
-    last: Point[Equations] | None = None
+    last: Point[ReducedEquations] | None = None
     cost, end = best, ""
     for point in curve(setting, first, "lead", sign):
         for j, guess in _passed(last, point):
@@ -76,14 +76,14 @@ def _walk(
     return found
 
 
-def _end(point: Point[Equations], cost: float, best: float) -> str:
+def _end(point: Point[ReducedEquations], cost: float, best: float) -> str:
     """Why the curve is left at a point; empty if it is followed on."""
     if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
         return f"{REVOLUTIONS} revolutions were looked at"
     return f"the last meeting cost more than {WORSE:g} times the best" if cost > WORSE * best else ""
 
 
-def _passed(last: Point[Equations] | None, point: Point[Equations]) -> list[tuple[int, Array]]:
+def _passed(last: Point[ReducedEquations] | None, point: Point[ReducedEquations]) -> list[tuple[int, Array]]:
     """Whole revolutions between two points of the curve, and unknowns there; without the start's own."""
     if last is None:
         return []

@@ -9,7 +9,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.numerics.continuation import Family, Point, follow
 from pontryagin.rendezvous.families import Shooting, fine_grid
-from pontryagin.rendezvous.reduced.conditions import Equations, Setting, equations
+from pontryagin.rendezvous.reduced.conditions import ReducedEquations, Setting, equations
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
 )
@@ -47,7 +47,7 @@ def meet(setting: Setting, unknowns: Array) -> Root[Flight]:
     )
 
 
-def family(setting: Setting, name: str) -> Family[Equations]:
+def family(setting: Setting, name: str) -> Family[ReducedEquations]:
     """The equations as a family over one number of the setting.
 
     Parameters
@@ -60,23 +60,23 @@ def family(setting: Setting, name: str) -> Family[Equations]:
         seven equations, the terminal law, is for the caller to look at.
     """
 
-    def over_duration(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+    def over_duration(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
         duration = math.exp(parameter)
         values = equations(setting.replace(duration=None), np.append(unknowns, duration))
         return values, values.jacobian[:6, 6] * duration
 
-    def over_ratio(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+    def over_ratio(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
         there = setting.replace(ratio=math.exp(parameter))
         scale, growth = _end_scale(there), there.end_switching_slopes[0]
         values = equations(there, unknowns * scale)
         by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
         return replace(values, jacobian=values.jacobian * scale), by_ratio
 
-    def over_peak(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+    def over_peak(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
         values = equations(setting.replace(peak=math.exp(parameter)), unknowns)
         return values, values.by_peak
 
-    def over_lead(unknowns: Array, parameter: float) -> tuple[Equations, Array]:
+    def over_lead(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
         values = equations(setting.replace(lead=parameter), unknowns)
         return values, values.by_lead
 
@@ -88,7 +88,7 @@ def _end_scale(setting: Setting) -> Array:
     return np.append(np.full(6, setting.end_switching), 1.0)
 
 
-def curve(setting: Setting, start: Root[Flight], name: str, towards: float) -> Iterator[Point[Equations]]:
+def curve(setting: Setting, start: Root[Flight], name: str, towards: float) -> Iterator[Point[ReducedEquations]]:
     """The curve of extremals through one as a number of the setting changes, by rough flights; see `family`.
 
     Parameters
