@@ -180,7 +180,7 @@ def _oscillation(R: Array, V: Array) -> Array:
     parts = [*np.moveaxis(R, -1, 0), *np.moveaxis(V, -1, 0)]
     with np.errstate(divide="ignore", invalid="ignore"):
         both = [
-            np.stack(np.broadcast_arrays(*kernel(*parts)), axis=-1)
+            np.stack(np.broadcast_arrays(*kernel(*parts)), axis=-1)  # type: ignore[no-untyped-call]
             for kernel in (kernels.oscillation_ahead, kernels.oscillation_behind)
         ]
     return np.where(ahead[..., None], *both)
