@@ -88,7 +88,9 @@ def _end_scale(setting: Setting) -> Array:
     return np.append(np.full(6, setting.end_switching), 1.0)
 
 
-def curve(setting: Setting, start: Root[Flight], name: str, towards: float) -> Iterator[Point[ReducedEquations]]:
+def curve(
+    setting: Setting, start: Root[Flight], name: str, towards: float
+) -> Iterator[Point[ReducedEquations]]:
     """The curve of extremals through one as a number of the setting changes, by rough flights; see `family`.
 
     Parameters
