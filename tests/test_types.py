@@ -15,6 +15,8 @@ import math
 import sympy as sp  # type: ignore[import-untyped]
 from pontryagin import triple_integrator as ti, orbit_correction as oc, averaging as av, rendezvous as rv
 
+pytestmark = pytest.mark.slow
+
 m = ti.Maneuver([0, 0, 0], [1, 0, 0], tf=2.0)
 reveal_type(m)  # Maneuver
 reveal_type(m.x0)  # ndarray[tuple[Any, ...], dtype[float64]]
@@ -84,6 +86,7 @@ def answers(tmp_path_factory):
     return lines
 
 
+@pytest.mark.slow
 def test_a_users_script_has_no_type_error(answers):
     errors = [f"{SCRIPT.splitlines()[line - 1]}: {text}" for line, said in answers.items() for text in said]
     assert [text for text in errors if "Revealed type" not in text] == []

@@ -51,6 +51,7 @@ PARTS = (
 OWN = [entry for part in PARTS for entry in part.claim]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "label"),
     [

@@ -31,6 +31,7 @@ UNSOUND = {
 """What does not hold as printed."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "label"),
     [
@@ -60,6 +61,7 @@ def test_a_wrong_example_is_not_certified(monkeypatch, module, name, wrong, labe
         replace(entry).check()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("label", "module", "name", "wrong"),
     [

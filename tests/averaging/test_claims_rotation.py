@@ -16,6 +16,7 @@ ENTRIES = [entry for part in IN_ORDER for entry in part.claim]
 LABELS = [entry.label for entry in ENTRIES]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "label"),
     [

@@ -95,6 +95,7 @@ def test_without_epsilon_it_is_the_first_approximation():
     assert "The least cost is 0.103305269821 + O(epsilon)." in shown
 
 
+@pytest.mark.slow
 def test_files_are_drawn_and_recorded(tmp_path):
     for name, start in {"a.svg": b"<?xml", "a.png": b"\x89PNG"}.items():
         result = solve("smooth", *SMOOTH, "--plot", tmp_path / name)
@@ -196,6 +197,7 @@ class TestBatch:
         assert_refused(solve("smooth", *arguments, "--batch", given), begins.format(path=given))
 
 
+@pytest.mark.slow
 def test_every_example_in_the_help_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "orbits.csv").write_text("E0,K0,E1\n-0.5,0.95,-0.35\n")

@@ -31,6 +31,7 @@ def test_the_first_correction_takes_the_error_from_the_first_order_to_the_second
     assert found.averaged[-1] > 50 * found.corrected[-1]
 
 
+@pytest.mark.slow
 def test_without_the_way_between_the_ends_a_lopsided_rotor_stays_at_the_first_order():
     found = measured(problems()["lopsided rotor"][0](), EPSILONS)
     assert found.slope(found.ends) == pytest.approx(1, abs=0.25)

@@ -1,6 +1,7 @@
 """The first correction, proved for any coefficients and checked where quadrature is exact."""
 
 import numpy as np
+import pytest
 import sympy as sp
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
@@ -45,11 +46,13 @@ def test_primitives_have_zero_mean_and_the_right_derivative():
     assert sp.simplify(sp.diff(theory.primitive(k), x) - k + theory.mean(k)) == 0
 
 
+@pytest.mark.slow
 def test_the_transformation_removes_the_anomaly_to_second_order():
     """One slow variable, any coefficients."""
     assert sp.simplify(theory.transformed(periodic("k", (a, p)), periodic("m", (a, p)), [a], [p])) == 0
 
 
+@pytest.mark.slow
 def test_the_transformation_removes_the_anomaly_with_two_slow_variables():
     variables = (a, b, p, q)
     k1 = coefficient("c", *variables) * sp.cos(x) + coefficient("s", *variables) * sp.sin(x)

@@ -130,6 +130,7 @@ def test_the_models_parts_belong_together():
     assert free == {*model.slow, *model.control, model.anomaly}
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(orbits)
 def test_the_mean_anomaly_keeps_time_without_thrust(orbit):

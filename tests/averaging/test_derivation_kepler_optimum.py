@@ -179,6 +179,7 @@ def flown_back(K1, x1, eps):
     return K, xi, -flight.y[8, -1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("eps", [0.02, 0.01])
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_first_correction_leaves_an_error_of_second_order(side, eps):

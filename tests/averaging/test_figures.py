@@ -90,6 +90,7 @@ def test_an_extremal_is_drawn_over_the_averaged_solution(rippled, draw):
         assert_allclose(line.get_ydata()[[0, -1]], [1.0, 2.0], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_spiral_begins_and_ends_at_its_energies():
     solution = kepler(-0.5, 0.95, -0.35, 0.1)
     figure = figures.spiral(solution, solution.exact(0.1)[0])
@@ -139,6 +140,7 @@ def test_the_table_of_counts_holds_what_is_found_and_predicted():
     assert table["extremals"] == [3, 7] and table["predicted"] == ["3.5", "7.0"]
 
 
+@pytest.mark.slow
 def test_tables_hold_their_columns(rippled):
     solution, found = rippled
     assert columns(tables.rotors()) == 8

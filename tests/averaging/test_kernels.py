@@ -12,6 +12,7 @@ from pontryagin.averaging import generate, kernels
 from pontryagin.averaging.system import derived_systems, generated_systems
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "text"), [(kernels, generate.kernels), (generated_systems, generate.systems)]
 )
@@ -19,6 +20,7 @@ def test_the_committed_text_is_regenerated_to_the_letter(module, text):
     assert Path(module.__file__).read_text() == text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", derived_systems.EXAMPLES)
 def test_the_generated_systems_are_the_derived_ones(name):
     derived = derived_systems.EXAMPLES[name]().system

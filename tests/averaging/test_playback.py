@@ -72,6 +72,7 @@ class TestOrbit:
     def held(self, orbit):
         return orbit[1]
 
+    @pytest.mark.slow
     def test_the_series_are_those_of_both_extremals(self, pair, held):
         flight = spiral.fly(pair.exact)
         assert_slow_curves(pair, held, flight.tau)
@@ -140,6 +141,7 @@ class TestBody:
         make = {"synthesis": attitude.synthesised_motion, "exact": attitude.exact_motion}[request.param]
         return make(pair), request.param
 
+    @pytest.mark.slow
     def test_euler_s_equations_lead_through_the_rates(self, motion):
         motion, _ = motion
         push = CubicSpline(motion.t, motion.control)
@@ -193,6 +195,7 @@ def _units(vectors):
 
 
 class TestWheel:
+    @pytest.mark.slow
     def test_the_wheel_turns_by_the_anomaly(self, tmp_path):
         solution = smooth_example(1.0, 2.0, ripple=0.5)
         pair = Pair(solution, solution.exact(0.1)[0])

@@ -142,6 +142,7 @@ def test_a_nearly_symmetric_body_follows_the_averages_within_order_epsilon():
     assert max(fixed) < 0.1 * 0.95
 
 
+@pytest.mark.slow
 def test_a_rotor_follows_the_averaged_energy_with_the_power_of_the_force():
     speed = sp.lambdify([rotor.a, rotor.x], rotor.speed(MASS, POTENTIAL))
     acceleration = sp.lambdify(

@@ -48,6 +48,7 @@ def test_a_solution_is_a_value(name):
         loaded.duration[...] = 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["smooth", "spin_down"])
 def test_extremals_are_values(name):
     exact = SOLVERS[name](2.0).exact(0.1)

@@ -15,6 +15,7 @@ from pontryagin.io import files
 COUNT = 4
 
 
+@pytest.mark.slow
 def test_problems_are_counted_and_processor_time_measured():
     timing = take_turns({"ten": lambda: 10, "busy": lambda: len([i * i for i in range(20_000)])}, rounds=3)
     assert timing["ten"].count == 10
@@ -107,6 +108,7 @@ def rows():
     return found
 
 
+@pytest.mark.slow
 def test_ratios_are_to_our_own_rows(rows):
     columns = table.columns(rows)
     for i, row in enumerate(rows):

@@ -44,6 +44,7 @@ def test_a_shot_of_the_best_extremal_hits(smooth):
     assert unknowns.shape == (1, n + len(problem.scale_m))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sensitivities", [False, True])
 def test_integrators_agree_on_the_end(smooth, sensitivities):
     path = flows.trajectory(SMOOTH, EPSILON)

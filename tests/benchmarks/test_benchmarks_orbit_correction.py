@@ -25,6 +25,7 @@ def makers(name):
     return [make for make in found if name == "box" or make.__module__ != linear.__name__]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [2, 5, 12])
 @pytest.mark.parametrize("name", THRUSTS)
 def test_each_peer_finds_our_gauge(name, steps):
@@ -65,6 +66,7 @@ def test_a_peer_that_gives_up_has_solved_nothing():
     assert steps == 0 and np.isnan(alpha)
 
 
+@pytest.mark.slow
 def test_rows_hold_ours_and_a_peer_on_the_same_problem(monkeypatch):
     monkeypatch.setattr(gauges, "STACK_SIZE", 20)
     opponent = {"HiGHS, linprog": gauges.Peer(linear.by_linprog, 2)}
@@ -95,6 +97,7 @@ def test_a_finder_is_judged_by_the_root_where_it_ends():
     assert found.error < 1e-9
 
 
+@pytest.mark.slow
 def test_shares_of_starts_add_up(monkeypatch):
     monkeypatch.setattr(roots, "FINDERS", {"hybr": {}, "lm, Jacobian": {"jac": True}})
     table = roots.table(quick=True)
@@ -111,6 +114,7 @@ def test_far_states_need_the_steps_that_are_measured(name, monkeypatch):
     assert correct(aims.far_states(name), thrust=name).steps.tolist() == [60] * aims.FAR
 
 
+@pytest.mark.slow
 def test_growth_shows_every_method_in_every_panel(monkeypatch):
     monkeypatch.setattr(growth, "QUICK", (3, 6))
     monkeypatch.setattr(

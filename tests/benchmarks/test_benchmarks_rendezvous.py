@@ -67,6 +67,7 @@ def test_16_14_and_11_equations_define_one_map(extremal):
     np.testing.assert_allclose(sizes, sizes[0], rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_the_meetings_of_the_ten_equations_are_false(extremal):
     found = starts.ends(extremal, problems.deviations(2, 0.03))
     assert found[REDUCED].true == 0 and found[REDUCED].false > 0
@@ -77,12 +78,14 @@ def test_the_meetings_of_the_ten_equations_are_false(extremal):
     assert not starts.is_meeting(extremal, extremal.flight.costates + 1e-5)
 
 
+@pytest.mark.slow
 def test_fewer_equations_take_fewer_operations():
     for derivatives in (False, True):
         counts = [forms.operations(size, "unsaturated", derivatives) for size in systems.SYSTEMS]
         assert counts == sorted(counts, reverse=True) and len(set(counts)) == 4
 
 
+@pytest.mark.slow
 def test_both_integrators_give_the_same_derivatives():
     table = integrators.table(quick=True)
     assert table["difference of derivatives"][0] < 1e-9 and table["times slower"][0] > 1
@@ -115,6 +118,7 @@ def test_one_homotopy_leads_to_a_certified_least_time_that_the_peers_reproduce(f
         assert found["duration"] == pytest.approx(ours.flight.duration, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_warm_solves_have_a_row_for_every_method(extremal, monkeypatch):
     monkeypatch.setattr(problems, "solved", lambda name: extremal)
     monkeypatch.setattr(problems, "neighbour", lambda name: replace(extremal.problem, duration=6.1))
@@ -128,6 +132,7 @@ def test_warm_solves_have_a_row_for_every_method(extremal, monkeypatch):
     assert sum(line.get_linestyle() == "None" for line in axes[0].get_lines()) == len(table["method"])
 
 
+@pytest.mark.slow
 def test_flights_in_vector_mode_end_where_single_ones_do(extremal, monkeypatch):
     monkeypatch.setattr(problems, "solved_leap", lambda degrees: extremal)
     table = stacks.flights(quick=True)

@@ -145,6 +145,7 @@ class TestSolutions:
 class TestFiles:
     GOAL = ("--norm", "1", *ENDS, "--duration", "2")
 
+    @pytest.mark.slow
     def test_a_plot_is_drawn_in_the_format_of_its_name(self, tmp_path):
         starts = {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}
         for name, start in starts.items():
@@ -475,6 +476,7 @@ class TestProcess:
         result = self.process(*self.TURN, env=os.environ | {"PYTHONIOENCODING": "ascii"})
         assert (result.returncode, result.stderr) == (0, "")
 
+    @pytest.mark.slow
     def test_a_closed_pipe_is_no_error(self):
         with subprocess.Popen(
             [self.PROGRAM, "ledger"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

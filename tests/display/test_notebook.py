@@ -73,6 +73,7 @@ def test_a_label_of_two_papers_needs_the_paper(published):
     assert published == []
 
 
+@pytest.mark.slow
 def test_verdicts_show_every_step(published):
     notebook.verdicts("false")
     entries = ledger.entries(verdict="false")

@@ -65,6 +65,7 @@ def test_the_first_five_curves_are_told_apart_by_every_colour_vision(seen):
     assert min(np.linalg.norm(lab(a, seen) - lab(b, seen)) for a, b in pairs) > 10
 
 
+@pytest.mark.slow
 def test_a_figure_is_the_same_bytes_in_another_process_with_another_hash_seed():
     drawn = [
         subprocess.run(
@@ -143,6 +144,7 @@ def test_show_saves_and_displays_the_same_picture(tmp_path, monkeypatch, display
     }
 
 
+@pytest.mark.slow
 def test_outside_a_known_notebook_show_only_displays(tmp_path, monkeypatch, displayed):
     monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
     monkeypatch.delenv("PONTRYAGIN_NOTEBOOK", raising=False)

@@ -54,6 +54,7 @@ def test_a_panel_of_another_kind_is_refused(target):
     assert not target.exists()
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(arrays(float, st.integers(1, 30), elements=st.floats(-1e6, 1e6)))
 def test_a_curve_is_read_back_to_the_last_bit(tmp_path_factory, values):

@@ -11,11 +11,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SUPPORTED = ("3.11", "3.12", "3.13")
 TYPED = (
+    "ipython",
     "lazy-loader",
     "matplotlib",
     "mypy",
+    "nbclient",
+    "nbformat",
     "numba",
     "numpy",
+    "rerun-sdk",
     "rich",
     "scipy",
     "scipy-stubs",

@@ -125,6 +125,7 @@ def seen(tmp_path_factory):
     return json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_it_is_in_the_ledger(seen):
     assert "1 entries: 1 holds" in seen["ledger"]
     assert "Toy 2026" in seen["ledger"] and "area of a square" in seen["ledger"]

@@ -23,6 +23,7 @@ def of(entries):
     return pytest.mark.parametrize("entry", entries, ids=name)
 
 
+@pytest.mark.slow
 @of(ENTRIES)
 def test_the_verdict_is_what_the_evidence_finds(entry):
     entry.check()
@@ -49,6 +50,7 @@ def altered_prints(evidence):
             yield left, replace(evidence, printed={**evidence.printed, left: altered(side)})
 
 
+@pytest.mark.slow
 @of([entry for entry in JUDGED if entry.printed is not None])
 def test_any_other_print_changes_the_verdict(entry):
     others = list(altered_prints(entry.evidence))
@@ -67,6 +69,7 @@ def test_a_corrected_print_is_no_misprint(entry):
         corrected.finding()
 
 
+@pytest.mark.slow
 @of([entry for entry in JUDGED if hasattr(entry.evidence, "counterexample")])
 def test_a_counterexample_is_needed_and_names_numbers(entry):
     def nothing():

@@ -21,6 +21,7 @@ def two_values(p, q):
     return total, p - q
 
 
+@pytest.mark.slow
 def test_a_large_stack_equals_single_calls_bit_by_bit():
     stack = jit.batched(two_values, outputs=2)
     rng = np.random.default_rng(1)

@@ -78,6 +78,7 @@ def test_nothing_to_correct():
     assert_refused(solve("--z0", "0,0,0", "--plot", "a.svg"), "--plot shows impulses")
 
 
+@pytest.mark.slow
 def test_files_are_drawn_and_recorded(tmp_path):
     for name, start in {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}.items():
         result = solve("--z0", Z0, "--plot", tmp_path / name)

@@ -69,6 +69,7 @@ def test_where_phases_repeat_the_limit_is_reached_in_whole_periods(thrust, inter
     assert_allclose(approach(Z0, [840, 1680], interval, thrust=thrust), end, rtol=1e-9)
 
 
+@pytest.mark.slow
 @given(states(), st.floats(0, 6), st.sampled_from(THRUSTS))
 def test_it_does_not_matter_where_on_the_orbit_one_begins(z0, t, thrust):
     assume(np.abs(z0).max() > 1e-4)

@@ -216,6 +216,7 @@ class TestTables:
         assert all(a <= b for a, b in zip(errors["enough for 50 %"], errors["enough for 99 %"], strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "draw",
     [lambda: figures.controllable_sets(PLAN), lambda: figures.remaining_sets(PLAN)],

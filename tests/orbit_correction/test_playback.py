@@ -37,6 +37,7 @@ def test_every_recording_has_a_title_and_a_description():
         assert title.endswith(".") and len(description) > 80
 
 
+@pytest.mark.slow
 def test_the_flight_is_the_true_one(played):
     plan, recorded = played
     flight = fly_plan(plan)

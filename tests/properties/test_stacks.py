@@ -51,6 +51,7 @@ def transfers(count):
     return np.vstack([ends, 10.0 ** rng.uniform(-3, 3, ends.shape[1])])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KERNELS)
 def test_compiled_and_plain_agree_to_the_bit(name):
     kernel, stack = KERNELS[name]

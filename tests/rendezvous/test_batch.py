@@ -133,6 +133,7 @@ def test_the_flights_do_not_depend_on_the_units():
     np.testing.assert_allclose(theirs.costate, ours.costate * units, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_newton_s_method_from_many_starts_finds_the_extremal_found_from_coasting(best):
     found, *others = multistart(best.problem, starts(8))
     assert found.cost <= best.cost * (1 + 1e-10)

@@ -152,6 +152,7 @@ def fresh():
     clear_caches()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wrong", WRONG, ids=lambda wrong: wrong.name)
 def test_an_argument_with_a_wrong_input_fails(monkeypatch, fresh, wrong):
     original = wrong.original

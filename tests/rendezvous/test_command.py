@@ -70,6 +70,7 @@ def leap():
 
 
 class TestAnswers:
+    @pytest.mark.slow
     def test_json_holds_every_digit_of_the_solver_s_numbers(self, write, leap):
         result = run("--file", write(LEAP), "--json", "--samples", "5")
         assert (result.exit_code, result.stderr) == (0, "")
@@ -101,6 +102,7 @@ class TestAnswers:
         assert schema.to_dict(again) == output
         assert again.peak == math.inf and again.duration == 6.0
 
+    @pytest.mark.slow
     def test_the_table_holds_times_cost_arcs_and_the_extent_of_the_search(self, write, leap):
         path = write(LEAP | {"peak": 0.5})
         result = run("--file", path)
@@ -131,6 +133,7 @@ class TestAnswers:
         assert lines["further"] == "2, up to the cost 8"
         assert transcript.table(output)["problem"]["duration"] == "free"
 
+    @pytest.mark.slow
     def test_a_figure_and_a_recording_are_written(self, write, tmp_path, leap, monkeypatch):
         monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: leap)
         files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
@@ -353,6 +356,7 @@ class TestErrors:
         path = write(LEAP | {"chaser": CRAFT | {"c": 1e200}})
         assert_refused(run("--file", path), f"--file: {path}, chaser must start on an ellipse")
 
+    @pytest.mark.slow
     def test_an_infeasible_problem_exits_with_1_and_the_reason(self, write):
         path = write(LEAP | {"peak": 0.02})
         assert_refused(run("--file", path), "no extremal of this duration stays within the peak", status=1)
@@ -367,6 +371,7 @@ class TestErrors:
         assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
 
 
+@pytest.mark.slow
 def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
     monkeypatch.chdir(tmp_path)
     shown = run("--help").stdout

@@ -145,6 +145,7 @@ def column(path, symbols):
     return np.column_stack([path[x] for x in symbols])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", principle.MODES)
 def test_all_forms_have_the_same_trajectories_and_h_of_17_is_constant(mode):
     sixteen = forms.full(mode)
@@ -206,6 +207,7 @@ def test_each_chart_of_the_repair_is_regular_where_the_other_is_singular():
     assert first.is_infinite and second == 0
 
 
+@pytest.mark.slow
 def test_6_has_rank_three_and_15_rank_two_as_it_does_not_change_under_rotations_about_nu():
     assert repair.change_of_mismatch().rank() == 3
     change = repair.change_of_invariant()
@@ -257,6 +259,7 @@ def test_the_slope_of_the_cost_over_the_duration_vanishes_with_the_law_at_the_en
     assert variation.energy_rate(mode) == 0
 
 
+@pytest.mark.slow
 def test_the_first_variation_consists_of_a_term_at_the_end_and_one_of_the_thrust():
     thrust_slopes = [variation.FAMILY[p].diff(variation.s) for p in model.thrust]
     rest = variation.rest_of_the_variation() + variation.gradient_by_thrust().dot(thrust_slopes)
@@ -265,6 +268,7 @@ def test_the_first_variation_consists_of_a_term_at_the_end_and_one_of_the_thrust
     assert sp.expand(end.coeff(variation.delay) + principle.in_nu(principle.hamiltonian())) == 0
 
 
+@pytest.mark.slow
 @given(*[st.fractions(1, 2, max_denominator=9)] * 3)
 @settings(max_examples=3, deadline=None)
 def test_the_costates_transformed_from_cartesian_ones_obey_the_16_equations(r, v1, c):

@@ -73,6 +73,7 @@ def simpson(rate, extremal):
 
 
 class TestCost:
+    @pytest.mark.slow
     def test_the_cost_is_the_integral_of_p_squared_also_close_to_the_centre(self, diving):
         assert diving.state(np.linspace(0, 12, 20_001))[:, 0].min() < 0.06
         assert diving.cost == pytest.approx(
@@ -94,6 +95,7 @@ class TestCost:
 
 
 class TestBesideTheTarget:
+    @pytest.mark.slow
     @pytest.mark.parametrize("distance", [1e-3, 1e-6])
     def test_the_least_time_beside_the_target_is_twice_the_root_of_distance_over_peak(self, distance):
         best = solve(beside(distance, time_weight=1, energy_weight=0, peak=0.1))
@@ -110,6 +112,7 @@ class TestBesideTheTarget:
 
 
 class TestSearch:
+    @pytest.mark.slow
     def test_without_a_bound_all_extremals_are_returned(self):
         best = solve(cases()["ellipse-mixed"].problem)
         assert len(best.others) >= KEPT and not best.searched.given_up
@@ -117,6 +120,7 @@ class TestSearch:
         times = [one.duration for one in (best, *best.others)]
         assert len({round(t, 6) for t in times}) == len(times)
 
+    @pytest.mark.slow
     def test_with_a_bound_the_extremals_not_continued_are_counted(self):
         best = solve(replace(cases()["ellipse-mixed"].problem, peak=1.0))
         assert len(best.others) == KEPT - 1
@@ -128,6 +132,7 @@ class TestSearch:
         assert found.searched.given_up == ["1 of 2 starts, from which no meeting was reached"]
         assert multistart(LEAP, starts[1:]) == ()
 
+    @pytest.mark.slow
     def test_a_bound_below_every_family_is_infeasible_and_a_failure_is_not_converged(self):
         with pytest.raises(Infeasible, match="the costates grow beyond measure"):
             solve(replace(LEAP, peak=0.02))

@@ -20,6 +20,7 @@ def is_zero(matrix):
     return matrix.applyfunc(sp.expand).is_zero_matrix
 
 
+@pytest.mark.slow
 def test_the_spinor_obeys_newton_s_law():
     assert is_zero(sapunkov.place_rate() - sapunkov.radius() * velocity)
     assert sp.expand(sapunkov.place().dot(sapunkov.place()) - sapunkov.radius() ** 2) == 0

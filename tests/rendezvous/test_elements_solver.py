@@ -183,6 +183,7 @@ def by_the_axes(given: Rendezvous) -> Extremal:
     return Extremal(given, cold_start(setting))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("degrees", "changes"),
     [
@@ -244,6 +245,7 @@ def fuel():
     return least_fuel(LEAP)
 
 
+@pytest.mark.slow
 def test_the_thrust_of_least_fuel_is_on_or_off_and_switches_where_n_is_alpha2(fuel):
     assert set(fuel.modes) == {"saturated", "coast"} and len(fuel.modes) >= 3
     assert fuel.certificate.holds(1e-10) and float(fuel.certificate.switching) < 1e-12
@@ -271,6 +273,7 @@ def test_each_functional_is_smaller_along_its_own_extremal(fuel):
     assert first.cost < LEAP.peak * fuel.cost
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("inclination", "time_weight", "peak"), [(0, 0.01, 0.15), (5, 0.2, 0.1)])
 def test_a_solution_of_free_duration_obeys_the_law_at_the_end(inclination, time_weight, peak):
     given = problem(inclination, time_weight=time_weight, energy_weight=1, peak=peak)
@@ -281,6 +284,7 @@ def test_a_solution_of_free_duration_obeys_the_law_at_the_end(inclination, time_
     assert given.peak * (n - 1) == pytest.approx(time_weight, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [Law("fuel", 0.1, 0.1), Law("square", 0.01, 0.3)])
 def test_the_mode_of_every_arc_is_that_of_the_switching_function(law):
     random = np.random.default_rng(5)
@@ -300,6 +304,7 @@ def test_the_mode_of_every_arc_is_that_of_the_switching_function(law):
     assert switches > 10
 
 
+@pytest.mark.slow
 def test_no_step_of_the_integrator_misses_a_burn_of_a_nearly_discontinuous_thrust():
     law = Law("fuel", 0.0, 0.2, width=0.02)
     random = np.random.default_rng(3)
@@ -361,6 +366,7 @@ def test_a_residual_above_1e_6_is_not_converged_however_large_the_condition_numb
         elements_shooting.meet(Level(0.0), np.append(1e-9, np.ones(6)))
 
 
+@pytest.mark.slow
 def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh(fuel):
     pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct

@@ -30,6 +30,7 @@ def space() -> Extremal:
 
 
 class TestPaths:
+    @pytest.mark.slow
     def test_the_path_leads_from_the_craft_to_the_target(self):
         problem = space().problem
         times, places, thrust = paths.flight_path(problem, space().flight, 50)
@@ -115,12 +116,14 @@ class TestSpace:
 class TestFalseMeetings:
     family = staticmethod(functools.cache(lambda: false_family(solved("ellipse-mixed"), [0.0, -0.5])))
 
+    @pytest.mark.slow
     def test_the_gap_drawn_is_the_distance_missed(self):
         for ax, member in zip(figures.false_meetings(self.family()).axes, self.family().members, strict=True):
             gap = next(line for line in ax.lines if line.get_label() == "missed by").get_xydata()
             assert np.linalg.norm(gap[1] - gap[0]) == pytest.approx(member.distance, abs=1e-9)
         assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
 
+    @pytest.mark.slow
     @pytest.mark.parametrize(("name", "angle"), [("ellipse-mixed", -0.5), ("mixed", -0.35)])
     def test_the_craft_ends_on_the_rotated_orbit_and_not_on_the_target_s(self, name, angle):
         (ax,) = figures.false_meetings(false_family(solved(name), [angle])).axes
@@ -164,6 +167,7 @@ class TestFalseMeetings:
 
 
 class TestRevolutions:
+    @pytest.mark.slow
     def test_the_slope_of_the_cost_over_the_duration_vanishes_at_the_extremal(self):
         best = solved("ellipse-mixed")
         points = branch(best, 1, (5.0, 17.0), 0.06)
@@ -173,6 +177,7 @@ class TestRevolutions:
         mirrored = branch(best, -1, (5.0, 17.0), 0.06)
         assert mirrored[-1, 0] < best.duration < points[-1, 0]
 
+    @pytest.mark.slow
     def test_the_dots_are_the_extremals(self):
         best = solved("ellipse-mixed")
         ax = figures.revolutions({"case": best}).axes[0]
@@ -192,6 +197,7 @@ class TestRevolutions:
             branch(space(), 1, (5.0, 15.0), 1.0)
 
 
+@pytest.mark.slow
 def test_the_tables_hold_the_numbers_of_the_solutions():
     found = {name: solved(name) for name in ("mixed-bounded", "ellipse-mixed")}
     rows = tables.solutions(found)

@@ -111,6 +111,7 @@ def test_the_direct_method_reproduces_a_kept_result():
     assert np.allclose(again.costs, KEPT["circle-energy"].costs, rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("weight", [1e-1, 1e-2, 1e-3])
 def test_the_rows_of_small_weights_are_reproduced(weight):
     kept = next(one for one in small_weight.rows() if one.time_weight == weight)

@@ -99,6 +99,7 @@ def test_every_recording_is_in_the_readme():
         assert f"| `{name}` |" in readme
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["met", "missed"])
 def test_the_recorded_series_are_those_of_the_solver(which, request):
     *_, extremal, held = request.getfixturevalue(which)
@@ -169,6 +170,7 @@ def newton(t, place, velocity, push=lambda t: np.zeros(3)):
     return solve_ivp(rates, t[[0, -1]], [*place, *velocity], "DOP853", t, rtol=1e-10, atol=1e-11).y.T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["met", "missed"])
 def test_the_recorded_places_obey_newton_s_law(which, request):
     """The craft moves under the recorded thrust until t_k and coasts afterwards; the target always coasts."""

@@ -36,6 +36,7 @@ def problem(degrees: float, **changes) -> Rendezvous:
     return Rendezvous(CRAFT, orbit(degrees), **given)
 
 
+@pytest.mark.slow
 def test_the_kernels_are_those_that_the_derivation_generates():
     assert Path(kernels.__file__).read_text() == generate.kernels()
 
@@ -102,6 +103,7 @@ def test_different_numbers_of_revolutions_give_different_extremals():
     assert len({round(cost, 6) for cost in costs.values()}) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("taylor", [True, False])
 def test_the_certificate_detects_a_wrong_costate(taylor):
     setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0, taylor=taylor)
@@ -133,6 +135,7 @@ def test_the_slope_of_the_cost_over_the_duration_is_minus_the_square_of_the_end_
     assert (later - sooner) / (2 * h) == pytest.approx(-(end_thrust(here.flight) ** 2), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_mixed_problem_reaches_the_bound_and_obeys_the_law_at_the_end():
     best = solve(problem(20, time_weight=0.0036, peak=0.08))
     assert all(b.certificate.holds(1e-9) for b in (best, *best.others))
@@ -153,6 +156,7 @@ def least_time(degrees: float):
     return given, bounded(SHOOTING, Setting(scaled, scaled.ratio, scaled.peak), loose, root)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 30])
 def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
     given, root = least_time(degrees)
@@ -161,6 +165,7 @@ def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
     assert [piece.mode for piece in root.flight.pieces] == ["saturated"]
 
 
+@pytest.mark.slow
 def test_the_solution_does_not_depend_on_units_and_on_the_sign_of_quaternions():
     """Lengths times 7000, fM = 398600, and -Lambda* in place of Lambda*."""
     plain = problem(20, duration=8.0)
@@ -183,6 +188,7 @@ def test_the_solution_does_not_depend_on_units_and_on_the_sign_of_quaternions():
     assert second.certificate.holds(1e-10)
 
 
+@pytest.mark.slow
 def test_samples_are_in_the_units_of_the_user():
     given = problem(20, duration=8.0)
     best = solve(given)
@@ -196,12 +202,14 @@ def test_samples_are_in_the_units_of_the_user():
         best.state(8.1)
 
 
+@pytest.mark.slow
 def test_the_solution_of_a_neighbouring_problem_is_a_start():
     first = solve(problem(20, duration=8.0))
     near = solve(problem(20, duration=8.05), start=first)
     assert near.certificate.holds(1e-10) and near.cost < first.cost
 
 
+@pytest.mark.slow
 def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh():
     pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct
@@ -244,6 +252,7 @@ def test_least_energy_in_free_time_is_infeasible():
         solve(problem(20))
 
 
+@pytest.mark.slow
 def test_a_bound_too_small_for_the_duration_is_infeasible():
     with pytest.raises(pontryagin.Infeasible, match=r"the bound went down to 0\.\d+, not to 0\.04"):
         solve(problem(20, peak=0.04, duration=4.0))

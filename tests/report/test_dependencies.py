@@ -117,6 +117,7 @@ def test_nothing_below_the_report_imports_the_report_or_the_command_line():
             assert not [m for m in reached if m.startswith(("pontryagin.report", "pontryagin.cli"))], name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "module", ["pontryagin.ledger", "pontryagin.triple_integrator", "pontryagin.display.recording"]
 )

@@ -33,6 +33,7 @@ def key(checkout, path):
     return notebook_key(checkout.workspace, read_notebook(path))
 
 
+@pytest.mark.slow
 def test_a_failing_cell_is_named_with_its_notebook_and_error(checkout):
     good = checkout.notebook("01-good", "# Good", "1 + 1")
     bad = checkout.notebook("02-bad", "# Bad", "x = 3", "x / 0")
@@ -44,6 +45,7 @@ def test_a_failing_cell_is_named_with_its_notebook_and_error(checkout):
     assert not list((checkout.workspace.cache / "notebooks" / "02-bad").glob("[!.]*"))
 
 
+@pytest.mark.slow
 def test_code_runs_again_when_it_changes_and_not_when_the_text_around_it_does(checkout):
     path = checkout.notebook("01-count", "# Title", COUNT, "6 * 7")
     assert execute(checkout.workspace, path).fresh
@@ -77,6 +79,7 @@ def test_the_key_changes_with_what_the_notebook_depends_on_and_with_nothing_else
     assert len(set(keys)) == len(keys)
 
 
+@pytest.mark.slow
 def test_two_executions_give_the_same_bytes(checkout, another_checkout):
     made = []
     for place in (checkout, another_checkout):
@@ -89,6 +92,7 @@ def test_two_executions_give_the_same_bytes(checkout, another_checkout):
     assert {path.name for path in made[0][1]} == {"line.svg", "sample.csv"}
 
 
+@pytest.mark.slow
 def test_a_killed_execution_leaves_nothing_and_the_next_completes(checkout):
     checkout.notebook("01-slow", "# Slow", COUNT, SLOW_AT_FIRST)
     command = [sys.executable, "-m", "pontryagin.report", "figures", "--root", str(checkout.root)]
@@ -106,6 +110,7 @@ def test_a_killed_execution_leaves_nothing_and_the_next_completes(checkout):
     assert runs(checkout) == 2
 
 
+@pytest.mark.slow
 def test_publishing_removes_what_the_notebook_no_longer_draws(checkout):
     path = checkout.notebook("01-figures", "# Figures", DRAW)
     stale = checkout.workspace.figures / "01-figures" / "old.svg"

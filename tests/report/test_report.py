@@ -92,6 +92,7 @@ def page(built):
     return (built[0].report / "index.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_page_loads_nothing_from_anywhere(page):
     loaded = Page(page).loads
     assert loaded and all(source.startswith("data:") for source in loaded)
@@ -139,6 +140,7 @@ def test_the_ledger_is_counted_and_shown_word_by_word(page):
     assert page.index('id="ledger"') < page.index('id="nb-01-first"') < page.index('id="nb-02-next"')
 
 
+@pytest.mark.slow
 def test_rendering_again_touches_nothing_and_a_changed_text_renders_both(built, entries):
     workspace, executed = built
     files = [workspace.report / name for name in ("index.html", "pontryagin.pdf")]
@@ -215,6 +217,7 @@ def test_a_link_that_leads_nowhere_is_placed():
         text.read(cells("# Title {#nb-01}", "[there](#nb-02)"))
 
 
+@pytest.mark.slow
 def test_two_figures_of_one_name_are_refused(checkout):
     result = execute(checkout.workspace, checkout.notebook("01", "# Title", DRAW, "show(line())"))
     with pytest.raises(
@@ -229,6 +232,7 @@ def test_a_notebook_without_a_title_is_refused(checkout):
         assemble.chapter(checkout.workspace, result)
 
 
+@pytest.mark.slow
 def test_the_command_names_the_failing_cell_and_exits_1(checkout):
     checkout.notebook("01", "# Title", "raise ValueError('bad ends')")
     command = [sys.executable, "-m", "pontryagin.report", "--root", str(checkout.root)]

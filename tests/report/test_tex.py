@@ -101,6 +101,7 @@ def test_an_environment_that_stands_alone_is_put_between_dollars_once():
         assert tex.display_blocks(kept) == kept
 
 
+@pytest.mark.slow
 def test_every_formula_of_the_ledger_can_be_set(tmp_path):
     import typst
 

@@ -255,6 +255,7 @@ class TestRealTurn:
         table = tables.turn_misses(BODY, axis, quarter)
         assert max(table["attitude missed, degrees"]) < 1e-7
 
+    @pytest.mark.slow
     def test_attempts_reach_their_attitude_or_say_why_not(self):
         tried = figures.attempts(BODY, [2, -1, 2], (20, 160), duration=60.0)
         reached = Rotation.from_quat(tried[0].turn.attitude(60.0)[0], scalar_first=True).as_rotvec()
@@ -304,6 +305,7 @@ def test_every_direction_of_the_search_is_drawn():
     assert "right: 100.0 %" in axes[1].get_title()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "draw",
     [

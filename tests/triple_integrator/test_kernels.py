@@ -4,9 +4,12 @@ import ast
 import inspect
 from pathlib import Path
 
+import pytest
+
 from pontryagin.triple_integrator import generate, kernels
 
 
+@pytest.mark.slow
 def test_the_committed_text_is_regenerated_to_the_letter():
     assert Path(kernels.__file__).read_text() == generate.kernels()
 

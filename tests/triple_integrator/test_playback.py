@@ -48,6 +48,7 @@ def test_every_recording_has_a_title_and_a_description():
         assert len(description) > 80
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("norm", NORMS)
 def test_the_three_norms_hold_the_solver_s_states(three_norms, norm):
     solution = NORMS[norm](Maneuver([0, 0, 0], [np.pi / 2, 0, 0], tf=6.0))
@@ -93,6 +94,7 @@ def test_impulses_are_spikes_arrows_and_events(three_norms):
     assert_allclose(events["time"], np.sort([*solution.impulse_times, *switches]), atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("norm", NORMS)
 def test_the_real_turn_holds_the_simulated_attitudes_and_torques(tmp_path, norm):
     path = tmp_path / "turn.rrd"
@@ -114,6 +116,7 @@ def test_the_real_turn_holds_the_simulated_attitudes_and_torques(tmp_path, norm)
             assert_allclose(gyroscopic, made.gyroscopic_torque(t)[:, i], atol=1e-7)
 
 
+@pytest.mark.slow
 def test_the_coupled_channels_hold_what_was_coupled(tmp_path):
     coupled = couple(
         playback.SPACECRAFT,
@@ -134,6 +137,7 @@ def test_the_coupled_channels_hold_what_was_coupled(tmp_path):
     assert len(held["/events"]["text"]) == coupled.misses.size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "solution",
     [

@@ -66,6 +66,7 @@ def arrays(value):
             yield from arrays(held)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", VALUES.values(), ids=VALUES)
 def test_they_survive_copies_and_pickles_and_are_told_apart_by_value(make):
     one = make()
@@ -77,6 +78,7 @@ def test_they_survive_copies_and_pickles_and_are_told_apart_by_value(make):
     assert one != single(0.125)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", VALUES.values(), ids=VALUES)
 def test_no_array_can_be_changed(make):
     one = make()

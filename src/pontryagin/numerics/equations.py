@@ -71,8 +71,8 @@ class Symbolic:
 
     Parameters
     ----------
-    states, rates, parameters : tuple
-        Symbols x, expressions of f, symbols p.
+    states, expressions, parameters : tuple
+        Symbols x, their rates f as expressions, symbols p.
     clock : sympy.Symbol, optional
         The independent variable, if the expressions hold it.
     wrt : tuple of sympy.Symbol

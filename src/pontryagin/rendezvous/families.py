@@ -150,6 +150,8 @@ def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Ro
 
     Parameters
     ----------
+    shooting : Shooting
+        The formulation in which extremals are found and followed.
     setting : Setting
         What is posed.
     loose : Setting

@@ -130,6 +130,7 @@ def test_times_outside_are_refused(orbit):
         orbit.control(0.1, float("inf"))
 
 
+@pytest.mark.slow
 def test_the_exact_spin_down_is_handed_out_in_the_paper_s_variables():
     """H of the paper's own system vanishes along it, psi leads to the rates, and a falls to rest."""
     solution = spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6)

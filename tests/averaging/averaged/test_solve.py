@@ -51,6 +51,7 @@ def averaged(solution, tau):
     return h.value, omega.value
 
 
+@pytest.mark.slow
 @given(speeds, speeds, st.floats(0.01, 100))
 def test_the_smooth_example_is_its_closed_form(v0, v1, price):
     solution = smooth_example(v0, v1, price, ripple=0.5)
@@ -81,6 +82,7 @@ def test_kepler_is_its_closed_form(E0, E1, e, price):
     assert solution.certificate.holds(1e-9)
 
 
+@pytest.mark.slow
 @given(
     st.tuples(st.floats(0.2, 2), st.floats(-2, 2), st.floats(0.2, 2)),
     st.floats(1e-3, 1e3),
@@ -184,6 +186,7 @@ CARRIAGES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CARRIAGES)
 @pytest.mark.parametrize("kappa", [0.0, -0.2])
 def test_the_flow_from_the_start_meets_target_transversality_and_level(name, kappa):

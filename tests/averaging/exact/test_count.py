@@ -38,6 +38,7 @@ def test_as_many_extremals_are_found_as_the_window_predicts(epsilon):
     assert abs(sum(one.kind == "minimum" for one in found) - len(found) / 2) <= 0.5
 
 
+@pytest.mark.slow
 def test_a_rotor_without_symmetry_has_the_extremals_predicted():
     solution = rotor(1.6, 4, potential=sp.cos(X), force=sp.sin(X), k=1.0)
     assert abs(len(solution.exact(0.05)) - window(solution).count(0.05)) < 2
@@ -49,6 +50,7 @@ def test_the_precession_of_a_body_meets_four_roots_a_turn():
     assert found.kappa[0] < 0 < found.kappa[1]
 
 
+@pytest.mark.slow
 def test_where_the_averaged_problem_ends_before_the_roots_do_it_says_so():
     found = window(kepler(-0.5, 0.9, -0.3, 0.1))
     assert found.limits == ("no further root", "no solution")

@@ -76,6 +76,7 @@ def test_what_is_not_smooth_in_the_anomaly_is_found():
     assert len(found) == 2 and all(kink in kinks or -kink in kinks for kink in found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SYSTEMS)
 @settings(max_examples=8)
 @given(

@@ -31,6 +31,7 @@ def cube_gauge(z0, steps):
     return linprog(cost, A_ub=within, b_ub=np.zeros(2 * width), A_eq=reach, b_eq=-z0, bounds=bounds).fun
 
 
+@pytest.mark.slow
 @given(states(), st.sampled_from([1.5, 2.0, 8.0, 16.0]), st.integers(1, 7))
 def test_controls_and_costate_prove_each_other(z0, p, steps):
     assume(np.abs(z0).max() > 1e-4)
@@ -46,6 +47,7 @@ def test_controls_and_costate_prove_each_other(z0, p, steps):
     assert_allclose(-z0 @ found.costate / support, found.alpha, rtol=1e-9)
 
 
+@pytest.mark.slow
 @given(states(), st.integers(1, 8))
 def test_two_is_the_ball_and_the_cube_is_the_limit(z0, steps):
     assume(np.abs(z0).max() > 1e-4)
@@ -57,6 +59,7 @@ def test_two_is_the_ball_and_the_cube_is_the_limit(z0, steps):
     assert chain[2] <= 3 ** (1 / 16) * cube * (1 + 1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("p", [2.0, 8.0, 16.0])
 def test_the_fewest_steps_are_proved_and_never_more_than_the_ball_s(p):
     for z0 in (Z0, 3 * Z0, np.array([0.01, 0.0, 0.0])):

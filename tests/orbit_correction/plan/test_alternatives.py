@@ -22,6 +22,7 @@ def states():
     return st.tuples(*[st.floats(-0.012, 0.012, allow_subnormal=False)] * 3).map(np.array)
 
 
+@pytest.mark.slow
 @given(states(), st.sampled_from(THRUSTS), st.sampled_from([0.25, 1.0]))
 def test_all_three_reach_the_circle_and_each_is_the_least_of_its_measure(z0, name, interval):
     assume(np.abs(z0).max() > 1e-4)

@@ -46,6 +46,7 @@ def fly(plan):
     return z
 
 
+@pytest.mark.slow
 @given(
     st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3).map(np.array),
     st.sampled_from([0.25, 1.0, np.pi]),
@@ -88,6 +89,7 @@ def test_the_steps_on_both_sides_of_whole_revolutions_are_those_of_a_short_inter
     assert len(set(near)) == 1 and near[0] > 1000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("thrust", "z0", "interval"), [("ball", [1e300, 0, 0], 0.25), ("disc", Z0, 1e-300), ("box", Z0, 1e-12)]
 )

@@ -131,6 +131,7 @@ def test_some_false_meetings_cost_less_than_the_true_one():
         assert found.cost < 0.75 * true.cost
 
 
+@pytest.mark.slow
 def test_the_angles_along_the_curve_increase_between_its_given_ends():
     curve = false_curve(true_meeting(0), -0.8, 0.5)
     assert curve.angles[0] == -0.8 and curve.angles[-1] == 0.5 and 0.0 in curve.angles
@@ -166,6 +167,7 @@ def test_the_errors_name_the_argument():
         false_family(true_meeting(0, duration=5.406142860948114), [0.1])
 
 
+@pytest.mark.slow
 def test_the_error_of_a_curve_that_ends_names_the_angle_that_is_not_reached():
     with pytest.raises(NotConverged, match=r"the curve of false meetings ends at .* rad, before -?3 rad"):
         false_family(true_meeting(20), [3.0, -3.0])

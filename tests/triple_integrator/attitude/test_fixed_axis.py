@@ -46,6 +46,7 @@ def test_with_feedforward_the_body_reaches_attitude_and_rate(solve, body, axis, 
     assert (target.inv() * reached).magnitude() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "programme",
     [

@@ -129,6 +129,7 @@ def test_no_body_has_a_gyroscopic_acceleration_above_the_product_of_two_rates(se
 # --- the target is reached ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solve", [minimum_energy, minimum_peak, minimum_impulse])
 def test_the_full_equations_reach_the_target(solve):
     coupled = couple(BODY, rest_to_rest(ENDS), solve)
@@ -151,6 +152,7 @@ def test_each_programme_is_the_optimum_of_its_channel_along_the_motion(solve):
         assert_allclose(programme.state(t), state, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_ends_in_motion_are_met():
     starts = np.array([[0.1, 0.2, 0.3], [0.0, -0.1, 0.0], [0.05, 0.0, -0.2]])
     ends = np.array([[0.3, 0.1, 0.0], [-0.2, 0.2, 0.1], [0.1, -0.1, 0.3]])
@@ -190,6 +192,7 @@ def test_each_iteration_takes_the_miss_off_the_moments():
 # --- the motion of the other channels given ----------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solve", [minimum_energy, minimum_impulse])
 def test_one_channel_is_programmed_against_the_given_motion_of_another(solve):
     given_motion = minimum_peak(Maneuver([0, 0, 0], [0.5, 0, 0], tf=2.0))
@@ -203,6 +206,7 @@ def test_one_channel_is_programmed_against_the_given_motion_of_another(solve):
     assert np.abs(coupled.coupling(t)[0]).max() > 1e-2
 
 
+@pytest.mark.slow
 def test_a_steady_spin_may_be_given():
     spin = minimum_energy(Maneuver([0, 0.2, 0], [0.4, 0.2, 0], tf=2.0))
     coupled = couple(BODY, [Maneuver([0, 0, 0], [0.3, 0, 0], tf=2.0), REST, spin], minimum_energy)
@@ -220,6 +224,7 @@ def test_a_spherical_body_turned_from_rest_to_rest_needs_no_iteration():
     assert coupled.factor == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solve", [minimum_energy, minimum_impulse])
 @pytest.mark.parametrize("angle", [0.2, 0.8])
 def test_the_miss_of_a_nearly_spherical_body_falls_by_the_derived_factor(solve, angle):
@@ -238,12 +243,14 @@ def test_the_spherical_factor_is_the_spectral_radius_of_one_less_the_rate_matrix
         )
 
 
+@pytest.mark.slow
 def test_the_factor_is_linear_in_the_angle():
     factors = [couple(BODY, skew_turn(angle), minimum_energy, tol=2e-11).factor for angle in (0.1, 0.2)]
     assert factors[1] / factors[0] == pytest.approx(2.0, rel=0.15)
     assert float(spherical_factor(1e-3)) == pytest.approx(5e-4, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_iteration_does_not_depend_on_the_duration():
     misses = [couple(BODY, skew_turn(0.3, tf), minimum_energy, tol=1e-6).misses for tf in (0.01, 1.0, 500.0)]
     assert_allclose(misses[0], misses[1], rtol=1e-5)
@@ -256,6 +263,7 @@ def test_the_factor_of_a_spherical_body_is_one_at_108_degrees():
     )
 
 
+@pytest.mark.slow
 def test_beyond_the_threshold_the_miss_grows_and_is_told():
     with pytest.raises(NotConverged, match="did not settle in 8 iterations") as failure:
         couple(BODY, skew_turn(2.6), minimum_energy, iterations=8)

@@ -68,6 +68,7 @@ def test_the_areas_are_integrals(case):
     assert_allclose(expected, np.trapezoid(np.abs(h), grid), rtol=1e-6)
 
 
+@pytest.mark.slow
 @given(switching)
 @settings(max_examples=10, deadline=None)
 def test_the_optimum_solves_all_four_conditions(case):

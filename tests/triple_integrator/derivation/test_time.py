@@ -43,6 +43,7 @@ def test_the_moments_are_what_the_free_motion_leaves_to_do():
     assert (free.diff(T) - rates).applyfunc(sp.expand).is_zero_matrix
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [1, -1])
 def test_the_quartic_is_that_of_the_theory(level):
     derived = time.quartic().subs(v, level)

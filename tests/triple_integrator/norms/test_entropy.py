@@ -52,6 +52,7 @@ def test_the_control_has_the_moments_and_one_sign(m):
     assert s.certificate.holds(1e-10)
 
 
+@pytest.mark.slow
 @few
 @given(one_signed())
 def test_the_true_state_reaches_the_target(m):

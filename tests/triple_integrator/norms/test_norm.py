@@ -80,6 +80,7 @@ def assert_same_control(found, expected, q):
     assert_allclose(*by_power, atol=1e-7)
 
 
+@pytest.mark.slow
 @few
 @given(maneuvers(), exponents)
 def test_the_control_has_the_required_moments(m, q):
@@ -89,6 +90,7 @@ def test_the_control_has_the_required_moments(m, q):
     assert_allclose(np.array(found) / moment_scale(m), m.moments / moment_scale(m), atol=2e-9)
 
 
+@pytest.mark.slow
 @few
 @given(maneuvers(), st.sampled_from([1.1, 1.5, 2.0, 3.0, 4.0]))
 def test_the_control_steers_the_true_state_to_the_target(m, q):
@@ -96,6 +98,7 @@ def test_the_control_steers_the_true_state_to_the_target(m, q):
     assert_allclose((propagated(s) - m.xf) / moment_scale(m), 0, atol=1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(maneuvers(), exponents)
 def test_the_state_reaches_the_target_and_follows_the_equations(m, q):

@@ -46,6 +46,7 @@ def numeric(expression):
     return lambda tau: float(f(tau))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SMOOTH)
 @pytest.mark.parametrize("kind", ["expression", "callable", "scalar callable"])
 def test_smooth_forces_to_1e_12(name, kind):

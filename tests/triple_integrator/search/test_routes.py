@@ -91,6 +91,7 @@ def test_units_do_not_matter(route, gamma, T):
     assert_allclose(scaled.curvature * gamma, plain.curvature, rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_what_is_right_is_the_certified_level(found):
     for results in found.results.values():
         for k, result in zip(found.directions, results, strict=True):

@@ -152,7 +152,7 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
 def _sign_changes(current: Family) -> NDArray[np.intp]:
     """Members after which y1 changes sign; a root at a member lies before it."""
     positive = current.y >= 0
-    return np.nonzero(positive[:-1] != positive[1:])[0]
+    return np.asarray(np.nonzero(positive[:-1] != positive[1:])[0], dtype=np.intp)
 
 
 def _polished(

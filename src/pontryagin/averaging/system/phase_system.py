@@ -58,6 +58,7 @@ class PhaseSystem(StandardForm):
     A pendulum that rotates through a resisting medium is sped up: the energy a = x'^2/2 - cos x against the
     drag -x'/5, at the cost 1 + u^2. It is not in the paper.
 
+    >>> import sympy as sp
     >>> from pontryagin.averaging import PhaseSystem, Quadratic
     >>> a, x, u = sp.symbols("a x u", real=True)
     >>> speed = sp.sqrt(2 * (a + sp.cos(x)))

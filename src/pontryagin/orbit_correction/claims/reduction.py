@@ -48,7 +48,7 @@ def ball_in_the_cube() -> Conditional:
         shares = np.abs(worked.ball_plan().impulses) / worked.PEAK
         yield (
             f"the ball's plan of the example stays within {shares.max():.3f} of the square",
-            shares.max() < 1,
+            bool(shares.max() < 1),
         )
 
     def counterexample() -> Steps:
@@ -148,7 +148,7 @@ def conditions_of_the_theorems() -> Conditional:
             yield f"det A({k}) = 1: nonsingular", vanishes(sp.simplify(derivation.step_matrix(k).det() - 1))
             inverse = np.linalg.inv(worked.step_inputs(k))
             shape = inverse.T @ inverse / worked.PEAK**2
-            yield f"H({k}) is positive definite at Δt = 1/4", np.linalg.eigvalsh(shape).min() > 0
+            yield f"H({k}) is positive definite at Δt = 1/4", bool(np.linalg.eigvalsh(shape).min() > 0)
         yield from worked.ball_certificate()
 
     def counterexample() -> Steps:

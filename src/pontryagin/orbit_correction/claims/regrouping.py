@@ -133,15 +133,18 @@ def regrouped_inputs() -> Misprint:
 )
 def inputs_behind_the_tables() -> Slip:
     def argument() -> Steps:
-        worst = units_off().max()
-        yield f"with the corrected B(k) the worst of 39 numbers is off by {worst:.2f} of a unit", worst <= 1
+        worst = float(units_off().max())
+        yield (
+            f"with the corrected B(k) the worst of 39 numbers is off by {worst:.2f} of a unit",
+            bool(worst <= 1),
+        )
         for k, row in enumerate(CONTROLS):
             control = np.linalg.solve(worked.step_inputs(k), np.array([float(number) for number in row]))
             size = float(np.linalg.norm(control)) / worked.PEAK
             yield f"|B({k})⁻¹u({k})| of the printed u({k}) is {size:.5f} α_max", abs(size - 0.9286) < 1e-4
 
     def counterexample() -> Steps:
-        worst = units_off(printed_inputs).max()
+        worst = float(units_off(printed_inputs).max())
         yield f"with the printed B(k) the worst is off by {worst:.0f} units", worst > 1000
         for k in range(2):
             yield f"and det B({k}) = 0", vanishes(printed_inputs(k).det())

@@ -188,11 +188,14 @@ for k in range(4):
 def rounded_tables() -> Conditional:
     def argument() -> Steps:
         off = units_off()
-        yield f"the worst number is off by {off.max():.2f} of a unit", off.max() <= 1
-        yield "x*(4) is 0", np.abs(example()[0][-1]).max() < 1e-16
-        yield "the z0 of `ROUNDED` is within half a unit of the printed one", np.abs(ROUNDED).max() < 0.5
+        yield f"the worst number is off by {off.max():.2f} of a unit", bool(off.max() <= 1)
+        yield "x*(4) is 0", bool(np.abs(example()[0][-1]).max() < 1e-16)
+        yield (
+            "the z0 of `ROUNDED` is within half a unit of the printed one",
+            bool(np.abs(ROUNDED).max() < 0.5),
+        )
         moved = units_off(z0=worked.Z0 + 1e-7 * ROUNDED)
-        yield f"and makes all 36 others within {moved.max():.2f} of a unit", moved.max() < 0.5
+        yield f"and makes all 36 others within {moved.max():.2f} of a unit", bool(moved.max() < 0.5)
 
     def counterexample() -> Steps:
         yield (

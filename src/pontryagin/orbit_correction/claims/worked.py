@@ -93,8 +93,8 @@ def ball_certificate() -> Steps:
     for k, control in enumerate(plan.step_controls):
         state = step_matrix(k) @ state + step_inputs(k) @ control
     sizes = np.linalg.norm(plan.step_controls, axis=1)
-    yield "four steps, flown one by one, bring z0 to 0", np.abs(state).max() < 1e-16 and len(sizes) == 4
-    yield f"with |ũ(k)| at most {alpha:.5f} α_max", sizes.max() <= alpha * PEAK * (1 + ROUNDING)
+    yield "four steps, flown one by one, bring z0 to 0", bool(np.abs(state).max() < 1e-16) and len(sizes) == 4
+    yield f"with |ũ(k)| at most {alpha:.5f} α_max", bool(sizes.max() <= alpha * PEAK * (1 + ROUNDING))
     proved = bound(factors(4), plan.initial_costate)
     yield "ψ0 proves that no smaller share does", alpha - ROUNDING <= proved <= alpha + ROUNDING
     shorter = bound(factors(3), gauge_with(3).costate)

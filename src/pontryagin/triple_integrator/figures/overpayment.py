@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import INK, WIDTH, styled
@@ -27,9 +28,9 @@ def printed_impulses() -> Figure:
     maneuvers = sphere.maneuvers(directions)
     least = minimum_impulse(maneuvers).norm
     value, total = printed(maneuvers.moments)
-    cover = {"inside": inside}
-    _map(axes[0], value / least, (0, 1), "Blues_r", r"printed value $|F|/T^2$ over the least", **cover)
-    _map(axes[1], total / least, (1, 1.25), "Blues", "printed impulses over the least", **cover)
+    ratio = r"printed value $|F|/T^2$ over the least"
+    _map(axes[0], value / least, (0, 1), "Blues_r", ratio, inside)
+    _map(axes[1], total / least, (1, 1.25), "Blues", "printed impulses over the least", inside)
     for place, shift in ((0.25, (0.0, -0.3)), (0.75, (-0.16, -0.22))):
         x, y = sphere.to_disc(sphere.unit_impulse(np.array(place)))
         axes[1].plot(x, y, "o", color="white", markeredgecolor=INK, markersize=5)
@@ -48,7 +49,12 @@ def printed(moments: Array) -> tuple[Array, Array]:
 
 
 def _map(
-    ax: Axes, ratio: Array, limits: tuple[float, float], colours: str, words: str, inside: Array
+    ax: Axes,
+    ratio: Array,
+    limits: tuple[float, float],
+    colours: str,
+    words: str,
+    inside: NDArray[np.bool_],
 ) -> None:
     sphere.prepare(ax)
     image = ax.imshow(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import INK
@@ -47,7 +48,7 @@ def from_disc(points: Array) -> Array:
     return np.concatenate(parts, axis=-1) @ frame()
 
 
-def grid(size: int) -> tuple[Array, Array]:
+def grid(size: int) -> tuple[Array, NDArray[np.bool_]]:
     """Centres of size x size cells over the disc as directions (size, size, 3), and which lie in it."""
     line = (np.arange(size) + 0.5) / size * 2 - 1
     points = np.stack(np.meshgrid(line, line), axis=-1)
