@@ -1,4 +1,4 @@
-"""What a type checker tells a user about the public names; each call below is one of DESIGN's."""
+"""What a type checker tells a user about the public names of the package."""
 
 import os
 import re
@@ -10,12 +10,12 @@ import pytest
 
 import pontryagin
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = """
 import math
 import sympy as sp  # type: ignore[import-untyped]
 from pontryagin import triple_integrator as ti, orbit_correction as oc, averaging as av, rendezvous as rv
-
-pytestmark = pytest.mark.slow
 
 m = ti.Maneuver([0, 0, 0], [1, 0, 0], tf=2.0)
 reveal_type(m)  # Maneuver
@@ -86,7 +86,6 @@ def answers(tmp_path_factory):
     return lines
 
 
-@pytest.mark.slow
 def test_a_users_script_has_no_type_error(answers):
     errors = [f"{SCRIPT.splitlines()[line - 1]}: {text}" for line, said in answers.items() for text in said]
     assert [text for text in errors if "Revealed type" not in text] == []
