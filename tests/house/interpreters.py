@@ -4,6 +4,7 @@ An interpreter other than the one that runs this gets an environment of its own 
 with mypy and the packages that have types, at the versions of requirements.lock.
 """
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -30,25 +31,42 @@ TYPED = (
 UV = str(Path(sys.executable).with_name("uv"))
 
 
+def interpreters(version: str) -> list[str]:
+    """Where a version may be: on the search path, or among those that pyenv keeps beside it."""
+    kept = Path(os.environ.get("PYENV_ROOT", "~/.pyenv")).expanduser() / "versions"
+    return [version, *map(str, sorted(kept.glob(f"{version}.*/bin/python")))]
+
+
 def environment(version: str) -> Path | None:
     """The Python of an environment with mypy for a version; None where it cannot be had."""
     folder = ROOT / "build" / f"types-{version}"
     python = folder / "bin" / "python"
     if (folder / "complete").exists():
         return python
-    make = [UV, "venv", "-q", "--clear", "--no-python-downloads", "--python", version, str(folder)]
-    lock = str(ROOT / "requirements.lock")
-    install = [UV, "pip", "install", "-q", "--python", str(python), "-c", lock, *TYPED]
-    for command in (make, install):
-        try:
-            done = subprocess.run(command, capture_output=True, text=True)
-        except OSError:
-            return None
-        if done.returncode:
-            print("   " + (done.stderr.strip().splitlines() or ["uv failed"])[0])
-            return None
+    make = [UV, "venv", "-q", "--clear", "--no-python-downloads", str(folder), "--python"]
+    install = [
+        UV,
+        "pip",
+        "install",
+        "-q",
+        "--python",
+        str(python),
+        "-c",
+        str(ROOT / "requirements.lock"),
+        *TYPED,
+    ]
+    if not any(succeeds([*make, place]) for place in interpreters(version)) or not succeeds(install):
+        return None
     (folder / "complete").touch()
     return python
+
+
+def succeeds(command: list[str]) -> bool:
+    """Run a command without its output; whether it can be run and returns 0."""
+    try:
+        return subprocess.run(command, capture_output=True).returncode == 0
+    except OSError:
+        return False
 
 
 def main() -> int:
