@@ -58,8 +58,8 @@ class ElementsCertificate(MaximumPrinciple):
         Momentum of the turn (see `turn_momentum`), relative to the largest costate, and for a free duration
         the residual of the terminal law.
     hamiltonian : () array
-        For a free duration |H|, including the constant term of the target's motion, with which H is 0; for a
-        fixed one the change of H. Its unit is the largest running cost.
+        For a free duration |H|, with the constant that the target's motion contributes; it must be 0. For a
+        fixed duration the change of H. The unit is the largest running cost.
     maximality : () array
         As in `MaximumPrinciple`, in units of the largest running cost.
     cartesian : () array

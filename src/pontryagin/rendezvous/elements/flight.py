@@ -42,7 +42,7 @@ from pontryagin.value import value_class
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 GRAZING = 1e-7
-"""Rate in phi of the event function of |n|^2 at a switch, below which |n| only touches its level."""
+"""Rate in phi of the event function at a switch, up to which |n| counts as only touching its level."""
 
 
 @value_class

@@ -82,7 +82,7 @@ def solve_in_elements(
 
 
 def carried(start: Extremal) -> Array:
-    """The unknowns (7,) of a solution by `solve`: its costates converted to those of A and B, and phi at the end.
+    """The unknowns (7,) for a solution by `solve`: its costates as those of A and B, and phi at the end.
 
     With M the derivative of R and V in A and B, a and b are M' psi.
 

@@ -1,4 +1,4 @@
-"""The first extremal in the elements: the goal's A, B and phi are moved from the coasting craft to the target.
+"""The first extremal in the elements: the goal's A, B, phi move from the coasting craft to the target.
 
 The elements of the target and of the coasting craft are constant. The path from one orbit to the other is
 therefore a straight line in A and B, and more or fewer revolutions are multiples of pi in phi.
@@ -38,7 +38,7 @@ SHARES = (1.0, 0.6, 0.4, 0.25)
 
 
 def coasting_angle(orbit: Elements, duration: float) -> float:
-    """Growth of phi (half the eccentric anomaly) while coasting for a duration, by Kepler's equation; fM = 1."""
+    """Growth of phi (half the eccentric anomaly) over a duration of coasting, by Kepler's equation; fM = 1."""
     A, B = np.asarray(orbit.u), np.asarray(orbit.w)
     pace = math.sqrt(2 * float(orbit.Q))
     square, other, mixed = float(A @ A), float(B @ B), float(A @ B)
@@ -117,7 +117,7 @@ def cold_start(
 def least_energy(
     scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
 ) -> Root[ElementFlight]:
-    """The least-energy extremal of a fixed duration, by `cold_start` at it or at a shorter one, then stretched.
+    """The least-energy extremal of a fixed duration, by `cold_start` or stretched from a shorter duration.
 
     Raises
     ------
