@@ -15,7 +15,7 @@ class Paper(NamedTuple):
     Attributes
     ----------
     name : str
-        What the ledger calls it.
+        The paper's name in the ledger.
     package : str
         Its folder in ``src/pontryagin``; papers that are solved together share one. With hyphens for
         underscores it names the command, ``pontryagin solve PACKAGE``, and the benchmarks.

@@ -1,8 +1,7 @@
 """Differential equations for the integrators, as heyoka's expressions and as functions of NumPy arrays.
 
 The right-hand side is given either by SymPy expressions (`Symbolic`) or by a plain function of numbers that
-runs on both (`Kernel`). Both classes provide the variational equations and the event functions that end an
-arc.
+runs on both (`Kernel`). Both provide the variational equations and the event functions that end an arc.
 """
 
 import math

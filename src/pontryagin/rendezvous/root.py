@@ -67,9 +67,9 @@ def scales(unknowns: Array) -> Array:
 
 
 def tolerance(jacobian: Array, unknowns: Array) -> float:
-    """Largest residual accepted for a meeting: `MEETING`, or more in badly conditioned equations.
+    """Largest residual accepted for a meeting: `MEETING`, or more if the equations are badly conditioned.
 
-    In these it is the effect of rounding, estimated by the condition number, up to `WORST_MEETING`.
+    It is then the effect of rounding as estimated from the condition number, but at most `WORST_MEETING`.
     """
     rounding = 100 * float(np.finfo(float).eps) * float(np.linalg.cond(jacobian * scales(unknowns)))
     return min(max(MEETING, rounding), WORST_MEETING)

@@ -73,8 +73,7 @@ class ElementsCertificate(MaximumPrinciple):
     switching : () array
         Largest relative difference between |n| and its level at the switches.
     condition : () array
-        Condition number of the shooting equations, with costates in units of the largest and phi in units of
-        itself.
+        Condition number of the shooting equations, with the unknowns in the units of `scales`.
 
     Examples
     --------

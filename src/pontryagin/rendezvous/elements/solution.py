@@ -81,12 +81,12 @@ class ElementsExtremal:
 
     @property
     def modes(self) -> tuple[str, ...]:
-        """ "unsaturated", "saturated" or "coast" for each arc between the switches."""
+        """The mode of each arc between the switches: "unsaturated", "saturated" or "coast"."""
         return tuple(piece.mode for piece in self.flight.pieces)
 
     @cached_property
     def certificate(self) -> ElementsCertificate:
-        """Every condition of the maximum principle evaluated anew; see `ElementsCertificate`."""
+        """Every condition of the maximum principle, evaluated independently; see `ElementsCertificate`."""
         return certify(self.root, self.problem.free)
 
     def _sampled(self, t: ArrayLike) -> tuple[Array, Array]:

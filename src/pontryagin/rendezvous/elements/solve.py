@@ -32,8 +32,7 @@ def solve_in_elements(
     """A rendezvous of least integral of alpha1 + alpha2 p^2 in Sapunkov's elements, his (1).
 
     The elements of the goal are moved from the craft's to the target's; then a free duration is changed until
-    the terminal law holds, and the bound is lowered. One family of extremals is followed; `solve` follows
-    several.
+    the terminal law holds, and the bound is lowered. Unlike `solve`, it follows one family of extremals only.
 
     Parameters
     ----------

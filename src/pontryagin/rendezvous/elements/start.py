@@ -38,7 +38,7 @@ SHARES = (1.0, 0.6, 0.4, 0.25)
 
 
 def coasting_angle(orbit: Elements, duration: float) -> float:
-    """Growth of phi (half the eccentric anomaly) over a duration of coasting, by Kepler's equation; fM = 1."""
+    """Growth of phi (half the eccentric anomaly) over a time of coasting, by Kepler's equation; fM = 1."""
     A, B = np.asarray(orbit.u), np.asarray(orbit.w)
     pace = math.sqrt(2 * float(orbit.Q))
     square, other, mixed = float(A @ A), float(B @ B), float(A @ B)

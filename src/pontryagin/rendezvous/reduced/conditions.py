@@ -50,8 +50,7 @@ class Setting:
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
     rough : bool
-        Whether flights are integrated only to 1e-10, as along curves, whose points are only guesses for
-        `meet`.
+        Whether flights are integrated only to 1e-10, as along curves, whose points are guesses for `meet`.
     """
 
     scaled: Scaled

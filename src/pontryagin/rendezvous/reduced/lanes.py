@@ -50,7 +50,7 @@ class Flights:
     slopes : (k, 12, 7) array or None
         Derivatives of the ends in the costates and in p_max; None if they were not integrated.
     switches : (k,) array of int
-        How often the thrust met its bound or left it.
+        Number of times that the thrust met its bound or left it.
     """
 
     costates: Array

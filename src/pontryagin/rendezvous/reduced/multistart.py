@@ -53,7 +53,7 @@ class Carried:
     slopes : (..., 6, 6) array
         Derivatives of the miss in the costates at t0, by the variational equations.
     switches : (...) array of int
-        How often the thrust met its bound or left it.
+        Number of times that the thrust met its bound or left it.
 
     Examples
     --------
@@ -180,8 +180,7 @@ def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
 def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]:
     """The extremals of a fixed duration that Newton's method reaches from many starts, cheapest first.
 
-    All flights are integrated together; each start takes its own step, halved while the miss does not become
-    smaller.
+    All flights are integrated together; each start takes its own step, halved while the miss does not fall.
 
     Parameters
     ----------
@@ -193,8 +192,7 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     Returns
     -------
     tuple of Extremal
-        Each extremal once; empty if no start led to one. `searched` of the first one counts the failed
-        starts.
+        Each extremal once; empty if none was reached. `searched` of the first one counts the failed starts.
 
     Raises
     ------

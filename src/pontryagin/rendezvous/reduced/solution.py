@@ -99,7 +99,7 @@ class Extremal:
 
     @property
     def modes(self) -> tuple[str, ...]:
-        """ "unsaturated" or "saturated" for each arc between the switches."""
+        """The mode of each arc between the switches: "unsaturated" or "saturated"."""
         return tuple(piece.mode for piece in self.flight.pieces)
 
     @cached_property
@@ -109,7 +109,7 @@ class Extremal:
 
     @cached_property
     def certificate(self) -> RendezvousCertificate:
-        """Every condition of the maximum principle evaluated anew; see `RendezvousCertificate`."""
+        """Every condition of the maximum principle, evaluated independently; see `RendezvousCertificate`."""
         return certify(self.root, self.problem.scaled.weights, self.problem.free)
 
     def _sampled(self, t: ArrayLike) -> Array:
