@@ -83,7 +83,7 @@ def energy_and_momentum() -> Evidence:
 
 
 def radius_rate(pericentre: sp.Expr) -> sp.Expr:
-    """r' less v_r, from the rates of the elements, γ' given: an impulse does not move the body at once."""
+    """r' − v_r by the rates of the elements, for a given γ'; 0 if γ' is right, as no impulse displaces."""
     rates = kepler.element_rates()
     radius = kepler.conic()[r]
     moved = radius.diff(momentum) * rates[momentum] + radius.diff(e) * rates[e]
