@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 
 def force_of(maneuver):
-    """The disturbance as a function of time."""
+    """The disturbance of a manoeuvre as a function of time."""
     f = maneuver.disturbance
     if f is None:
         return lambda t: 0.0

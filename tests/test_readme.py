@@ -1,4 +1,4 @@
-"""Figures, functions and files named in the README exist, none is missing, and its example runs."""
+"""The README lists every figure and table, what it names exists, and its example runs."""
 
 import re
 

@@ -7,5 +7,5 @@ enumeration  all exact extremals for decreasing epsilon, compared with the avera
 flows        the exact canonical equations by heyoka, DOP853 and LSODA
 collocation  SciPy's solve_bvp from the averaged solution, and the extremal that it finds
 figures      plots of the results
-measure      all tables and plots
+measure      all tables and plots together
 """

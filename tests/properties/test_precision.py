@@ -54,7 +54,7 @@ def exact_impulse(c, T):
 )
 @given(x0=states(wide()), xf=states(wide()), duration=st.floats(-3, 3).map(lambda e: 10.0**e))
 def test_norms_over_six_decades_of_data(solve, exact, x0, xf, duration):
-    """The tolerance allows for rounding of the moments: the norm of their terms taken in modulus."""
+    """The tolerance is relative to the norm plus that of the moduli of the moments' terms, for rounding."""
     with mp.workdps(50):
         expected = exact(exact_moments(x0, xf, duration), exactly(duration))
         sizes = exact_moments(-np.abs(x0), np.abs(xf), duration)

@@ -92,7 +92,7 @@ def test_residual_and_gap_of_a_hundred_thousand_transfers():
 
 @pytest.mark.parametrize("name", ["energy", "peak", "impulse"])
 def test_special_numbers_raise_nothing_in_plain_python(name):
-    """Zeros, halves, neighbours of one, numbers with vanishing or overflowing squares: as compiled."""
+    """Plain kernels agree with the compiled ones at zeros, halves, near one, and at tiny and huge numbers."""
     kernel, stack = KERNELS[name]
     special = [0.0, 1.0, 0.5, 1 / 6, 1e-8, 1e-20, 1e-160, 1e-300, 1e100, 1 + 2e-16, 1 - 1e-16, 1 / 3]
     special += [-x for x in special]

@@ -1,4 +1,4 @@
-"""Averaged extremals compared with closed forms, quadratures and SciPy's integrator; unsolvable problems."""
+"""Averaged extremals compared with closed forms, quadratures and SciPy; problems without a solution."""
 
 import numpy as np
 import pytest

@@ -83,7 +83,10 @@ def energy_and_momentum() -> Evidence:
 
 
 def radius_rate(pericentre: sp.Expr) -> sp.Expr:
-    """r' − v_r by the rates of the elements, for a given γ'; 0 if γ' is right, as no impulse displaces."""
+    """r' − v_r by the rates of the elements, for a given γ'.
+
+    It vanishes if γ' is right, since an impulse does not displace the body.
+    """
     rates = kepler.element_rates()
     radius = kepler.conic()[r]
     moved = radius.diff(momentum) * rates[momentum] + radius.diff(e) * rates[e]

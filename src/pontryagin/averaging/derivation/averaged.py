@@ -37,7 +37,7 @@ def homogeneity() -> sp.Expr:
 
 
 def mean_rates() -> sp.Matrix:
-    """f0 = dh0/deta: the mean of f under the maximising control, by the envelope."""
+    """f0 = dh0/deta: the mean of f under the maximising control, by the envelope theorem."""
     return sp.Matrix([h0.diff(y) for y in eta])
 
 

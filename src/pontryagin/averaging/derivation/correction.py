@@ -8,9 +8,9 @@ second order. The change of the action and of the ends under it is the whole fir
     J1(theta) = S(xi1, theta, eta1) - S(a0, x0, eta0) - integral of omega k2mean over tau from 0 to tau1,
 
 with S the zero-mean primitive of mean(k1) - k1 in x, k2mean the second mean Hamiltonian, and theta the
-anomaly at the end. The optimum has the least J1(theta). The integral vanishes where reversing the anomaly
-reverses the system (k1 even in x and k2 odd: `mean_hamiltonian` is zero), so that the two end terms suffice
-there; in general it does not vanish.
+anomaly at the end. The optimum has the least J1(theta). The short form of the theory has the end terms
+alone. It is complete where reversing the anomaly reverses the system: then k1 is even in x, k2 is odd, and
+`mean_hamiltonian` is zero. In general the integral does not vanish.
 
     here   meaning
     k1     h*/r at p_x = 0, with r(a, x) the rate of the anomaly at eps = 0

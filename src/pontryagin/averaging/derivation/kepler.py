@@ -78,7 +78,7 @@ def laplace() -> sp.Matrix:
 def conic() -> sp.Dict:
     """r, v_r and v_phi as functions of K, e and x: the orbit of (3.4).
 
-    Laplace's vector has the length e and makes the angle -x with the radius, which determines all three.
+    Laplace's vector, of length e and at the angle -x to the radius, is solved for r, v_r and v_phi.
     """
     vector = laplace_in_the_orbit()
     conditions = [

@@ -1,4 +1,4 @@
-"""The averaged problem of example 2 solved in closed form (Akulenko 1977, (3.9)), and what follows from it.
+"""The closed solution of the averaged problem of example 2 (Akulenko 1977, (3.9)), and its consequences.
 
 paper       here                              meaning
 E0, K0, E1  energy0, momentum0, energy1       E and K at the start, E at the end
@@ -40,7 +40,7 @@ momentum0 = sp.Symbol("K_0", positive=True)
 direction = sp.Symbol("sigma", real=True, nonzero=True)
 
 OPTIMUM = {costate_momentum: 0, kappa: 0}
-"""p_K = 0 at the end, where K is free, hence always, as dp_K/dtau has the factor p_K; kappa = 0 is optimal."""
+"""p_K = 0 at the end, where K is free, hence always, as its rate has the factor p_K; kappa = 0 is optimal."""
 
 
 def optimal_rates() -> dict[sp.Symbol, sp.Expr]:

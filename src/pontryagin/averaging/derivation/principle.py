@@ -1,4 +1,4 @@
-"""The maximum principle for a general standard system, and (2.1) (Akulenko 1977, section 1 and (2.1)).
+"""The maximum principle of a general system, and its reduction to (2.1) (Akulenko 1977, section 1 and (2.1)).
 
 here           meaning
 -------------  --------------------------------------------------------------------------

@@ -160,7 +160,7 @@ def cylinder_maximiser() -> sp.Matrix:
 
 
 def cylinder_hamiltonian() -> sp.Expr:
-    """H of the exact problem on the cylinder after the maximum, the cost being epsilon t."""
+    """H of the exact problem maximised over the cylinder, with the cost epsilon t."""
     s = switching()
     support = l * sp.sqrt(sp.simplify(s[0] ** 2 + s[1] ** 2)) + h * sp.Abs(s[2])
     return p_psi * anomaly_rate() + epsilon * (support - 1)

@@ -128,7 +128,10 @@ def rate_by_angle(force: sp.Expr = FORCE, control: sp.Expr = u) -> sp.Expr:
 
 
 def costate_rate(force: sp.Expr = FORCE) -> sp.Expr:
-    """p' on an exact least-time extremal (cost epsilon t), p_x eliminated by H = 0; linear in p."""
+    """p' on a least-time extremal of the exact problem, in terms of x and v, linear in p.
+
+    The cost is epsilon t; p_x is eliminated by H = 0.
+    """
     hamiltonian = epsilon * p * slow_rate(force=force) + p_x * speed() - epsilon
     along = sp.solve(hamiltonian, p_x)[0]
     rate = -hamiltonian.diff(a).subs(p_x, along)
