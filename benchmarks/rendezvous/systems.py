@@ -25,7 +25,7 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 STEPS = 2000
-"""Most steps of a flight."""
+"""Maximum number of steps of a flight."""
 
 EIGHT, FULL, LONG, REPAIRED, REDUCED = (
     "16, eight costates",
@@ -52,7 +52,7 @@ EIGHT_COSTATES = tuple(principle.COSTATE)
 
 
 def costates_of(size: str) -> tuple[sp.Symbol, ...]:
-    """The initial values by which a form is differentiated."""
+    """The costates at t0 by which a form is differentiated."""
     if size == "16":
         return (principle.rho, principle.s1, principle.e, *principle.COSTATE[5:])
     return SIX
@@ -151,7 +151,7 @@ class Problem:
         return np.array([*six[:3], 0.0, 0.0, *six[3:]]) if self.name == EIGHT else np.array(six)
 
     def six(self, unknowns: Array) -> Array:
-        """rho, s1, e, nu of the unknowns."""
+        """The values of rho, s1, e, nu among the unknowns."""
         return np.delete(unknowns, [3, 4]) if self.name == EIGHT else unknowns
 
     def residual(self, scaled: Scaled, unknowns: Array, duration: float) -> tuple[Array, Array] | None:

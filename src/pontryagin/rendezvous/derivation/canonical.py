@@ -1,9 +1,9 @@
 """A second derivation of the 16 equations: the costates are transformed from Cartesian coordinates.
 
 R and V together are a function X of x = (r, v1, c, lambda). The costate of x for which (psi, dX) is invariant
-is (dX/dx)' psi; its rate follows from Newton's law for x and the canonical equations for psi. The thrust is
-given by its components in eta here too, with axes that are functions of R and V, so that both problems have
-the same controls. nu0 is 0, since X does not depend on a scalar factor of lambda.
+is (dX/dx)' psi; its rate follows from Newton's law for x and the canonical equations for psi. Here too the
+thrust is given by its components in eta, whose axes are functions of R and V, so both problems have the same
+controls. nu0 is 0, since X does not depend on a scalar factor of lambda.
 
 The equations are compared at rational points r, v1, c, lambda with |lambda| = 1, so that no roots occur; psi
 and the thrust remain symbols.
@@ -67,7 +67,7 @@ def _moving(rates: sp.Matrix) -> sp.Matrix:
 
 
 def _along(expressions: sp.Matrix, point: Point, rates: sp.Matrix) -> sp.Matrix:
-    """d/dt of functions of x at a point, with the rates of x."""
+    """d/dt of functions of x at a point where x has the given rates."""
     shifted = {x: point[x] + step * rate for x, rate in zip(MOVING, rates, strict=True)}
     return expressions.subs(shifted, simultaneous=True).diff(step).subs(step, 0)
 

@@ -1,9 +1,9 @@
 """The problem in Cartesian coordinates, where n is Lawden's primer vector.
 
-H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*' has psi_R = -psi_V' and psi_V'' =
-G psi_V, where G is the gradient of gravity. The thrust lies along psi_V, so psi_V is n in inertial axes.
-`carried` is the derivative of n in inertial axes along the reduced equations; with the thrust along n it does
-not depend on the thrust, and the second derivative is G n.
+With H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*', psi_R = -psi_V' and
+psi_V'' = G psi_V, where G is the gradient of gravity. The thrust lies along psi_V, so psi_V is n in inertial
+axes. `carried` is the derivative of n in inertial axes along the reduced equations; with the thrust along n
+it does not depend on the thrust, and the second derivative is G n.
 
 The rotating axes eta depend on the state, so a thrust given by its components in eta is another function of
 the state than one given in inertial axes: for thrusts not along n the two sets of costates differ.

@@ -1,6 +1,6 @@
 """Symbols that have a plain name in generated source and the paper's name in print.
 
-The name is that of the argument in generated source and functions; a formula shows `TEX`.
+A symbol's name is that of the argument in generated source and functions; a formula shows its entry in `TEX`.
 """
 
 import sympy as sp

@@ -1,4 +1,4 @@
-"""One solution of the conditions as printed: what they leave, what (6) leaves, and the distance missed."""
+"""One solution of the printed conditions: their residual, the residual of (6), and the distance missed."""
 
 import math
 from dataclasses import dataclass, field
@@ -28,8 +28,8 @@ class RotatedMeeting:
         The solution. `boundary`, `transversality`, `hamiltonian` and `maximality` of its certificate are as
         small as those of a true meeting; `attitude` and `cartesian` are not.
     angle : float
-        The angle in radians by which lambda(t_k) is rotated from lambda*, whole turns counted: about nu*, in
-        the plane about the normal of the target's orbit.
+        Angle in radians by which lambda(t_k) is rotated from lambda*, including whole turns: about nu*, or
+        about the normal of the target's orbit where craft and target move in one plane.
     """
 
     extremal: Extremal = field(repr=False)

@@ -26,7 +26,7 @@ ROTATED = ORANGE
 
 @dataclass(frozen=True)
 class Units:
-    """The units in which a figure shows a problem's numbers, and their names for the axes; "" for none."""
+    """The units in which a figure shows a problem's numbers, and their names; a name may be empty."""
 
     length: float
     time: float

@@ -1,4 +1,4 @@
-"""The extremals of a problem without a bound, where the cost as a function of the duration is stationary."""
+"""Free-time extremals without a bound on the thrust, as stationary points of the cost over the duration."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -23,7 +23,7 @@ from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.root import scales
 
 MARGIN = 1.25
-"""Factor by which curves are continued beyond the shortest and the longest duration of an extremal."""
+"""Factor by which curves extend beyond the shortest and the longest duration of the extremals found."""
 DEAREST = 1.6
 """Cost up to which curves are drawn, in units of the best cost."""
 

@@ -75,7 +75,7 @@ class Rendezvous:
         self._check_sizes()
 
     def _check_consistency(self) -> None:
-        """Refuse what leaves nothing to minimise, and a craft that does not start on an ellipse."""
+        """Refuse problems with nothing to minimise, and a craft that does not start on an ellipse."""
         if self.time_weight == 0 and self.energy_weight == 0:
             raise ArgumentValueError(
                 "time_weight and energy_weight must not both be 0: nothing would be minimised", "time_weight"
