@@ -1,4 +1,4 @@
-"""Our solver against the aims: warm solves, the homotopy from coasting to least time, the full search."""
+"""Solve times against their aims: warm solves, the homotopy from coasting to least time, the full search."""
 
 from time import process_time
 

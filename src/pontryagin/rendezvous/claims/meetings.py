@@ -209,7 +209,7 @@ class Outcome:
 
     @property
     def turn(self) -> float:
-        """Angle between the attitude and the target's, in degrees."""
+        """Angle between the attitude of the craft and that of the target, in degrees."""
         return float(np.degrees(2 * np.arcsin(min(self.mismatch, 1.0))))
 
 

@@ -73,7 +73,7 @@ def _along(expressions: sp.Matrix, point: Point, rates: sp.Matrix) -> sp.Matrix:
 
 
 def state_gap(point: Point) -> sp.Matrix:
-    """X' by (2) and (3) less dH/dpsi, (6,)."""
+    """X' by (2) and (3) minus dH/dpsi, (6,)."""
     energy = hamiltonian(place_and_velocity().subs(point))
     newton = sp.Matrix([energy.diff(x) for x in PSI])
     rates = _moving(principle.state_rates()).subs(point)
@@ -81,7 +81,7 @@ def state_gap(point: Point) -> sp.Matrix:
 
 
 def costate_gap(point: Point) -> sp.Matrix:
-    """d/dt of (dX/dx)' psi along the canonical equations in R and V, less -dH/dx in 16 dimensions, (7,)."""
+    """d/dt of (dX/dx)' psi along the canonical equations in R and V, minus -dH/dx in 16 dimensions, (7,)."""
     place = place_and_velocity().subs(point)
     nearby = [hamiltonian(place + step * sp.eye(6)[:, k]) for k in range(6)]
     psi_rates = -sp.Matrix(nearby).diff(step).subs(step, 0)
@@ -91,13 +91,13 @@ def costate_gap(point: Point) -> sp.Matrix:
 
 
 def hamiltonian_gap(point: Point) -> sp.Expr:
-    """H in 16 dimensions less H in R and V: the term of phi*, which is Phi* phi*'."""
+    """H in 16 dimensions minus H in R and V: the term of phi*, which is Phi* phi*'."""
     energy = in_psi(sp.Matrix([principle.hamiltonian()]), point)[0]
     return sp.expand(energy - hamiltonian(place_and_velocity().subs(point)))
 
 
 def optimal_gap(mode: principle.Mode, point: Point, psi: Point) -> sp.Matrix:
-    """Rates of X and of (dX/dx)' psi by `forms.full`, less those by `inertial.cartesian`, (13,).
+    """Rates of X and of (dX/dx)' psi by `forms.full`, minus those by `inertial.cartesian`, (13,).
 
     Each system has its own optimal thrust. `psi` must have a rational |psi_V|.
     """

@@ -99,7 +99,7 @@ def in_switching_length(expression: sp.Expr, n: sp.Matrix) -> sp.Expr:
 
 @cache
 def along_switching() -> sp.Expr:
-    """H at the thrust p n/|n| less H without thrust, in terms of p and |n|."""
+    """H at the thrust p n/|n| minus H without thrust, in terms of p and |n|."""
     n, energy = switching(), in_nu(hamiltonian())
     with_thrust = energy.subs(dict(zip(thrust, thrust_magnitude / size(n) * n, strict=True)))
     return in_switching_length(sp.expand(with_thrust - energy.subs(dict.fromkeys(thrust, 0))), n)
@@ -109,8 +109,8 @@ def along_switching() -> sp.Expr:
 def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """The p in 0 <= p <= p_max at which `along_switching` is largest.
 
-    There are three values: the two cases of (10) for alpha2 > 0, where |n| <= 2 alpha2 p_max and where |n| >
-    2 alpha2 p_max, and the case alpha2 = 0. The candidates are both ends of the interval, and the point
+    The three values are those of the two cases of (10) for alpha2 > 0, |n| <= 2 alpha2 p_max and
+    |n| > 2 alpha2 p_max, and that for alpha2 = 0. The candidates are both ends of the interval, and the point
     between them where the slope vanishes.
     """
     gain, excess, weight = along_switching(), sp.Symbol("k", positive=True), sp.Symbol("w", positive=True)

@@ -9,7 +9,7 @@ Since u has four components and the place three, there are three redundancies th
 remove:
 
 turn      u -> exp(i1 s) o u does not change R. Its momentum (a, i1 o A) + (b, i1 o B) is constant, and 0
-          because the set of admissible ends is invariant.
+          because the set of admissible ends is invariant under this change of u.
 relation  scal(A~ o i1 o B) = 0 always, so its gradient may be added to the costates without changing the
           thrust.
 phase     the origin of phi is arbitrary: (a, B) - (b, A) is the costate of phi.

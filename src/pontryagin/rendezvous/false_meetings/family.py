@@ -78,7 +78,7 @@ class FalseFamily:
 
     @property
     def distances(self) -> Array:
-        """Distances from the target at t_k, (k,)."""
+        """Distances from the target at t_k, (k,), in the user's unit of length."""
         return self._each("distance")
 
     @cached_property
@@ -149,8 +149,8 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
         Solution of a problem with a free duration.
     angles : (k,) array_like
         Angles in radians, of either sign; 2 pi is a whole turn. The rotation is about nu*; where craft and
-        target move in one plane it is about the normal of the target's orbit, and positive is ahead of the
-        target.
+        target move in one plane it is about the normal of the target's orbit, and a positive angle is ahead
+        of the target.
 
     Raises
     ------

@@ -42,7 +42,7 @@ class RotatedMeeting:
 
     @property
     def flight(self) -> Flight:
-        """The extremal in the solver's units."""
+        """The flight of the extremal, in the solver's units."""
         return self.extremal.flight
 
     @property
@@ -85,11 +85,11 @@ class RotatedMeeting:
 
     @property
     def distance(self) -> float:
-        """Distance between craft and target at t_k, by Newton's law and Kepler's equation."""
+        """Distance of craft and target at t_k in the user's unit, by Newton's law and Kepler's equation."""
         return float(np.linalg.norm(self._separation[:3])) * self.problem.scaled.length
 
     @property
     def drift(self) -> float:
-        """Speed of the craft relative to the target at t_k."""
+        """Speed of the craft relative to the target at t_k, in the user's unit."""
         scaled = self.problem.scaled
         return float(np.linalg.norm(self._separation[3:])) * scaled.length / scaled.time

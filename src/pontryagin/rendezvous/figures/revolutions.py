@@ -30,7 +30,7 @@ DEAREST = 1.6
 
 @styled
 def revolutions(found: Mapping[str, Extremal]) -> Figure:
-    """Cost over t_k of the fixed-time extremals on every branch, and the free-time extremals as dots."""
+    """Cost against t_k for the fixed-time extremals on every branch, and the free-time extremals as dots."""
     figure, axes = subplots(1, len(found), height=3.6, squeeze=False)
     for ax, (name, best) in zip(axes[0], found.items(), strict=True):
         _draw_branches(ax, best)

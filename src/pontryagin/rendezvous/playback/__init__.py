@@ -83,8 +83,8 @@ def record_extremal(extremal: Extremal, path: Path, true: Extremal | None = None
     Parameters
     ----------
     extremal : Extremal
-        A true meeting, or a result of `false_meeting`: then the target is shown where it is, and in orange
-        where the craft would meet it.
+        A true meeting, or a result of `false_meeting`. For a false meeting the target is shown where it is,
+        and in orange where the craft would meet it.
     path : Path
         File to write, ending in ``.rrd``.
     true : Extremal, optional

@@ -158,7 +158,7 @@ class RendezvousMotion:
 
     @cached_property
     def hamiltonian(self) -> Array:
-        """H at `t`, (k,), over the largest running cost; for a fixed duration H less its value at t_k."""
+        """H at `t`, (k,), over the largest running cost; for a fixed duration H minus its value at t_k."""
         flight, problem = self.extremal.flight, self.extremal.problem
         weights = problem.scaled.weights
         thrust = certify.flown_thrust(flight, self.t / problem.scaled.time, self.states)

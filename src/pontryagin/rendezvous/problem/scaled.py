@@ -91,7 +91,7 @@ class Scaled:
 
     @property
     def costate_units(self) -> Array:
-        """The solver's units of rho, s1, e, nu1, nu2, nu3 in the user's, (6,): of the cost over the state."""
+        """The solver's units of the six costates in the user's, (6,): the cost's unit over the state's."""
         speed = self.length / self.time
         return self.value / np.array([self.length, speed, self.length * speed, 1.0, 1.0, 1.0])
 

@@ -90,6 +90,6 @@ def target_by_kepler(scaled: Scaled, time: float) -> Array:
 
 
 def separation(flight: Flight) -> Array:
-    """R and V of the craft less those of the target at t_k, (6,); axes and units as in `fly_cartesian`."""
+    """R and V of the craft minus those of the target at t_k, (6,); axes and units as in `fly_cartesian`."""
     end = fly_cartesian(flight, np.array([flight.duration]))[0, :6]
     return end - target_by_kepler(flight.scaled, flight.duration)
