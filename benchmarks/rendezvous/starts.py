@@ -1,8 +1,8 @@
 """Newton's method from the same random starts in each form of one fixed-time problem.
 
 Where a form's own residual vanishes, the extremal is tested against (5) and (6): it is a true meeting or a
-false one. With nu0 = 0, the forms with 16, 14 and 11 equations define the same map and differ only by
-rounding.
+false one. With nu0 = 0, the forms with 16, 14 and 11 equations define the same map and differ only
+by rounding.
 """
 
 from dataclasses import dataclass

@@ -19,8 +19,8 @@ TEX = {
 class Symbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types.
     """A symbol that prints as given in `TEX`.
 
-    SymPy orders expressions by the name of the class; with this name these symbols are ordered among plain
-    ones.
+    SymPy orders expressions by the name of the class; with this name these symbols are ordered among the
+    plain ones.
 
     Examples
     --------

@@ -228,8 +228,8 @@ def _curve(
 ) -> tuple[list[Point[ReducedEquations]], dict[float, Root[Flight]]]:
     """Follow the curve from a true meeting through angles of one sign, sorted by magnitude.
 
-    Returns the points of the curve up to the first one at or beyond the last angle, and the solutions at the
-    angles.
+    Returns the points of the curve up to the first one at or beyond the last angle, and the solutions at
+    the angles.
     """
     family, points, roots = (
         rotated_target_family(solution),

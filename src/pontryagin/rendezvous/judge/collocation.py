@@ -63,8 +63,8 @@ def direct(
     guess : float
         A duration to start from, in the user's unit of time; not used where the duration is prescribed.
     revolutions : float
-        Approximate number of revolutions of the initial path; the nearest one that ends at the target is
-        used.
+        Approximate number of revolutions of the initial path; the nearest one that ends at the target
+        is used.
     intervals : int
         Number of intervals of the mesh.
     fuel : bool

@@ -26,8 +26,8 @@ class Rendezvous:
     chaser, target : Chaser, Orbit
         The craft under control and its target, both at t0 = 0.
     time_weight, energy_weight : float
-        alpha1 and alpha2, neither negative nor both zero. With ``energy_weight=0`` the duration is
-        minimised.
+        alpha1 and alpha2, neither negative nor both zero. With ``energy_weight=0`` the duration
+        is minimised.
     peak : float
         p_max, in units of acceleration; ``math.inf`` for no bound, if ``energy_weight`` is positive.
     gravity : float
