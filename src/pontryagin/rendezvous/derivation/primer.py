@@ -69,7 +69,7 @@ def hamiltonian() -> sp.Expr:
 
 
 def turning_invariant(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> sp.Matrix:
-    """2 (R x psi_R + V x psi_V) in eta."""
+    """The integral nu* = 2 (R x psi_R + V x psi_V), by its components in eta."""
     velocity = v1 * EX + c / r * EY
     moment = (r * EX).cross(position_costate) + velocity.cross(velocity_costate)
     return (2 * moment).applyfunc(sp.expand)
@@ -87,7 +87,7 @@ def transversality_condition() -> sp.Expr:
 
 
 def costates(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
-    """rho, s1, e, nu of psi_R and psi_V in eta: from (9), from psi_V' and from the integral nu*."""
+    """rho, s1, e, nu in terms of psi_R and psi_V in eta: from (9), from psi_V' and from the integral nu*."""
     along_radius = sp.Dummy("psi_R1")
     rho = sp.solve(carried()[0] + along_radius, principle.rho)[0]
     s1, e = velocity_costate[0], velocity_costate[1] / r

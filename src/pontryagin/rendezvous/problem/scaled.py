@@ -32,7 +32,7 @@ class Scaled:
     anomaly, eccentricity : float
         phi* at t0, in radians; e*.
     orientation : (4,) array
-        lambda0~ o Lambda*.
+        lambda0~ o Lambda*, with lambda0 the attitude of the craft at t0.
     ratio : float
         alpha1/alpha2; inf where alpha2 = 0.
     peak : float
