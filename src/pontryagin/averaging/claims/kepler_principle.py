@@ -171,7 +171,7 @@ def average_weight() -> Evidence:
 
 
 def hamiltonian_drift(momentum_costate_rate: sp.Expr) -> sp.Expr:
-    """dh0/dtau of the averaged system at kappa = 0 for a given rate of p_K; 0 for the rate by Hamilton."""
+    """dh0/dtau of the averaged system at kappa = 0 for a given rate of p_K; Hamilton's equations give 0."""
     h0 = principle.averaged_hamiltonian()
     rates = dict(principle.averaged_rates()) | {p_K: momentum_costate_rate}
     return sum(h0.diff(variable) * rate for variable, rate in rates.items()).subs(SAMPLE)

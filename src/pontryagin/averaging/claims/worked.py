@@ -3,8 +3,7 @@
 v' = eps (u + cos(x)/2), x' = v, b' = eps (1 + u^2); v rises from 1 to 2, x(0) = 0, b(t1) is to be least. With
 H = 0 and v as the independent variable the family (2.1) is obtained by integration alone: each initial
 costate p gives one member, and the members with q(t1) = 0 are the extremals. The extremals that the solver
-finds are integrated again with SciPy, and their number is compared with the sign changes of h* along the
-family.
+finds are integrated again with SciPy, and their number is compared with the sign changes of h*.
 """
 
 from dataclasses import dataclass

@@ -102,7 +102,7 @@ def end_term(S: sp.Expr, a: Symbols, p: Symbols) -> sp.Expr:
     """The change of the cost per eps that the transformation makes at one end: it is S.
 
     The action p da - K dx is P dA - (mean K) dx plus the differential of aP + eps S - AP, and the mean
-    problem starts and ends at A = a + eps S_P, where its cost changes by P (A - a), as `variation` says.
+    problem starts and ends at A = a + eps S_P, where its cost changes by P (A - a), see `variation`.
     """
     A = [b + eps * sp.diff(S, q) for b, q in zip(a, p, strict=True)]
     action = sum(b * q for b, q in zip(a, p, strict=True)) + eps * S

@@ -213,8 +213,7 @@ def model() -> OrbitModel:
     The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
     anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps
     are affine in the control; `anomaly_rate` is x' without thrust, the same as mean_motion/weight. The
-    eccentricity is written out as sqrt(1 + 2 E K^2); on the circle, where it vanishes, `phase_rate` has no
-    value.
+    eccentricity is written as sqrt(1 + 2 E K^2); where it vanishes, on the circle, `phase_rate` is undefined.
     """
     rates = element_rates()
     slow = sp.Matrix([affine(rates[energy] / epsilon), affine(rates[momentum] / epsilon)])
