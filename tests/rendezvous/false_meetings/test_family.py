@@ -48,7 +48,7 @@ def family(degrees: int):
 
 
 def axis_of(nu: np.ndarray, problem: Rendezvous) -> np.ndarray:
-    """The axis of the rotation: nu*, or the normal of the target's orbit where both are coplanar."""
+    """The axis of the rotation: nu*, or the normal of the target's orbit where the orbits are coplanar."""
     normal = Rotation.from_quat(problem.target.attitude, scalar_first=True).apply([0, 0, 1])
     return normal if normal[2] == pytest.approx(1, abs=1e-15) else nu / np.linalg.norm(nu)
 
