@@ -1,6 +1,6 @@
 """The orbit in the plane: position, velocity, thrust and osculating ellipse (Akulenko 1977, example 2).
 
-The axes are fixed in the attracting centre; gamma is the angle from the first axis to the pericentre.
+Fixed axes with the attracting centre as origin; gamma is the angle from the first axis to the pericentre.
 """
 
 import sympy as sp
