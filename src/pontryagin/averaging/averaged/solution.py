@@ -56,9 +56,9 @@ class AveragedSolution:
     model : Model
         The averaged system, compiled.
     edges : array
-        Ends of the pieces of (0, tau_1), as shares of it.
+        Ends of the pieces of (0, tau_1), as fractions of tau_1.
     series : array
-        Chebyshev coefficients of xi and eta on the pieces.
+        Chebyshev coefficients, on the pieces, of xi, eta and the integral of omega over the fraction.
     make_system : callable
         Makes the `PhaseSystem` at the first use of `system`.
     frame : callable or None
@@ -99,7 +99,7 @@ class AveragedSolution:
         return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
-        """psi_0 + integral of omega d tau / epsilon, right to O(1), as (..., k).
+        """psi_0 + integral of omega d tau / epsilon, with an error of O(1), as (..., k).
 
         Raises
         ------

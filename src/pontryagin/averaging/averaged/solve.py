@@ -46,7 +46,7 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
     Infeasible
         If the target cannot be reached: the mean drift opposes every control and exceeds it.
     NotConverged
-        If no extremal was found; its `residual` is what was missing.
+        If no extremal was found, with the residual of the equations or the distance left to the target.
 
     Examples
     --------

@@ -73,7 +73,7 @@ def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
 
 
 def _crossings(problem: Shooting, sign: float, turns: float) -> list[tuple[float, float]]:
-    """Anomalies at which the trajectory meets the target, with a there, until a turn has none."""
+    """Anomalies where the trajectory meets the target, with a there, sought until a turn has none."""
     follow = _trajectory(problem.equations, sign)
     state, begin = np.append(problem.start, [0.0, 0.0]), problem.anomaly
     found: list[tuple[float, float]] = []

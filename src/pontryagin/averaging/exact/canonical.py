@@ -84,7 +84,7 @@ class Canonical:
 
 
 def canonical(system: StandardForm) -> Canonical:
-    """The exact equations of a `PhaseSystem`; they are derived once for equal expressions.
+    """The exact equations of a `PhaseSystem`; systems with equal expressions share them.
 
     Examples
     --------

@@ -66,7 +66,7 @@ class Window:
     limits: tuple[str, str]
 
     def count(self, epsilon: float) -> float:
-        """Extremals to expect: roots |Psi(kappa'') - Psi(kappa')| / (2 pi epsilon)."""
+        """Expected number of extremals: roots |Psi(kappa'') - Psi(kappa')| / (2 pi epsilon)."""
         small = float(positive("epsilon", epsilon))
         return float(self.roots * abs(self.turned[1] - self.turned[0]) / (2 * np.pi * small))
 
@@ -110,7 +110,7 @@ def window(solution: AveragedSolution) -> Window:
 
 
 def _members(solution: AveragedSolution, kappa: float | Array) -> AveragedSolution:
-    """The same problem for other kappas."""
+    """The averaged solutions of the same problem at other kappas."""
     return solved(
         solution.model,
         solution.names,

@@ -41,7 +41,7 @@ class Extremal:
         "minimum" or "maximum" of J among the solutions that end at neighbouring anomalies.
     epsilon : float
     starting_anomaly, ending_anomaly : float
-        x at the start, in its first turn, and at the end; of `spin_down`, the angle chi of `rotating_frame`.
+        x at the start, in its first turn, and at the end; for `spin_down`, the angle chi of `rotating_frame`.
     curvature : float
         d^2 J / dtheta^2 along the family, epsilon dy/dtheta: the sign decides `kind`.
     initial : (2n + 3,) array
@@ -155,12 +155,12 @@ class Extremals(Sequence[Extremal]):
 
     @property
     def traced(self) -> Family:
-        """The family.
+        """The family, which must exist.
 
         Raises
         ------
         ValueError
-            If there is none, as for the least time with one slow variable.
+            If there is no family, as for the least time with one slow variable.
         """
         if self.family is None:
             raise ValueError("these extremals have no family over the ending anomaly")

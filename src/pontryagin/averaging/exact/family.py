@@ -241,7 +241,7 @@ def _joined(parts: Sequence[Member], ends: tuple[str, str]) -> _Turn:
 
 
 def local_range(theta: Array, y: Array) -> Array:
-    """Range of y within a turn of each member."""
+    """Range of y within a turn on either side of each member."""
     low, high = np.searchsorted(theta, theta - 2 * np.pi), np.searchsorted(theta, theta + 2 * np.pi)
     return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
 

@@ -37,7 +37,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
 
 POLISHED = 1e-11
-"""Residual of an extremal in the problem's own units."""
+"""Largest residual of an extremal, in the problem's own units."""
 SLACK = 1e-6
 """Distance by which a root may lie outside its bracket, since members, and so signs of y1, are inexact."""
 
@@ -150,7 +150,7 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
 
 
 def _sign_changes(current: Family) -> NDArray[np.intp]:
-    """Members after which y1 changes sign; a root at a member lies before it."""
+    """Members after which y1 changes sign; zero counts as positive."""
     positive = current.y >= 0
     return np.asarray(np.nonzero(positive[:-1] != positive[1:])[0], dtype=np.intp)
 

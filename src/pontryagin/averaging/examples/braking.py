@@ -16,7 +16,7 @@ from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive, vectors
 
 STOPPED = 1e-6
-"""The body counts as stopped at this share of its first transverse rate; at 0 there is no synthesis."""
+"""The body counts as stopped at this share of its first transverse rate; at 0 no synthesis is defined."""
 PER_TURN, FEWEST = 96, 400
 """Number of samples per turn, and least number of samples in all."""
 

@@ -12,7 +12,7 @@ from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive
 
 ROUND = 1e-6
-"""Orbits with at most this eccentricity count as round: no pericentre to count the phase from."""
+"""Orbits with at most this eccentricity count as round, without a pericentre as the phase's origin."""
 
 
 def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> AveragedSolution:

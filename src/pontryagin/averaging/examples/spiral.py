@@ -1,8 +1,8 @@
-"""The flight in the plane along an extremal of example 2: place, thrust and osculating ellipse.
+"""Motion in the plane along an extremal of example 2: position, thrust and osculating ellipse.
 
-Energy, angular momentum and the anomaly give the place on the osculating ellipse. The ellipse's orientation,
-the angle gamma of its pericentre, is integrated here. The fixed axes pass through the attracting centre, the
-first of them through the pericentre at the start.
+Energy, angular momentum and the anomaly give the position on the osculating ellipse. The ellipse's
+orientation, the angle gamma of its pericentre, is integrated here. The fixed axes pass through the attracting
+centre, the first of them through the pericentre at the start.
 """
 
 from collections.abc import Callable

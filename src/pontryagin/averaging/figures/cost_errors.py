@@ -87,7 +87,7 @@ def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]
 
 @cache
 def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
-    """Solve one of `problems` exactly at each epsilon and compare.
+    """Solve one of `problems` exactly at each epsilon, and find the errors of its approximate costs.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def measured(
     phase: float | None = None,
     name: str = "",
 ) -> CostErrors:
-    """Solve a problem exactly at each epsilon and compare.
+    """Solve a problem exactly at each epsilon, and find the errors of its approximate costs.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ def _reached(solution: AveragedSolution, kappa: float, halvings: int = 20) -> fl
 
 
 def _member(solution: AveragedSolution, kappa: float) -> AveragedSolution | None:
-    """A member of the family; None beyond the kappa at which the frequency's price exceeds the cost's rate."""
+    """A member of the family; None where kappa omega exceeds the mean running cost."""
     try:
         return solve_averaged(solution.system, solution.start, kappa=kappa)
     except (ValueError, NotConverged, Infeasible):

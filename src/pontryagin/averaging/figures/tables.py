@@ -94,7 +94,7 @@ def root_counts(epsilons: Sequence[float]) -> Columns:
 
 
 def extremals(found: Extremals, count: int) -> Columns:
-    """The cheapest extremals of one problem, and how many there are in all."""
+    """The cheapest extremals of one problem, numbered among all that were found."""
     some = found[:count]
     return {
         "": [f"{i + 1} of {len(found)}" for i in range(len(some))],
@@ -124,7 +124,7 @@ def slopes() -> Columns:
 
 
 def answers(solution: AveragedSolution, epsilon: float, phase: float = 0.0) -> Columns:
-    """One problem averaged, corrected and exact."""
+    """Costs, durations and residuals of one problem: averaged, corrected and exact."""
     found = solution.exact(epsilon, phase)
     corrected = float(solution.cost) + epsilon * float(solution.correction(phase))
     return {
@@ -140,7 +140,7 @@ def answers(solution: AveragedSolution, epsilon: float, phase: float = 0.0) -> C
 
 
 def _fall(a0: float, a1: float) -> float:
-    """Least time of the pendulum: the integral of da/omega, with the elliptic integral 1/omega by quadrature."""
+    """Least time of the pendulum: the integral of da/omega, 1/omega being an elliptic integral."""
 
     def turn(a: float) -> float:
         return quad(lambda x: 1 / np.sqrt(2 * (a - np.cos(x))), 0, 2 * np.pi, epsabs=1e-13)[0] / (2 * np.pi)

@@ -1,4 +1,4 @@
-"""Example 3 as a recording of two bodies in space: one under the averaged synthesis, one on the optimum."""
+"""Example 3 as a recording: a body under the averaged synthesis beside one under the exact optimum."""
 
 from pathlib import Path
 

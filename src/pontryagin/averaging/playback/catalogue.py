@@ -1,6 +1,6 @@
 """The recordings of this paper: a low-thrust spiral, a body freed of its precession, any single problem.
 
-`recordings` names them, each with the function that writes it; `record_solution` records any problem.
+`recordings` names them, each with the function that writes it; `record_solution` records one problem.
 Times are t = tau/epsilon, dimensionless, shown as seconds.
 """
 

@@ -19,7 +19,7 @@ def phase_at(model: Model, slow: Array, anomaly: Array, numbers: tuple[Array, ..
 
 
 def anomaly_at(model: Model, slow: Array, phase: Array, numbers: tuple[Array, ...]) -> Array:
-    """x (...) of the phase (...) at slow variables (..., n): Newton's method, bracketed."""
+    """x (...) of the phase (...) at slow variables (..., n): Newton's method with bisection."""
     series = _weight_series(model, slow, numbers)
     phase = np.broadcast_to(phase, series.shape[:-1])
     half_turn = np.abs(_phase(series, np.full(phase.shape, np.pi)) - np.pi) + np.pi

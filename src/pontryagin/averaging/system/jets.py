@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
 Kernel = Callable[..., tuple[Any, ...]]
-"""A function of numbers or arrays to a tuple of them, in arithmetic and NumPy's elementary functions."""
+"""A function from numbers or arrays to a tuple of them, by arithmetic and NumPy's elementary functions."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def expressions(function: "sp.Expr", variables: Sequence["sp.Symbol"]) -> list["
 
 
 def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr", "sp.Dummy"]]:
-    """The function with every sign(g) replaced by a constant, |g| by g times it; and the constants by g."""
+    """Replace every sign(g) by a constant and |g| by g times it; returns the function and constants by g."""
     import sympy as sp
 
     signs: dict[sp.Expr, sp.Dummy] = {}

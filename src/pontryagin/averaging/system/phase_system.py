@@ -42,8 +42,8 @@ class PhaseSystem(StandardForm):
     weight : expression
         dpsi/dx, positive, of mean one over a turn of x.
     anomaly_rate : expression, optional
-        r(a, x), in the place of omega and weight where the frequency is known as the integral
-        omega = 2 pi / oint dx / r only.
+        r(a, x), instead of omega and weight where the frequency is known only as the integral
+        omega = 2 pi / oint dx / r.
     numbers : mapping of real sympy.Symbol to number or (...) array, optional
         Values of the other symbols; arrays make a stack of problems.
 
