@@ -1,8 +1,8 @@
 """The first correction J1 along an averaged solution; derived and proved in `derivation.correction`.
 
-Only the averaged extremal is needed: J1 consists of Fourier primitives of k1 = h*/r in the anomaly at both
-ends, and of an integral along the extremal, that of the mean of k2 - (dk1/dp less its mean) d(primitive of
-k1)/da.
+Only the averaged extremal is needed. J1 consists of Fourier primitives of k1 = h*/r in the anomaly at both
+ends, and of the integral along the extremal of the mean of
+k2 - (dk1/dp minus its mean) d(primitive of k1)/da.
 """
 
 from collections.abc import Callable
@@ -150,7 +150,7 @@ def _kernel(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
 
 
 def _series(values: Array) -> Array:
-    """Complex coefficients (..., harmonics) of the primitive of values (..., size) less their mean."""
+    """Complex coefficients (..., harmonics) of the primitive of values (..., size) minus their mean."""
     size = values.shape[-1]
     order = np.arange(1, size // 2)
     return np.asarray(2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order))
@@ -164,7 +164,7 @@ def _sum(series: Array, x: Array) -> Array:
 
 
 def _primitive(values: Array) -> Array:
-    """The zero-mean primitive of values (..., size) less their mean, at the same points."""
+    """The zero-mean primitive of values (..., size) minus their mean, at the same points."""
     size = values.shape[-1]
     spectrum = np.zeros((*values.shape[:-1], size // 2 + 1), complex)
     spectrum[..., 1 : size // 2] = _series(values) * size / 2

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
     """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
 
-    The search starts from a guess along the straight line to the target; where that fails it continues
+    The search starts from a guess along the straight line to the target; where that fails, it continues the
     extremals to nearer levels of the target. The extremal found is normal (the costate of the cost is -1) and
-    satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch within
-    a turn; extremals whose controls switch in slow time, or are singular, are not found.
+    satisfies the necessary conditions; if a system has several averaged extremals, the others are not sought.
+    At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch within a turn;
+    extremals whose controls switch in slow time, or are singular, are not found.
 
     Parameters
     ----------

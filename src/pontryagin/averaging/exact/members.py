@@ -68,8 +68,8 @@ def members(
 def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[float, Array]:
     """Anomaly at the end and unknowns of an extremal near a guess, by damped Newton for both.
 
-    It serves problems whose control hardly changes the anomaly at the end: there, possibly no member ends at
-    the guessed anomaly.
+    Where the control hardly changes the anomaly at the end, there may be no member that ends at the guessed
+    anomaly, so that the anomaly has to be sought too.
 
     Raises
     ------
