@@ -5,7 +5,7 @@ Each keeps its constructor's arguments in ``args``, so that it can be pickled an
 
 
 class _AboutArgument(Exception):
-    """An exception whose message is followed by the name of the argument that it is about."""
+    """An exception that keeps the name of the argument that it is about, after its message."""
 
     def __init__(self, message: str, argument: str | None = None) -> None:
         super().__init__(message, argument)

@@ -56,7 +56,7 @@ class Equations(Protocol):
         """f, (n,)."""
 
     def variational(self, time: Any, state: Array, columns: Array, parameters: Any) -> Array:
-        """f and the m columns (df/dx) columns, side by side, (n, 1 + m), for given columns (n, m)."""
+        """f and the matrix (df/dx) @ columns side by side, (n, 1 + m), for given columns (n, m)."""
 
     def event(self, i: int, time: float, state: Array, parameters: Values) -> float:
         """Event function i."""
@@ -201,7 +201,7 @@ def heyoka_system(
 
 
 def with_floats(expression: Any) -> Any:
-    """The expression with fractions that heyoka does not take as floats: denominators not a power of two."""
+    """The expression with floats for fractions that heyoka cannot take: denominators not a power of two."""
     import sympy as sp
 
     taken = sp.sympify(expression)

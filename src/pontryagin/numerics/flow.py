@@ -66,8 +66,8 @@ def flow(
     Returns
     -------
     function (start, times, parameters=()) -> (k, n) array
-        The states at the times (k,), ascending, from ``start`` (n,) at the first of them. It raises
-        `pontryagin.NotConverged` where the integrator stops short.
+        The states at the times (k,), ascending, from ``start`` (n,) at the first of them. The function
+        raises `pontryagin.NotConverged` where the integrator stops short.
 
     Raises
     ------
@@ -97,6 +97,7 @@ class Reached(NamedTuple):
     Attributes
     ----------
     time : float
+        Time at the end of the arc.
     whole : array
         The n states there, followed by the rows of their derivatives if these were integrated.
     event : int or None

@@ -186,7 +186,7 @@ def newton_step(here: Linearised) -> Array | None:
 
 
 def expected(correction: float, last: float) -> float:
-    """The next correction as predicted by quadratic convergence from two; from one only, that one itself."""
+    """The next correction, predicted from two by quadratic convergence; with only one, that one itself."""
     return correction * min(1.0, (correction / last) ** 2) if last < np.inf else correction
 
 

@@ -24,7 +24,7 @@ EVERY = slice(None)
 
 
 class Halving(NamedTuple):
-    """How often panels are halved at ``most``, and which change of the integral is accepted.
+    """The number of halvings at ``most``, and the change of a panel's integral that is accepted.
 
     Where panels are so short that rounding in the integrand dominates, further halving does not reduce the
     change. After ``strict`` halvings the larger relative change ``loose`` is therefore accepted.

@@ -32,7 +32,7 @@ STEEPEST = 1e12
 LONGEST = 10.0
 """Largest logarithm of the factor by which a duration is changed in search of the terminal law."""
 ROOM = 1.001
-"""The bound from which it is lowered, in units of the largest thrust without a bound."""
+"""First value of a bound that is lowered, in units of the largest thrust without a bound."""
 
 
 class Flown(Protocol):
@@ -130,7 +130,7 @@ def stretched(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
 
 
 def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
-    """The extremal of a free duration, where the terminal law holds, on the family through a fixed one.
+    """The extremal of free duration (the terminal law holds) on the family through one of fixed duration.
 
     Raises
     ------
@@ -148,7 +148,7 @@ def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
 
 
 def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Root[F]:
-    """The extremal of a setting with its bound, and with alpha2 = 0 if it has that, from one without bound.
+    """The extremal of a setting, under its bound and with alpha2 = 0 if so posed, from one without bound.
 
     Parameters
     ----------

@@ -121,7 +121,7 @@ def _orbit(name: str, given: Any, why: str = "the target moves on an ellipse") -
 
 
 def _object(name: str, given: Any, required: Keys, optional: Keys = ()) -> Mapping[str, Any]:
-    """Check that a value is a JSON object with all required keys and no others than optional ones."""
+    """Check that a value is a JSON object with all required keys and no unknown ones; return it."""
     takes = ", ".join((*required, *optional))
     if not isinstance(given, Mapping):
         place = name or "the text"

@@ -3,7 +3,7 @@
 An entropy term of the throttle, with a given width, keeps the thrust smooth: p = p_max (1 + tanh(S/width))/2
 with S = |n|/alpha2 - 1. The costates of an extremal of the first functional are scaled to give about the same
 thrust. Then the goal is moved to the target, a free duration is changed until the terminal law holds, the
-bound is lowered, and after it the width. At last the jump itself replaces the smoothed one, and Newton's
+bound is lowered, and after it the width. Finally the jump itself replaces the smoothed one, and Newton's
 method is used with the switches located as events.
 """
 
@@ -49,7 +49,7 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     problem : Rendezvous
         The problem to be solved; its peak must be finite.
     revolutions : int
-        How many more than the number nearest to that of the coasting craft.
+        Revolutions in addition to the number nearest to that of the coasting craft.
 
     Returns
     -------
@@ -105,8 +105,8 @@ def _sharpen_freed(
 ) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
     """`_sharpen` for a free duration, with the terminal law in place of the duration.
 
-    With the jump itself, arcs appear and vanish as the duration changes. Therefore only if the smoothed
-    family ends, the sharp extremal of a fixed duration is found and followed to the terminal law.
+    With the jump itself, arcs appear and vanish as the duration changes. The sharp extremal of a fixed
+    duration is therefore followed to the terminal law only if the smoothed family ends.
     """
     try:
         return _sharpen(scaled, law, wide, None)

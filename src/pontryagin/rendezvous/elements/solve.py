@@ -41,7 +41,7 @@ def solve_in_elements(
     start : Extremal, optional
         A solution by `solve`. Newton's method then starts from its costates, converted to those of A and B.
     revolutions : int
-        How many more than the number nearest to that of the coasting craft; not used with ``start``.
+        Revolutions in addition to the number nearest to that of the coasting craft; not used with ``start``.
 
     Returns
     -------

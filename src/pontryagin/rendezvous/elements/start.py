@@ -100,7 +100,7 @@ def cold_start(
     duration : float
         t_k.
     revolutions : int
-        How many more than the number nearest to that of the coasting craft.
+        Revolutions in addition to the number nearest to that of the coasting craft.
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
 

@@ -24,17 +24,17 @@ from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root
 
 KEPT = 4
-"""How many extremals of the unbounded problem are continued to the bound; for least time there are two."""
+"""Number of extremals of the unbounded problem that are continued to the bound; for least time it is two."""
 
 
 def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     """The best extremal found of the rendezvous (1)-(7); its `others` are the other extremals found.
 
     The equations solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
-    By continuation from coasting a transfer without bound is found, and others by families over the duration
-    and over the revolutions. Then the bound is lowered, and for least time alpha1/alpha2 is raised until the
-    thrust is saturated throughout. The maximum principle is necessary, not sufficient: the cheapest of the
-    extremals found is returned, and `searched` states where they were sought.
+    By continuation from coasting a transfer without bound is found, by families over the duration and over
+    the revolutions further ones. Then the bound is lowered, and for least time alpha1/alpha2 is raised until
+    the thrust is saturated throughout. The maximum principle is necessary, not sufficient: the cheapest of
+    the extremals found is returned, and `searched` states where they were sought.
 
     Parameters
     ----------
