@@ -15,7 +15,7 @@ claim = Page("Ibragimov 2017")
 NUMBERS = [number for table in (STATES[:4], COSTATES, CONTROLS) for row in table for number in row]
 
 ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
-"""An addition to z0, in units of its last printed digit, with which all printed numbers are rounded correctly."""
+"""A change of z0, in units of its last printed digit, for which all printed numbers are correctly rounded."""
 
 
 def example(
@@ -36,7 +36,7 @@ def example(
 
 
 def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0) -> Array:
-    """Distances of the 36 computed numbers other than 0 from the printed ones, in units of their last digits."""
+    """Distances of the 36 computed nonzero numbers from the printed ones, in units of their last digits."""
     states, costates, controls = example(inputs, z0)
     computed = np.concatenate([states[:4].ravel(), costates.ravel(), controls.ravel()])
     scales = np.array([unit(number) for number in NUMBERS])

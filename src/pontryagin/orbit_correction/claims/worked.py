@@ -124,7 +124,7 @@ def box_certificate() -> Steps:
 
 
 def shortest_box_costate(columns: Array) -> Array:
-    """The psi with the largest bound for the square: it has the least sum |g.psi| for (-z0, psi) = 1; by HiGHS."""
+    """The psi with the largest bound for the square, by HiGHS: least sum |g.psi| with (-z0, psi) = 1."""
     g = np.moveaxis(columns, 1, 2).reshape(-1, 3)
     cost = np.concatenate([np.zeros(3), np.ones(len(g))])
     above = np.block([[g, -np.eye(len(g))], [-g, -np.eye(len(g))]])

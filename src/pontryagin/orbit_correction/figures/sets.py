@@ -76,8 +76,8 @@ def controllable_sets(plan: Plan) -> Figure:
 def remaining_sets(plan: Plan) -> Figure:
     """At each step the set alpha X(N - k, k), the state on its boundary, and the normal -psi(k) there.
 
-    By Theorem 1 for the system (7), and Theorem 4, the states stay on these boundaries. Each set is seen along
-    its supporting plane at the state, all on the same scale.
+    By Theorem 1 for the system (7), and Theorem 4, the states stay on these boundaries. Each set is seen
+    along its supporting plane at the state, all on the same scale.
 
     Parameters
     ----------

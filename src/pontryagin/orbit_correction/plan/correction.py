@@ -204,7 +204,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
 
 
 def _between(low: Array, above: Array, high: Array, below: Array, middle: bool) -> Array:
-    """N with log alpha = 0, interpolated in log N between alpha(low) > 1 and alpha(high) <= 1, or the middle."""
+    """N with log alpha = 0, linear in log N from alpha(low) > 1 to alpha(high) <= 1, or the middle."""
     with np.errstate(all="ignore"):
         share = np.log(above) / np.log(above / below)
         found = np.exp(np.log(low) + share * np.log(high / low))
