@@ -1,7 +1,8 @@
 """SciPy's root finders on the paper's system (11), with alpha as the fourth unknown.
 
 The system is alpha sum of G_k G_k'psi / |G_k'psi| = -z0 and (psi, psi) = 1. Besides the costate and the gauge
-it has the spurious root (-psi, -alpha). A finder starts at alpha = 1 and at a psi drawn from the sphere, or along -z0.
+it has the spurious root (-psi, -alpha). A finder starts at alpha = 1 and at a psi drawn from the sphere, or
+along -z0.
 """
 
 import warnings

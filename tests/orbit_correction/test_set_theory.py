@@ -1,7 +1,7 @@
 """The lemmas and theorems of sections 2 to 6 on random systems in dimension 2 to 6 with random ellipsoids.
 
-Sets are described by points, trajectories and support functions. Gauges and their bounds come from the
-solver.
+Sets are described by points, trajectories and support functions. The solver gives gauges and
+their bounds.
 """
 
 from dataclasses import dataclass

@@ -58,8 +58,8 @@ def mean_support(
     amplitude, constant : (...) array_like
         Length of the component of psi along the oscillation, and its component along the constant part.
     interval, peak, thrust
-        As in `correct`. Only the mean of the ball depends on the interval, since its steps hold neighbouring
-        impulses.
+        As in `correct`. Only the mean of the ball depends on the interval, since its steps contain
+        neighbouring impulses.
 
     Examples
     --------

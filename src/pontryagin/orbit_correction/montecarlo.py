@@ -87,8 +87,8 @@ def impulse_distribution(
     Parameters
     ----------
     covariance : (3, 3) array_like
-        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric and positive
-        semidefinite.
+        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric and
+        positive semidefinite.
     samples : int
         Number of errors.
     interval, peak : float

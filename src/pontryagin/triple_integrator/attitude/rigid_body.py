@@ -111,8 +111,7 @@ class Motion:
     stretches : p solutions of SciPy's integrator
         The motion on each stretch.
     start, end : (7+n,) arrays
-        Attitude, rate and commands at the start, before an impulse there, and at the end, after an impulse
-        there.
+        Attitude, rate and commands at the start, before any impulse, and at the end, after all impulses.
     """
 
     edges: Array

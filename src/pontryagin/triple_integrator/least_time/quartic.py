@@ -6,8 +6,7 @@ The quartics of the least time have q4 = 3.
 from math import fabs, sqrt
 
 QUADRATIC = 1e-9
-"""Newton's method ends after a relative step this small: the remaining error, about its square, is below
-rounding."""
+"""Newton's method ends after a relative step this small: the error left, its square, is below rounding."""
 
 THIRD = 1.0 / 3.0
 

@@ -32,8 +32,7 @@ CONVERGED = 1e-10
 """Largest residual of the moments of a solution that is returned."""
 
 BOUNDARY = 4e-15
-"""Moments closer than this to the boundary of the moment cone, for c3 = 1, count as on it: the distance is
-rounding."""
+"""For c3 = 1, a distance of the moments to the boundary of the moment cone below this is rounding."""
 
 CHUNK = 64
 """How many problems are solved at once; their quadrature nodes then fit into a processor's cache."""

@@ -27,8 +27,7 @@ EDGE = 1e-14
 """Pieces of the control shorter than this share of T are left out: the rounded moments do not show them."""
 
 QUADRATIC = 1e-9
-"""Newton's method ends after a relative step this small: the remaining error, about its square, is below
-rounding."""
+"""Newton's method ends after a relative step this small: the error left, its square, is below rounding."""
 
 
 def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
