@@ -1,1 +1,1 @@
-"""Numerical methods that know no paper: flows, arcs, Newton's method, continuation, quadrature."""
+"""Numerical methods that no paper owns: flows, arcs, Newton's method, continuation, quadrature."""
