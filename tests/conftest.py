@@ -1,4 +1,4 @@
-"""Hypothesis profiles: the same examples every time, and `HYPOTHESIS_PROFILE=deep` for a long random run."""
+"""Hypothesis profiles: fixed examples by default, and `HYPOTHESIS_PROFILE=deep` for a long random run."""
 
 import os
 

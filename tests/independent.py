@@ -1,4 +1,4 @@
-"""What answers are compared with: SciPy's integrator, HiGHS on grids, and roots of exact polynomials."""
+"""Independent references for the tests: SciPy's integrator, HiGHS on grids, roots of exact polynomials."""
 
 from fractions import Fraction
 from itertools import pairwise
@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 
 def force_of(maneuver):
-    """The disturbance as a function of time."""
+    """The disturbance of a manoeuvre as a function of time."""
     f = maneuver.disturbance
     if f is None:
         return lambda t: 0.0
@@ -18,7 +18,7 @@ def force_of(maneuver):
 
 
 def propagate(maneuver, control, breakpoints=(), impulses=()):
-    """Final state of x1' = x2, x2' = x3 + f, x3' = u by SciPy, restarted where u is not smooth or jumps.
+    """Final state of x1' = x2, x2' = x3 + f, x3' = u by SciPy, restarted at breakpoints and impulses of u.
 
     Returns the state and the largest modulus that any coordinate took.
     """
@@ -43,7 +43,7 @@ def propagate(maneuver, control, breakpoints=(), impulses=()):
 
 
 def response(s):
-    """h(s) = (s^2/2, s, 1), (..., 3)."""
+    """The impulse response h(s) = (s^2/2, s, 1), (..., 3)."""
     s = np.asarray(s, dtype=float)
     return np.stack([s**2 / 2, s, np.ones_like(s)], axis=-1)
 
@@ -51,8 +51,8 @@ def response(s):
 def peak_bracket(c, duration, cells=160):
     """Lower and upper bound on the least peak, by two linear programmes on a grid of [0, T].
 
-    Above: the best control that is constant on each cell. Below: the best dual function, whose integral of
-    |h| is at most that of the interpolated |h| plus |h''| step^2 / 8.
+    The upper bound is the best control that is constant on each cell. The lower bound is the best dual
+    function h; the integral of |h| is at most that of the interpolated |h| plus |h''| step^2 / 8.
     """
     edges = np.linspace(0, duration, cells + 1)
     step = duration / cells
@@ -85,7 +85,11 @@ def peak_bracket(c, duration, cells=160):
 
 
 def impulse_bracket(c, duration, cells=160):
-    """The same for the least total impulse: impulses on the grid; |h| at most 1 - |h''| step^2 / 8 there."""
+    """Lower and upper bound on the least total impulse, by two linear programmes on a grid of [0, T].
+
+    The upper bound has impulses on the grid. The lower bound is the best dual function h with |h| at most
+    1 - |h''| step^2 / 8 on the grid.
+    """
     s = np.linspace(0, duration, cells + 1)
     h = response(s)
     above = linprog(np.ones(2 * cells + 2), A_eq=np.c_[h.T, -h.T], b_eq=c, bounds=(0, None))
@@ -106,7 +110,7 @@ def exactly(number):
 
 
 def exact_peak(c, digits=60):
-    """Least peak for T = 1 as the largest |v| among the real roots of the printed-nowhere quartic P(v)."""
+    """Least peak for T = 1: the largest |v| of the real roots of a quartic P(v) that no paper prints."""
     with mp.workdps(digits):
         c1, c2, c3 = map(exactly, c)
         quartic = [
@@ -124,10 +128,11 @@ def exact_peak(c, digits=60):
 
 
 def exact_bang_bang_times(x0, xf, peak, force=0.0, digits=60):
-    """All T with |u| = peak, at most two switches, steering x0 to xf, and by how much each leaves [0, T].
+    """Durations T of all controls |u| = peak with at most two switches that steer x0 to xf.
 
-    From the quartic 16 v^2 p1 p3 - 12 v^2 p2^2 - p3^4 = 0 of either sign, in exact coefficients; pairs
-    (violation, T), a violation of zero or less being admissible.
+    They are roots of the quartic 16 v^2 p1 p3 - 12 v^2 p2^2 - p3^4 = 0 for either sign of v, with exact
+    coefficients. Returns pairs (violation, T); the violation is the amount by which the switches leave
+    [0, T], and zero or less is admissible.
     """
     with mp.workdps(digits):
         start, end = [exactly(x) for x in x0], [exactly(x) for x in xf]

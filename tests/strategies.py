@@ -1,4 +1,4 @@
-"""What the property tests draw: numbers of every size, manoeuvres, and moments of every structure."""
+"""Hypothesis strategies: numbers of every size, manoeuvres, and moments of every structure."""
 
 import numpy as np
 from hypothesis import strategies as st
@@ -37,7 +37,7 @@ def maneuvers(draw, coordinate=angles):
 
 @st.composite
 def places(draw):
-    """Switches a >= b in shares of T to go: apart, close, at the ends, or none."""
+    """Switches a >= b as fractions of T, counted back from the end: apart, close, at the ends, or none."""
     kind = draw(st.sampled_from(["apart", "narrow", "first only", "last only", "none", "ends"]))
     width = 10.0 ** -draw(st.floats(1, 8))
     at = draw(st.floats(0.0, 1.0))
@@ -55,7 +55,7 @@ def places(draw):
 
 @st.composite
 def moments(draw):
-    """Moments (c1, c2, c3) for T = 1: any three numbers, degenerate ones, or those of a known control."""
+    """Moments (c1, c2, c3) for T = 1: any numbers, degenerate ones, or the moments of a known control."""
     kind = draw(st.sampled_from(["any", "wide", "bang-bang", "impulses", "degenerate"]))
     if kind == "any":
         return draw(states())

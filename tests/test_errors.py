@@ -1,4 +1,4 @@
-"""The exceptions keep what they carry when they are pickled or copied."""
+"""The exceptions keep their attributes when they are pickled or copied."""
 
 import copy
 import pickle

@@ -1,4 +1,4 @@
-"""What the README promises is there and runs."""
+"""The README lists every figure and table, what it names exists, and its example runs."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""What a type checker tells a user about the public names of the package."""
+"""Types that a type checker infers for the public names of the package in a user's script."""
 
 import os
 import re
@@ -67,7 +67,7 @@ reveal_type(rv.Elements.from_state([1, 0, 0], [0, 1, 0]))  # Elements
 
 @pytest.fixture(scope="module")
 def answers(tmp_path_factory):
-    """Line -> what mypy says of it, for a user's strict script and the package as it is installed."""
+    """mypy's messages by line, for a user's script in strict mode and the package as it is installed."""
     folder = tmp_path_factory.mktemp("user")
     (folder / "script.py").write_text(SCRIPT)
     (folder / "mypy.ini").write_text("[mypy]\nstrict = true\n")

@@ -1,4 +1,4 @@
-"""What is refused, and that the message names the argument, what it got and what it takes."""
+"""Invalid arguments are refused by messages that name the argument, the value given and what is expected."""
 
 from fractions import Fraction
 

@@ -26,7 +26,7 @@ class Plain:
 @value_class
 @dataclass(frozen=True, eq=False)
 class Inner:
-    """An array within a value."""
+    """A value with an array, for use as a field of another value."""
 
     level: np.ndarray
 
@@ -34,7 +34,7 @@ class Inner:
 @value_class
 @dataclass(frozen=True, eq=False)
 class Outer:
-    """One field of each kind."""
+    """A value with one field of each kind."""
 
     level: Any = 0.0
     inner: Inner | Plain = field(default_factory=lambda: Inner(np.arange(3.0)))
@@ -47,7 +47,7 @@ class Outer:
 
     @cached_property
     def doubled(self) -> tuple[np.ndarray, np.ndarray]:
-        """Arrays that are computed once."""
+        """Arrays that are computed once and cached."""
         return self.inner.level * 2, np.zeros(2)
 
 

@@ -1,4 +1,4 @@
-"""Averaged solves once compiled, one by one and in a stack, and the engine's build, against the aims."""
+"""Times of compiled averaged solves, one by one and in a stack, compared with the aim."""
 
 from collections.abc import Callable
 
@@ -6,11 +6,11 @@ from benchmarks.averaging.examples import EXAMPLES, Example, worst_residual
 from benchmarks.clock import repeated, take_turns
 
 AIM = 0.010
-"""Seconds of an averaged solve once compiled."""
+"""The aim for one averaged solve after compilation, in seconds."""
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Milliseconds of each example's averaged solve, beside the aim, with the worst residual of the stack."""
+    """Milliseconds of each example's averaged solve, the aim, and the worst residual in the stack."""
     size, rounds = (20, 2) if quick else (1000, 3)
     rows: list[tuple] = []
     for name, example in EXAMPLES.items():

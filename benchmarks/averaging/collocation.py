@@ -1,8 +1,8 @@
-"""SciPy's solve_bvp on the exact problem, from the averaged solution, and where it lands among the extremals.
+"""SciPy's solve_bvp on the exact problem, from the averaged solution, and which extremal it finds.
 
-The clock is the share of the anomaly's way; its end theta and the multipliers are the unknown parameters.
-The averaged solution is the guess: xi, eta, and y from H = 0, at `A_TURN` points a turn.
-The right-hand side comes with its Jacobian.
+The independent variable is the anomaly, scaled to run from 0 to 1; its final value theta and the multipliers
+are the unknown parameters. The initial guess is the averaged solution: xi, eta, and y from H = 0, at `A_TURN`
+points per turn. The Jacobian of the right-hand side is supplied.
 """
 
 from dataclasses import dataclass
@@ -32,18 +32,18 @@ from pontryagin.numerics import compile as compiler
 
 EPSILONS = (0.1, 0.05, 0.02, 0.01, 0.005)
 SHOWN = (0.05, 0.02)
-"""Of the smooth example, for the figure."""
+"""Values of epsilon at which the figure shows the smooth example."""
 QUICK = (0.1,)
 LEAST = {BODY: 0.05, PAID: 0.02, KEPLER: 0.01}
-"""The least epsilon of an example that is too slow below it."""
+"""Least epsilon that is run, for examples that are too slow at smaller ones."""
 TOLERANCE, NODES, A_TURN = 1e-6, 20_000, 24
 SAME = 1e-3
-"""An extremal is the one found if it ends within this, in radians, and costs the same to a like share."""
+"""Largest difference from a known extremal, of the final anomaly in radians and of the cost relatively."""
 
 
 @dataclass(frozen=True)
 class Boundary:
-    """The exact problem as solve_bvp takes it: states (a, p, y, tau, J), parameters (theta, alpha)."""
+    """The exact problem in the form of solve_bvp: states (a, p, y, tau, J), parameters (theta, alpha)."""
 
     problem: Shooting
 
@@ -52,7 +52,7 @@ class Boundary:
         return (q[0] - self.problem.anomaly) * self._slopes(s, z, q)[0].T
 
     def jacobians(self, s: Array, z: Array, q: Array) -> tuple[Array, Array]:
-        """Derivatives of the rates in z (2n + 3, 2n + 3, k) and in the parameters (2n + 3, 1 + r, k)."""
+        """Derivatives of the rates by z (2n + 3, 2n + 3, k) and by the parameters (2n + 3, 1 + r, k)."""
         slopes, by_state, by_anomaly = self._slopes(s, z, q)
         length = q[0] - self.problem.anomaly
         by_parameters = np.zeros((len(z), len(q), len(s)))
@@ -60,7 +60,7 @@ class Boundary:
         return length * np.moveaxis(by_state, 0, -1), by_parameters
 
     def missing(self, first: Array, last: Array, q: Array) -> Array:
-        """a - a0, H, tau and J at the start; M, p + g' + alpha M' and y at the end."""
+        """Boundary residuals: a - a0, H, tau and J at the start; M, p + g' + alpha M' and y at the end."""
         problem, n = self.problem, len(self.problem.start)
         (h,) = _hamiltonian(problem.equations)(*first[: 2 * n + 1], problem.anomaly, *problem.parameters)
         left, _, _ = problem.missing(last[None], q[:1], np.concatenate([last[n : 2 * n], q[1:]])[None])
@@ -115,7 +115,7 @@ def _rate(equations: Canonical):
 
 
 def collocated(solution: AveragedSolution, epsilon: float):
-    """What solve_bvp returns."""
+    """The result of solve_bvp."""
     boundary, mesh, states, parameters = posed(solution, epsilon)
     with np.errstate(all="ignore"):
         return solve_bvp(
@@ -131,7 +131,7 @@ def collocated(solution: AveragedSolution, epsilon: float):
 
 
 def landed(found: Extremals, theta: float, cost: float) -> tuple[int, Extremal] | None:
-    """The place by cost, from 1, and the extremal that ends at the anomaly theta with this cost."""
+    """Rank by cost, from 1, and extremal that ends at the anomaly theta with this cost; otherwise None."""
     for place, extremal in enumerate(found, 1):
         near = abs(extremal.ending_anomaly - theta) < SAME
         if near and abs(extremal.cost - cost) < SAME * abs(extremal.cost):
@@ -140,7 +140,7 @@ def landed(found: Extremals, theta: float, cost: float) -> tuple[int, Extremal] 
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Where solve_bvp lands and in what time, beside all extremals by ours."""
+    """Extremal found and time taken by solve_bvp, compared with our enumeration of all extremals."""
     rows: list[tuple] = []
     for name in (SMOOTH,) if quick else (SMOOTH, PAID, KEPLER, BODY):
         solution = EXAMPLES[name].one()
@@ -164,7 +164,7 @@ def table(quick: bool) -> dict[str, list]:
 
 
 def landing(epsilon: float) -> tuple[Extremals, tuple[float, float]]:
-    """All extremals of the smooth example, and the duration and cost at which solve_bvp ends."""
+    """All extremals of the smooth example, and the duration and cost that solve_bvp finds."""
     solution = EXAMPLES[SMOOTH].one()
     answer = collocated(solution, epsilon)
     return solution.exact(epsilon), (float(answer.y[-2, -1]), float(answer.y[-1, -1]))

@@ -1,4 +1,4 @@
-"""All exact extremals for falling epsilon, one exact shot, and the averaged solve, which knows no epsilon."""
+"""All exact extremals for decreasing epsilon, one exact shot, and the averaged solve, free of epsilon."""
 
 from collections.abc import Callable
 from statistics import median
@@ -17,16 +17,16 @@ from pontryagin.averaging.exact.shooting import (
 EPSILONS = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
 QUICK = (0.1, 0.05)
 LEAST = {BODY: 0.005}
-"""The least epsilon of an example that is too slow below it."""
+"""Least epsilon that is run, for examples that are too slow at smaller ones."""
 CERTIFIED = 0.02
-"""The least epsilon at which certificates, which SciPy's integrators make, are asked for."""
+"""Least epsilon at which certificates are computed; they use SciPy's integrators."""
 BRIEF, ROUNDS = 1.0, 3
-"""Seconds up to which a run is repeated, and how often."""
+"""A run that takes less than `BRIEF` seconds is made `ROUNDS` times."""
 SHOTS = 20
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Extremals, seconds and costs of each example and epsilon."""
+    """Number of extremals, times and errors of the averaged cost, for each example and epsilon."""
     rows: list[tuple] = []
     for name in (SMOOTH, KEPLER) if quick else (SMOOTH, PAID, KEPLER, BODY):
         epsilons = QUICK if quick else [e for e in EPSILONS if e >= LEAST.get(name, 0.0)]
@@ -81,7 +81,7 @@ def _of_one(solve: Callable[[], AveragedSolution], epsilons) -> list[tuple]:
 
 
 def shot(solution: AveragedSolution, found: Extremals) -> tuple[Shooting, np.ndarray, np.ndarray]:
-    """The exact problem, and the best extremal as anomaly (1,) and unknowns (1, n + r) of its shooting."""
+    """The exact problem as shooting, and its best extremal: final anomaly (1,) and unknowns (1, n + r)."""
     held = solution if solution.frame is None else solution.frame(solution)
     problem = shooting(held, found.epsilon, found[0].starting_anomaly)
     n = len(problem.start)
@@ -90,7 +90,7 @@ def shot(solution: AveragedSolution, found: Extremals) -> tuple[Shooting, np.nda
 
 
 def timed(run: Callable):
-    """What a run returns and its median processor time; only a brief one is repeated."""
+    """Result of a run and its median processor time in seconds; only a brief run is repeated."""
     taken: list[float] = []
     while not taken or (len(taken) < ROUNDS and taken[0] < BRIEF):
         begun = process_time()

@@ -1,4 +1,4 @@
-"""The paper's examples, in two forms the rotor, and a user's own system; stacks of each."""
+"""The paper's examples (the rotor with two costs), a system of a user's own, and stacks of each."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from pontryagin.averaging import (
 )
 
 SEED = 19770406
-"""Every stack comes from this seed and the name of its example."""
+"""Seed of the random numbers; together with an example's name it determines the example's stack."""
 
 ROTOR: dict[str, Any] = {
     "mass": 1 + sp.cos(sp.Symbol("x")) / 3,
@@ -41,16 +41,16 @@ SMOOTH, LEAST_TIME, PAID, KEPLER, BODY, OWN = (
 
 @dataclass(frozen=True)
 class Example:
-    """One problem, and what of it varies in a stack.
+    """One problem, and the arguments that vary in a stack of problems like it.
 
     Attributes
     ----------
     solve : callable
-        The averaged solve, of the arguments below.
+        The averaged solve; takes the arguments in `given`.
     given : mapping
-        Arguments of the one problem.
+        Arguments of the single problem.
     spread : mapping
-        Of those that vary in a stack, the share by which they do.
+        Relative variation of each argument that varies in a stack.
     """
 
     solve: Callable[..., AveragedSolution]
@@ -58,11 +58,11 @@ class Example:
     spread: Mapping[str, float]
 
     def one(self) -> AveragedSolution:
-        """The averaged solution of the one problem."""
+        """The averaged solution of the single problem."""
         return self.solve(**self.given)
 
     def stack(self, name: str, count: int) -> dict[str, Any]:
-        """Arguments of a stack of problems about it."""
+        """Arguments of a stack of `count` problems drawn around the single one."""
         rng = np.random.default_rng([SEED, *name.encode()])
         drawn = dict(self.given)
         for argument, share in self.spread.items():
@@ -73,7 +73,7 @@ class Example:
 
 @lru_cache(maxsize=1)
 def own_expressions() -> dict[str, Any]:
-    """A pendulum that rotates through a resisting medium is sped up at the cost 1 + u^2; not in the paper."""
+    """A rotating pendulum in a resisting medium, sped up at the running cost 1 + u^2; not in the paper."""
     a, x, u, level = sp.symbols("a x u level", real=True)
     speed = sp.sqrt(2 * (a + sp.cos(x)))
     return {
@@ -89,7 +89,7 @@ def own_expressions() -> dict[str, Any]:
 
 
 def own_system(end: Any = 5.0) -> PhaseSystem:
-    """The user's own system, with the energy it is brought to."""
+    """The user's own system with a given final energy."""
     given = own_expressions()
     level = given["level"]
     return PhaseSystem(numbers={level: end}, **{k: v for k, v in given.items() if k != "level"})
@@ -124,5 +124,5 @@ EXAMPLES = {
 
 
 def worst_residual(solution: AveragedSolution) -> float:
-    """The largest residual of the maximum principle in a solution or a stack."""
+    """The largest residual of the maximum principle in a solution or a stack of solutions."""
     return float(np.max(solution.certificate.residual))

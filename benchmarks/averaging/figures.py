@@ -1,4 +1,4 @@
-"""Its plots: the price of exactness over epsilon, integrators, and where solve_bvp lands."""
+"""Plots of the averaging benchmark: times over epsilon, integrators, extremals that solve_bvp finds."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -37,7 +37,7 @@ INTEGRATORS = {
 
 @styled
 def price_of_exactness(table: Table) -> Figure:
-    """Times of the averaged solve, of one exact shot and of all exact extremals over epsilon."""
+    """Times of the averaged solve, of one exact shot and of all exact extremals, as functions of epsilon."""
     names = list(dict.fromkeys(table["example"]))
     figure, axes = subplots(2, 2, height=4.4, sharex=True, sharey=True)
     for ax, name in zip(axes.flat, names, strict=False):
@@ -59,7 +59,7 @@ def price_of_exactness(table: Table) -> Figure:
 
 @styled
 def integrators(table: Table, what: str = "states and sensitivities") -> Figure:
-    """Error against time of each integrator on the exact equations, a panel an example."""
+    """Error against time of each integrator on the exact equations, one panel per example."""
     names = list(dict.fromkeys(table["example"]))
     figure, axes = subplots(2, 2, height=4.4, sharex=True, sharey=True)
     handles = {}
@@ -85,7 +85,7 @@ def _entries(table: Table, name: str, what: str) -> Iterator[tuple[str, float, f
 
 @styled
 def where_solve_bvp_lands(landings: Mapping[float, tuple[Extremals, tuple[float, float]]]) -> Figure:
-    """Cost and end time of all extremals of the smooth example, and of the one that solve_bvp ends at."""
+    """Cost and end time of all extremals of the smooth example, and of the result of solve_bvp."""
     figure, axes = subplots(1, len(landings), height=2.9, squeeze=False)
     for ax, (epsilon, (found, end)) in zip(axes.flat, landings.items(), strict=True):
         ax.plot(

@@ -1,9 +1,10 @@
-"""The exact canonical equations by heyoka, DOP853 and LSODA, at one tolerance from the same expressions.
+"""The exact canonical equations by heyoka, DOP853 and LSODA, from the same expressions at one tolerance.
 
-Each follows the best extremal of an example from its start to its end, the anomaly being the clock. SciPy's
-integrators call the equations compiled by Numba; what they share is evaluated once. With sensitivities the
-variational equations in the initial costates are integrated along, their right-hand side the Jacobian times
-the matrix. The reference is heyoka's in long double, or DOP853's at its finest where there is none.
+Each integrator follows the best extremal of an example from start to end, with the anomaly as the independent
+variable. SciPy's integrators call the equations compiled by Numba, with common subexpressions evaluated once.
+With sensitivities, the variational equations for the initial costates are integrated too; their right-hand
+side is the Jacobian times the sensitivity matrix. The reference is heyoka in long double or, where that is
+not available, DOP853 at the tolerance 3e-14.
 """
 
 from collections.abc import Callable
@@ -29,7 +30,7 @@ from pontryagin.numerics.lanes import ends
 TOLERANCE = 1e-12
 EPSILON = 0.01
 MANY = 64
-"""Trajectories that are carried side by side."""
+"""Number of trajectories that are integrated together."""
 STEPS = 1_000_000
 
 OURS, TOGETHER = "heyoka, one trajectory", f"heyoka, of {MANY} trajectories"
@@ -37,7 +38,7 @@ OURS, TOGETHER = "heyoka, one trajectory", f"heyoka, of {MANY} trajectories"
 
 @dataclass(frozen=True)
 class Trajectory:
-    """The best extremal of an example: equations, start, and the anomalies where it begins and ends."""
+    """The best extremal of an example: equations, start, and the anomalies at which it starts and ends."""
 
     equations: Canonical
     start: Array
@@ -47,7 +48,7 @@ class Trajectory:
 
     @property
     def wrt(self) -> tuple[sp.Symbol, ...]:
-        """What sensitivities are taken in: the costates at the start."""
+        """The variables of the sensitivities: the costates at the start."""
         return (*self.equations.costates, y)
 
     def with_sensitivities(self) -> Array:
@@ -66,7 +67,7 @@ def trajectory(name: str, epsilon: float) -> Trajectory:
 
 
 def scalar_rates(path: Trajectory, sensitivities: bool) -> Callable[[float, Array], Array]:
-    """The right-hand side as a function of floats compiled by Numba, the same expressions as heyoka's."""
+    """The right-hand side compiled by Numba for floats, from the same expressions as heyoka's."""
     from numba import njit
 
     equations = path.equations
@@ -105,12 +106,12 @@ def scalar_rates(path: Trajectory, sensitivities: bool) -> Callable[[float, Arra
 
 
 def by_dop853(path: Trajectory, rates: Callable, start: Array, tolerance: float = TOLERANCE) -> Array:
-    """SciPy's DOP853."""
+    """The end by SciPy's DOP853."""
     return _solved(path, rates, start, "DOP853", tolerance)
 
 
 def by_lsoda(path: Trajectory, rates: Callable, start: Array) -> Array:
-    """SciPy's LSODA through solve_ivp."""
+    """The end by LSODA through SciPy's solve_ivp."""
     return _solved(path, rates, start, "LSODA", TOLERANCE)
 
 
@@ -120,13 +121,13 @@ def _solved(path: Trajectory, rates: Callable, start: Array, method: str, tolera
 
 
 def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
-    """LSODA through odeint, whose loop over steps is Fortran's."""
+    """The end by LSODA through SciPy's odeint, whose loop over steps is in Fortran."""
     grid = [path.begin, path.end]
     return odeint(rates, start, grid, rtol=TOLERANCE, atol=TOLERANCE, tfirst=True, mxstep=STEPS)[-1]
 
 
 def by_heyoka(path: Trajectory, sensitivities: bool, count: int) -> Array:
-    """Ours: `pontryagin.numerics.lanes.ends`, which compiles the equations once; of the first trajectory."""
+    """The end by `pontryagin.numerics.lanes.ends`, of the first of `count` equal trajectories."""
     e = path.equations
     wrt = path.wrt if sensitivities else ()
     carry = ends(e.states, e.rates, e.parameters, e.anomaly, wrt, tolerance=TOLERANCE)
@@ -135,7 +136,7 @@ def by_heyoka(path: Trajectory, sensitivities: bool, count: int) -> Array:
 
 
 def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
-    """The end to more digits than any contestant's."""
+    """The end to more digits than any of the compared integrators gives."""
     start = path.with_sensitivities() if sensitivities else path.start
     if not has_heyoka() or np.finfo(np.longdouble).eps >= np.finfo(float).eps:
         return by_dop853(path, rates, start, 3e-14)
@@ -159,7 +160,7 @@ def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
 
 
 def contestants(path: Trajectory, sensitivities: bool) -> tuple[dict[str, Callable[[], Array]], Array]:
-    """What each integrator does, and the reference."""
+    """One run of each integrator, by name, and the reference end."""
     rates = scalar_rates(path, sensitivities)
     start = path.with_sensitivities() if sensitivities else path.start
     ours = {OURS: 1, TOGETHER: MANY} if has_heyoka() else {}
@@ -192,7 +193,7 @@ def table(quick: bool) -> dict[str, list]:
 
 
 def error(found: Array, exact: Array) -> float:
-    """Largest difference, in shares of the largest entry where that exceeds one."""
+    """Largest difference, divided by the largest entry of `exact` where that exceeds one."""
     return float(np.abs(found - exact).max() / max(1.0, np.abs(exact).max()))
 
 

@@ -1,4 +1,4 @@
-"""Everything that is measured about the third paper's solvers."""
+"""All measurements of the solvers of the third paper."""
 
 from benchmarks.averaging import aims, collocation, enumeration, figures, flows, start
 from benchmarks.averaging.examples import SEED
@@ -20,7 +20,7 @@ NOTES = (
 
 
 def measure(quick: bool) -> Measured:
-    """All tables and plots."""
+    """All tables and plots of the averaging benchmark."""
     exact, flown = enumeration.table(quick), flows.table(quick)
     tables = {
         "aims": ("Averaged solves, once compiled, against the aim", aims.table(quick)),

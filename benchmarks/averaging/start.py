@@ -7,7 +7,7 @@ import sys
 from benchmarks.averaging.examples import EXAMPLES, KEPLER
 
 BUILD_AIM = 1.0
-"""Seconds from expressions to a `PhaseSystem` and its compiled model."""
+"""The aim for building a `PhaseSystem` and its compiled model from expressions, in seconds."""
 
 SCRIPT = """
 import json, sys
@@ -61,7 +61,7 @@ mark("exact")
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Processor seconds of first calls of each example, the least of a few processes."""
+    """Processor seconds of the first calls of each example, the least over a few processes."""
     repeats = 1 if quick else 2
     names = [KEPLER] if quick else list(EXAMPLES)
     rows = []

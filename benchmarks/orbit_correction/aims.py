@@ -14,10 +14,10 @@ from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 AIMS = {"plans of 1000 states": 0.1, "gauge in 10000 steps": 0.02, "plan of 10000 steps": 0.1}
-"""Seconds on one core."""
+"""The aim for each task, in seconds on one core."""
 
 MANY = 10_000
-"""Steps of the longest plans."""
+"""Number of steps of the longest plans."""
 
 FAR = 5
 """Number of states whose gauges in `MANY` steps are measured one by one."""
@@ -34,7 +34,7 @@ class Entry:
 
 
 def table(quick: bool) -> dict[str, list]:
-    """Seconds of each task beside its aim: the median over the rounds, and of single states the slowest."""
+    """Seconds of each task beside its aim: the median over the rounds; for single states the slowest."""
     large = 5_000 if quick else 100_000
     rows: list[tuple] = []
     for name in THRUSTS:

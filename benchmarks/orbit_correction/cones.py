@@ -68,12 +68,12 @@ def costate(name: str, steps: int) -> Solver:
 
 
 def _size_entry(width: int) -> NDArray:
-    """The first entry of a cone, its size, as a column (width + 1, 1)."""
+    """A column (width + 1, 1) that selects the first entry of a cone, the size."""
     return np.eye(width + 1)[:, :1]
 
 
 def _vector_entries(width: int) -> NDArray:
-    """The other entries of a cone, the vector that the size bounds, as columns (width + 1, width)."""
+    """Columns (width + 1, width) that select the other entries of a cone, the vector that the size bounds."""
     return np.eye(width + 1)[:, 1:]
 
 

@@ -15,7 +15,7 @@ from pontryagin.display.plotting import (
 )
 
 LINES = {"costate": ":", "linprog": ":"}
-"""The second form of a solver is drawn dotted."""
+"""Line styles: the second form of a solver is drawn dotted."""
 
 
 @styled

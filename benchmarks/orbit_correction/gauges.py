@@ -15,17 +15,17 @@ from benchmarks.peers import absent
 from pontryagin.orbit_correction import Plan, correct
 
 STEPS = 8
-"""Steps for which gauges are compared: about as many as the states need."""
+"""Number of steps for which gauges are compared, about as many as the states need."""
 
 STACK_SIZE = 1000
-"""States that are solved together, as many as in the aim."""
+"""Number of states that are solved together, as many as in the aim."""
 
 REACHED = 1 + 1e-7
-"""A peer's gauge up to this counts as at most 1, since the peer has a tolerance."""
+"""A peer's gauge counts as at most 1 if it does not exceed this, which allows for the peer's tolerance."""
 
 
 def peers(name: str, quick: bool) -> dict[str, Peer]:
-    """The peers that fit a set of impulses."""
+    """The peers that can solve the problem for a set of impulses."""
     many, few = (20, 4) if quick else (200, 40)
     found: dict[str, Peer] = {}
     if not absent("clarabel"):
@@ -116,7 +116,7 @@ def _search_entrant(name: str, peer: Peer, exact: Plan) -> Contestant:
 
 
 def search(made: Callable[[int], Solver], state: NDArray, least: int) -> tuple[int, float]:
-    """N_min and alpha(N_min) by a peer's gauges, in the manner of our own search; (0, nan) if it fails."""
+    """N_min and alpha(N_min) from a peer's gauges, by the method of our own search; (0, nan) if it fails."""
     too_few, enough, best, guess = least - 1, None, float("nan"), least
     while enough is None or enough - too_few > 1:
         alpha = made(guess)(state)

@@ -12,16 +12,16 @@ from benchmarks.orbit_correction.states import PEAK, Solver, states, thrust
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 SIZES = (10, 32, 100, 316, 1000, 3162, 10_000)
-"""Numbers of steps that every method is timed with."""
+"""Numbers of steps for which every method is timed."""
 
 QUICK = (10, 100)
-"""Numbers of steps of a quick run."""
+"""Numbers of steps in a quick run."""
 
 OURS_ALONE = (31_623, 100_000)
-"""Further numbers of steps, for our solver only."""
+"""Further numbers of steps, for which only our solver is timed."""
 
 STATES = 3
-"""States of each measurement."""
+"""Number of states in each measurement."""
 
 
 def table(quick: bool) -> dict[str, list]:

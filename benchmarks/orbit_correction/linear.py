@@ -1,6 +1,7 @@
 """The square's gauge as a linear programme for HiGHS, in its fastest form.
 
-The largest s with sum of g_k w_k = -s z0 and |w_k| <= 1: bounds in place of rows, three equations.
+The programme is max s over sum of g_k w_k = -s z0 and |w_k| <= 1. It has only three equations, since the
+constraints on w_k are bounds instead of rows.
 """
 
 import numpy as np
@@ -12,7 +13,7 @@ from pontryagin.arrays import Array
 
 
 def by_linprog(name: str, steps: int) -> Solver:
-    """Through SciPy's `linprog`."""
+    """The programme through SciPy's `linprog`."""
     segments = _segments(name, steps)
     cost = np.append(np.zeros(segments.shape[1]), -1.0)
     bounds = np.array([[-1.0, 1.0]] * segments.shape[1] + [[0.0, np.inf]])
@@ -26,7 +27,7 @@ def by_linprog(name: str, steps: int) -> Solver:
 
 
 def by_highspy(name: str, steps: int) -> Solver:
-    """Through its own interface: a state changes three coefficients, and the last basis is the start."""
+    """By HiGHS's own interface: a state changes three coefficients, and the last basis is the start."""
     import highspy
 
     segments = _segments(name, steps)

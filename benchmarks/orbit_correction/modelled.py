@@ -7,7 +7,7 @@ from benchmarks.orbit_correction.states import Solver, unit_factors
 
 
 def by_cvxpy(name: str, steps: int) -> Solver:
-    """min t over impulses of size at most t that bring the state to rest."""
+    """The programme min t over impulses of size at most t that bring the state to 0."""
     import cvxpy as cp
 
     factors = unit_factors(name, steps)

@@ -1,7 +1,8 @@
 """SciPy's root finders on the paper's system (11), with alpha as the fourth unknown.
 
-alpha sum of G_k G_k'psi / |G_k'psi| = -z0 and (psi, psi) = 1. Besides the costate and the gauge it has the
-spurious root (-psi, -alpha). A finder starts at alpha = 1 and at a psi drawn from the sphere, or along -z0.
+The system is alpha sum of G_k G_k'psi / |G_k'psi| = -z0 and (psi, psi) = 1. Besides the costate and the gauge
+it has the spurious root (-psi, -alpha). A finder starts at alpha = 1 and at a psi drawn from the sphere, or
+along -z0.
 """
 
 import warnings
@@ -28,9 +29,10 @@ FINDERS: dict[str, dict] = {
     "krylov": {"options": {"maxiter": 100}},
     "df-sane": {},
 }
-"""Methods of `scipy.optimize.root` and their options; tolerances are the methods' own.
+"""Methods of `scipy.optimize.root` and their options, with the default tolerances of each method.
 
-Methods that would take thousands of iterations get 100; with ten times as many, few more starts reach a root.
+Methods that would take thousands of iterations are limited to 100; with ten times as many only few more
+starts reach a root.
 """
 
 SAME = 1e-4
@@ -39,7 +41,7 @@ SAME = 1e-4
 
 @dataclass(frozen=True)
 class Task:
-    """The system (11) of one state, its gauge, and where to start, rows (starts, 4)."""
+    """The system (11) of one state, its gauge, and the starting points (starts, 4)."""
 
     factors: Array
     state: Array
@@ -70,7 +72,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Ends:
-    """Numbers of starts by the root at which a method ended, and the worst relative error of alpha."""
+    """Numbers of starts from which a method ended at each root, and the worst relative error of alpha."""
 
     right: int
     spurious: int
@@ -108,7 +110,7 @@ def attempt(task: Task, start: NDArray, method: str) -> float:
 
 
 def ends(work: Sequence[Task], method: str) -> Ends:
-    """Where a method ends from all starts of all tasks."""
+    """The roots at which a method ends from all starts of all tasks."""
     shares = np.array([attempt(task, x, method) / task.gauge for task in work for x in task.starts])
     right, spurious = np.abs(shares - 1) < SAME, np.abs(shares + 1) < SAME
     return Ends(int(right.sum()), int(spurious.sum()), len(shares), worst(shares[right] - 1))

@@ -14,7 +14,7 @@ INTERVAL, PEAK = float(printed.INTERVAL), float(printed.PEAK)
 """The paper's example: time between impulses in rad, and the bound on them in orbital speeds."""
 
 Solver = Callable[[NDArray], float]
-"""From a state (3,), in orbital units over the peak, to its gauge, or nan where the solver finds none."""
+"""A function from a state (3,), in orbital units over the peak, to its gauge, or nan if none is found."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,8 @@ class Peer:
     Attributes
     ----------
     make : callable
-        From the name of a set and a number of steps to a solver. It builds the matrices and is not timed.
+        A function from the name of a set and a number of steps to a solver. It builds the matrices and is
+        not timed.
     count : int
         Number of states, smaller for slow methods.
     """
@@ -44,5 +45,5 @@ def thrust(name: str) -> Thrust:
 
 
 def unit_factors(name: str, steps: int) -> Array:
-    """G_k for a peak of 1, (steps, 3, components), whose numbers of order one suit every peer best."""
+    """G_k for a peak of 1, (steps, 3, components): numbers of order one, which suit every peer best."""
     return Thrust(name, INTERVAL, 1.0).factors(steps)

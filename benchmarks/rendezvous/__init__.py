@@ -9,7 +9,7 @@ pykep_peer        pykep's least-time problem, in an interpreter of its own
 pykep_least_time  the program that this interpreter runs
 integrators       Taylor series and DOP853
 solves            solve times of several methods
-aims              our solver against the aims
+aims              times of our solver against their aims
 stacks            flights one by one and in heyoka's vector mode
 figures           the plots
 measure           all tables and plots

@@ -1,4 +1,4 @@
-"""Our solver against the aims: warm solves, the homotopy from coasting to least time, the full search."""
+"""Solve times against their aims: warm solves, the homotopy from coasting to least time, the full search."""
 
 from time import process_time
 
@@ -19,7 +19,7 @@ from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root
 
 WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
-"""The aims, in seconds on one core."""
+"""The aims for a warm solve and for one homotopy, in seconds on one core."""
 MESH = 60
 """Number of intervals of the direct method."""
 

@@ -12,14 +12,15 @@ from pontryagin.rendezvous.reduced.conditions import SEEN
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 NODES, MOST = 60, 20_000
-"""Numbers of nodes: of the initial mesh, and at most."""
+"""Number of nodes of the initial mesh, and the maximum number of nodes."""
 
 
 def collocate(problem: Rendezvous, start: Extremal, tolerance: float) -> Any:
     """SciPy's solution, whose ``status`` is 0 if solve_bvp has reached its tolerance.
 
-    The unknown functions are the eleven states over the share of the duration. A free duration, which only
-    problems of least time have here, is a parameter. Derivatives are exact to rounding, by a complex step.
+    The unknown functions are the eleven states; their argument is the time over the duration. A free
+    duration, which only problems of least time have here, is an unknown parameter. Derivatives are exact to
+    rounding, by a complex step.
     """
     scaled, free = problem.scaled, problem.free
     chart = chart_of(start.flight.costates)

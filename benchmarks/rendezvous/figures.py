@@ -22,7 +22,7 @@ from pontryagin.display.plotting import (
 Table = Mapping[str, Sequence[Any]]
 """Columns of a table by their headings."""
 FLOOR = 1e-16
-"""Value at which a smaller error is drawn."""
+"""Errors below this value are drawn at it."""
 MARKS = {
     "pontryagin": ("o", BLUE),
     "solve_bvp": ("v", PURPLE),
@@ -62,7 +62,7 @@ def form_costs(table: Table) -> Figure:
 
 @styled
 def starts(table: Table) -> Figure:
-    """Shares of starts that lead to a true meeting, to a false one, and to none, for each inclination."""
+    """Shares of starts that converge to a true meeting, to a false one, or not at all, by inclination."""
     panels = list(dict.fromkeys(table["inclination"]))
     figure, axes = subplots(1, len(panels), height=2.6, sharey=True, squeeze=False)
     parts = (

@@ -16,7 +16,7 @@ from pontryagin.rendezvous.derivation.principle import Mode
 REFERENCE = "inclined-energy"
 """The case whose flight is timed."""
 SCALES: dict[Mode, float] = {"unsaturated": 1.0, "saturated": 0.05}
-"""alpha2 on unsaturated arcs, p_max on saturated ones."""
+"""The parameter of each kind of arcs: alpha2 on unsaturated ones, p_max on saturated ones."""
 MODES: tuple[Mode, ...] = ("unsaturated", "saturated")
 
 

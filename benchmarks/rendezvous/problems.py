@@ -38,20 +38,20 @@ def leap(degrees: float) -> Rendezvous:
 
 @cache
 def timed_search(name: str) -> tuple[Extremal, float]:
-    """The best extremal found of a case, and the processor time of the search."""
+    """The best extremal found for a case, and the processor time of the search."""
     begun = process_time()
     best = solve(cases()[name].problem)
     return best, process_time() - begun
 
 
 def solved(name: str) -> Extremal:
-    """The best extremal found of a case."""
+    """The best extremal found for a case."""
     return timed_search(name)[0]
 
 
 @cache
 def solved_leap(degrees: float) -> Extremal:
-    """The best extremal found of a `leap`."""
+    """The best extremal found for a `leap`."""
     return solve(leap(degrees))
 
 

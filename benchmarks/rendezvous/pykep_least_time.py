@@ -1,4 +1,4 @@
-"""Newton's method on pykep's least-time problem, run by another interpreter: it reads and writes JSON.
+"""Newton's method on pykep's least-time problem, run by another interpreter, with input and output in JSON.
 
 pykep requires a version of heyoka other than ours. The wheel of its version 3.0.1 lacks the data of the
 module ``pykep.trajopt.gym``, without which it cannot be imported; that module is not needed here, so an empty

@@ -1,7 +1,8 @@
 """Newton's method from the same random starts in each form of one fixed-time problem.
 
 Where a form's own residual vanishes, the extremal is tested against (5) and (6): it is a true meeting or a
-false one. With nu0 = 0, 16, 14 and 11 equations define the same map and differ only by rounding.
+false one. With nu0 = 0, the forms with 16, 14 and 11 equations define the same map and differ only
+by rounding.
 """
 
 from dataclasses import dataclass
@@ -18,19 +19,19 @@ from pontryagin.rendezvous.reduced.conditions import goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import fly
 
 ITERATIONS, HALVINGS = 30, 6
-"""Most steps of Newton's method, and most halvings of a step."""
+"""Maximum numbers of steps of Newton's method and of halvings of a step."""
 EXACT = 1e-9
-"""Residual at which Newton's method has converged."""
+"""Residual below which Newton's method has converged."""
 TRUE = 1e-7
-"""Residual up to which (5) and (6) hold."""
+"""Residual below which (5) and (6) count as satisfied."""
 SPREAD = 0.05
 """Standard deviation of the costates of a start."""
 DEGREES = (0, 20, 60)
 COUNT = 40
 ZERO = 1e-10
-"""Share of the largest singular value below which one counts as zero."""
+"""A singular value counts as zero below this share of the largest one."""
 CUTOFF = 1e-12
-"""Share of the largest singular value below which one is dropped in a Newton step."""
+"""A Newton step drops singular values below this share of the largest one."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Four forms of one system, compiled by heyoka in the same way, and their residuals at a meeting.
 
 The costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu equals nu, and nu0 = 0. In the
-form with eight costates Phi* and mu0 are free as well.
+form with eight costates, Phi* and mu0 are free as well.
 """
 
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import chart_of
 
 STEPS = 2000
-"""Most steps of a flight."""
+"""Maximum number of steps of a flight."""
 
 EIGHT, FULL, LONG, REPAIRED, REDUCED = (
     "16, eight costates",
@@ -40,7 +40,7 @@ Symbols = tuple[sp.Symbol, ...]
 
 
 def _repaired(mode: Mode) -> Form:
-    """The repaired form in either chart, +1 or -1, as a parameter."""
+    """The repaired form with the chart, +1 or -1, as an additional parameter."""
     plain = forms.repaired(mode)
     rate = repair.with_length(in_any_chart(repair.chi_rate())).subs(forms.thrust(mode))
     return Form(plain.states, (*plain.rates[:-1], rate), (*plain.parameters, chart))
@@ -52,7 +52,7 @@ EIGHT_COSTATES = tuple(principle.COSTATE)
 
 
 def costates_of(size: str) -> tuple[sp.Symbol, ...]:
-    """The initial values by which a form is differentiated."""
+    """The costates at t0 by which a form is differentiated."""
     if size == "16":
         return (principle.rho, principle.s1, principle.e, *principle.COSTATE[5:])
     return SIX
@@ -121,7 +121,7 @@ def parameters(size: str, scaled: Scaled, scale: float, start: Array) -> list[fl
 
 @cache
 def identity(size: str, wrt: Symbols = ()) -> Array:
-    """Derivatives of the state at t0 by its initial values."""
+    """Derivatives of the state at t0 by ``wrt``, or by default by `costates_of` the form."""
     form = SYSTEMS[size]("unsaturated")
     return np.array([[float(x == y) for y in wrt or costates_of(size)] for x in form.states])
 
@@ -151,7 +151,7 @@ class Problem:
         return np.array([*six[:3], 0.0, 0.0, *six[3:]]) if self.name == EIGHT else np.array(six)
 
     def six(self, unknowns: Array) -> Array:
-        """rho, s1, e, nu of the unknowns."""
+        """The values of rho, s1, e, nu among the unknowns."""
         return np.delete(unknowns, [3, 4]) if self.name == EIGHT else unknowns
 
     def residual(self, scaled: Scaled, unknowns: Array, duration: float) -> tuple[Array, Array] | None:

@@ -39,7 +39,7 @@ def boundary_value_problem(tolerance: float) -> Solver:
 
 
 def direct(energy: bool) -> Solver:
-    """Least L2 norm or least peak by Ipopt over a control constant on `NODES` cells, with exact steps."""
+    """Least L2 norm or least peak by Ipopt, for a control constant on `NODES` cells, with exact steps."""
     import casadi as ca
 
     h = 1 / NODES

@@ -12,14 +12,14 @@ from benchmarks.triple_integrator import problems
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 
 Solver = Callable[[NDArray, NDArray], float]
-"""Both ends (3,) of a manoeuvre of unit duration -> least cost, or nan where the solver fails."""
+"""A function from both states (3,) of a manoeuvre of unit duration to the least cost, nan if it fails."""
 
 OURS = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A solver and the number of problems for it, which is smaller where it is slow."""
+    """A solver and the number of problems that it is timed on, which is smaller for slow solvers."""
 
     solve: Solver
     count: int

@@ -1,8 +1,8 @@
 """Least peak and least impulse as linear programmes on a grid: Clarabel and HiGHS, each in its fastest form.
 
-The grid's optimum is that of controls constant on its cells (peak) or of impulses at its nodes (impulse), so
-it lies above the exact one by the error of the grid, to which the tolerance of the solver is added. The
-matrices are the same for every problem in time as a share of T; they are built once and not timed.
+The grid's optimum is that of controls constant on its cells (peak) or of impulses at its nodes (impulse). It
+lies above the exact one by the error of the grid, to which the tolerance of the solver is added. With time as
+a share of T the matrices are the same for every problem; they are built once, and this is not timed.
 """
 
 import numpy as np
@@ -46,7 +46,7 @@ def clarabel_peak(cells: int) -> Solver:
 
 
 def clarabel_impulse(cells: int) -> Solver:
-    """max p.mu over |p0 + p1 sigma + p2 sigma^2| <= 1 at the nodes: the dual, in three variables."""
+    """The dual programme in three variables: max p.mu over |p0 + p1 sigma + p2 sigma^2| <= 1 at the nodes."""
     nodes = impulse_rows(cells).T
     constraints = sparse.csc_matrix(np.concatenate([nodes, -nodes]))
     solver, settle = _clarabel(np.ones(3), constraints, np.ones(2 * cells + 2), equalities=0)

@@ -8,11 +8,11 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 SEED = 20121109
-"""Every random problem of the benchmark comes from this seed and the name of its class."""
+"""The seed that, with the name of a class, determines all random problems of the benchmark."""
 
 
 def generator(name: str) -> Generator:
-    """The random stream that belongs to a class of problems."""
+    """The random generator for a class of problems."""
     return np.random.default_rng([SEED, *name.encode()])
 
 
@@ -27,17 +27,17 @@ class Transfers:
 
 
 def powers(rng: Generator, low: float, high: float, size: int | tuple[int, ...]) -> NDArray:
-    """10 to an exponent uniform on [low, high]."""
+    """Powers of 10 with exponents uniform on [low, high]."""
     return 10.0 ** rng.uniform(low, high, size)
 
 
 def signs(rng: Generator, size: int | tuple[int, ...]) -> NDArray:
-    """Plus or minus one."""
+    """Random signs, plus or minus one."""
     return rng.choice([-1.0, 1.0], size)
 
 
 def ends(name: str, count: int, scale: float = 1.0) -> tuple[NDArray, NDArray]:
-    """Both ends (n, 3) of ordinary manoeuvres, normally distributed."""
+    """Both states (n, 3) of ordinary manoeuvres, normally distributed."""
     rng = generator(name)
     return scale * rng.standard_normal((count, 3)), scale * rng.standard_normal((count, 3))
 
@@ -48,12 +48,12 @@ def ordinary(rng: Generator, n: int) -> NDArray:
 
 
 def wide(rng: Generator, n: int) -> NDArray:
-    """Each moment of any size between 1e-6 and 1e6."""
+    """Moments that each have any size between 1e-6 and 1e6."""
     return signs(rng, (n, 3)) * powers(rng, -6, 6, (n, 3))
 
 
 def sparse(rng: Generator, n: int) -> NDArray:
-    """Some moments exactly zero; all of them in one case of eight."""
+    """Moments of which some are exactly zero; in one case of eight all are."""
     return rng.standard_normal((n, 3)) * rng.integers(0, 2, (n, 3))
 
 

@@ -14,22 +14,22 @@ def miss(
     force: ArrayLike = 0.0,
     impulses: NDArray | None = None,
 ) -> Array:
-    """Distance from the target over the size of the motion, worst of the three states.
+    """Distance from the target over the size of the motion, the largest for the three states.
 
-    Both are in the units of the angle: rates times T, accelerations times T^2. The size is the sum of the
+    Both are in units of the angle: rates times T, accelerations times T^2. The size is the sum of the
     moduli of all terms of the propagation, so that a miss of one rounding error corresponds to a change of
     the data by one.
 
     Parameters
     ----------
     x0, xf : (n, 3) arrays
-        Ends.
+        States at the start and at the end.
     durations, levels : (n, k) arrays
-        Pieces of constant control, in time order.
+        Durations and levels of the pieces of constant control, in time order.
     force : (n,) array or number
         Constant disturbance.
     impulses : (n, k + 1) array, optional
-        Impulses before the first piece, between pieces, and after the last.
+        Impulses before the first piece, between the pieces, and after the last piece.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def miss(
 
 
 def bang_bang_pieces(duration: NDArray, shares: NDArray, levels: NDArray) -> tuple[NDArray, NDArray]:
-    """Durations and levels (n, 3) of a control that is `levels` but for its negative between two switches.
+    """Durations and levels (n, 3) of a control that is `levels`, and its negative between two switches.
 
     Parameters
     ----------

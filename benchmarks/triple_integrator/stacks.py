@@ -11,13 +11,13 @@ from pontryagin.triple_integrator.least_time import time as least_time
 from pontryagin.triple_integrator.norms import impulse, peak
 
 AIMS = {"least peak": 2.0, "least impulse": 20.0, "least time": 1.0}
-"""Million problems a second on one core."""
+"""The aims for the throughput, in million problems a second on one core."""
 
 STACK_SIZE = 100_000
-"""Size of the stack for the throughput: large beside the cost of a call, small enough for the cache."""
+"""Size of the stack for the throughput: so large that a call costs little, small enough for the cache."""
 
 AIM_CALL = 30.0
-"""Microseconds for one call from Python."""
+"""The aim for one call from Python, in microseconds."""
 
 
 def throughput(quick: bool) -> dict[str, list]:
@@ -65,7 +65,7 @@ def whole_calls(count: int) -> dict[str, Callable[[], int]]:
 
 
 def _loops(count: int) -> dict[str, Callable[[], int]]:
-    """The compiled loops alone, from columns of numbers to an array of results."""
+    """The compiled loops alone, from columns of numbers to arrays of results."""
     x0, xf = problems.ends("stack", count)
     T, bound = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
     c = Maneuver(x0, xf, T).moments
@@ -80,7 +80,7 @@ def _loops(count: int) -> dict[str, Callable[[], int]]:
 
 
 def _single_calls(count: int) -> dict[str, Callable[[], int]]:
-    """Each public solver one problem at a time, from lists of numbers."""
+    """Each public solver, called for one problem at a time with lists of numbers."""
     x0, xf = problems.ends("single", count)
     pairs = list(zip(x0.tolist(), xf.tolist(), strict=True))
 

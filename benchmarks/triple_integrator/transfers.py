@@ -17,10 +17,10 @@ from pontryagin.triple_integrator import minimum_time
 from pontryagin.triple_integrator.least_time import time as least_time
 
 REACHED = 1e-9
-"""Largest relative miss with which an answer counts as one."""
+"""An answer counts only if its relative miss is at most this."""
 
 SAME = 1e-7
-"""Relative difference of durations that counts as longer."""
+"""A duration counts as longer than another if the relative difference exceeds this."""
 
 AXES = 100
 """Number of axes in one call of ruckig where it is timed on stacks."""
@@ -36,12 +36,12 @@ class Answers:
 
     @property
     def solved(self) -> NDArray[np.bool_]:
-        """Whether an answer came and leads to the target."""
+        """Whether there is an answer and it reaches the target."""
         return self.returned & (self.miss <= REACHED)
 
 
 def by_pontryagin(work: Transfers) -> Answers:
-    """Our answers, problem by problem; nan where the solver did not converge."""
+    """Our answers, computed one by one; nan where the solver did not converge."""
     columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
     result = least_time.solve_stack(*columns, work.force, work.peak)
     returned = result[:, 0] < least_time.NEVER
@@ -98,12 +98,12 @@ class RuckigAxis:
 
 
 def as_lists(work: Transfers) -> list[tuple[list[float], list[float], float]]:
-    """The problems as plain Python numbers, the form both sides take fastest one by one."""
+    """The problems as plain Python numbers, the fastest input of both solvers for single problems."""
     return list(zip(work.x0.tolist(), work.xf.tolist(), work.peak.tolist(), strict=True))
 
 
 def rows(quick: bool) -> list[Row]:
-    """Least time at unit scales: time per problem, and durations against ours."""
+    """Least time at unit scales: computing time per problem, and durations in comparison with ours."""
     result: list[Row] = []
     for name in ("full states", "no acceleration at the ends"):
         result += _rows(f"least time, {name}", name, 200 if quick else 2000, 3 if quick else 7)
@@ -186,7 +186,7 @@ def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int
 
 
 def _quietly(call, *arguments) -> None:
-    """Make a call and ignore its failure: the time counts, and failures are counted elsewhere."""
+    """Make a call that is timed and ignore its failure; failures are counted elsewhere."""
     import ruckig
 
     try:
@@ -199,8 +199,8 @@ def _quietly(call, *arguments) -> None:
 class Cell:
     """Both solvers on inputs of one kind and scale.
 
-    An answer counts as failed where none is returned or its propagation misses the target by more than
-    `REACHED`; as longer where that of the other solver reaches the target and is shorter by more than `SAME`.
+    An answer counts as failed if there is none or its propagation misses the target by more than `REACHED`.
+    It counts as longer if that of the other solver reaches the target and is shorter by more than `SAME`.
     """
 
     ends: str
@@ -240,7 +240,7 @@ def _compare(ends: str, states: str, jerk: str, work: Transfers) -> Cell:
 
 
 def by_cell(found: Sequence[Cell]) -> dict[str, list]:
-    """Every cell as a row."""
+    """A table with a row for every cell."""
     table: dict[str, list] = {
         "ends": [cell.ends for cell in found],
         "states": [cell.states for cell in found],
@@ -255,7 +255,7 @@ def by_cell(found: Sequence[Cell]) -> dict[str, list]:
 
 
 def summary(found: Sequence[Cell]) -> dict[str, list]:
-    """The cells of each kind added up."""
+    """A table of the sums over the cells of each kind."""
     kinds = list(dict.fromkeys((cell.ends, cell.states.startswith("each")) for cell in found))
     groups = [[c for c in found if (c.ends, c.states.startswith("each")) == kind] for kind in kinds]
     table: dict[str, list] = {

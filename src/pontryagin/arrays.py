@@ -1,4 +1,4 @@
-"""The types of arrays in annotations."""
+"""The array type used in annotations."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,4 +1,4 @@
-"""Certificates of answers: lower bounds where the problem is convex, residuals of the maximum principle."""
+"""Certificates of solutions: dual bounds for convex problems, maximum-principle residuals for others."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,9 +9,9 @@ from pontryagin.arrays import Array
 from pontryagin.value import value_class
 
 ACCEPTED = 1e-8
-"""Largest residual, and largest gap relative to the value, of an answer that is handed out."""
+"""Largest residual, and largest gap relative to the value, at which a solution is accepted by default."""
 
-TINY = np.finfo(float).tiny
+TINY = np.finfo(float).tiny  # keeps the gap of two zeros from being 0/0
 
 
 @value_class
@@ -24,7 +24,7 @@ class Certificate:
     primal_residual : (...) array
         Largest violation of the constraints, in the problem's own scaled units (dimensionless).
     primal_value : (...) array
-        Cost of the solution handed out.
+        Cost of the solution returned.
     dual_value : (...) array
         A lower bound on the cost of every admissible control, evaluated from the dual variable by a
         formula that does not use the primal solution.
@@ -44,8 +44,8 @@ class Certificate:
     def gap(self) -> Array:
         """|primal - dual| / max(|primal|, |dual|), (...); 0 where both are 0.
 
-        It does not depend on the unit of the cost. A bound above the value counts like one below it, since
-        neither can be so of an optimum.
+        It does not depend on the unit of the cost. A dual value above the primal value counts like one below
+        it: at an optimum the two are equal.
         """
         primal, dual = self.primal_value, self.dual_value
         gap: Array = np.abs(primal - dual) / np.maximum(np.maximum(np.abs(primal), np.abs(dual)), TINY)
@@ -67,8 +67,8 @@ class Certificate:
 class MaximumPrinciple:
     """How exactly an extremal satisfies the necessary conditions of the maximum principle.
 
-    The problems it belongs to are not convex: no bound on the cost of all controls follows, and none is
-    claimed. Every entry is (...), in the problem's own scaled units (dimensionless).
+    The problems are not convex: no bound on the cost of all controls follows, and none is claimed. Every
+    entry is (...), in the problem's own scaled units (dimensionless).
 
     Parameters
     ----------

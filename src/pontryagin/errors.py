@@ -1,11 +1,11 @@
 """The exceptions of the package: a wrong argument, a problem without a solution, an iteration that failed.
 
-Each keeps what it was built from in ``args``, so that it pickles, and with it passes between processes.
+Each keeps its constructor's arguments in ``args``, so that it can be pickled and passed between processes.
 """
 
 
 class _AboutArgument(Exception):
-    """An exception whose message is followed by the name of the argument that it is about."""
+    """An exception that keeps the name of the argument that it is about, after its message."""
 
     def __init__(self, message: str, argument: str | None = None) -> None:
         super().__init__(message, argument)
@@ -16,14 +16,14 @@ class _AboutArgument(Exception):
 
 
 class ArgumentValueError(_AboutArgument, ValueError):
-    """An argument has a value that the function does not take.
+    """An argument has a value that the function does not accept.
 
     Parameters
     ----------
     message : str
-        Names the argument, says what it takes and what it got.
+        Names the argument and says what is accepted and what was given.
     argument : str, optional
-        The argument's name; None where several are wrong together.
+        The argument's name; None where no single argument is at fault.
 
     Examples
     --------
@@ -37,7 +37,7 @@ class ArgumentValueError(_AboutArgument, ValueError):
 
 
 class ArgumentTypeError(_AboutArgument, TypeError):
-    """An argument has a type that the function does not take; see `ArgumentValueError`."""
+    """An argument has a type that the function does not accept; see `ArgumentValueError`."""
 
 
 class Infeasible(_AboutArgument, ValueError):
@@ -46,7 +46,7 @@ class Infeasible(_AboutArgument, ValueError):
     Attributes
     ----------
     argument : str or None
-        The argument that makes it so; None where no single one does.
+        The argument that makes the problem infeasible; None where no single one does.
     """
 
 
@@ -56,7 +56,7 @@ class NotConverged(RuntimeError):
     Attributes
     ----------
     residual : float
-        What was left of the equations, in the problem's scaled units.
+        The remaining residual of the equations, in the problem's scaled units.
     """
 
     def __init__(self, message: str, residual: float) -> None:

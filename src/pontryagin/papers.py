@@ -1,7 +1,7 @@
-"""The papers of the project: the one list that the ledger, the command line, the report and make read.
+"""The list of papers, read by the ledger, the command line, the report and make.
 
-A new paper is an entry of `PAPERS` and a folder. This module imports nothing of the project; `room` is the
-only place where a paper's module is imported by its name.
+A new paper is an entry of `PAPERS` and a folder. This module imports nothing else from the package; only
+`room` imports a paper's module by its name.
 """
 
 from importlib import import_module
@@ -10,15 +10,15 @@ from typing import Any, NamedTuple
 
 
 class Paper(NamedTuple):
-    """A paper and its place in the project, as text.
+    """A paper and where it is found in the project.
 
     Attributes
     ----------
     name : str
-        What the ledger calls it.
+        The paper's name in the ledger.
     package : str
-        Its folder in ``src/pontryagin``; papers that are solved together share one. With hyphens it is the
-        name of the command, ``pontryagin solve PACKAGE``, and of the benchmarks.
+        Its folder in ``src/pontryagin``; papers that are solved together share one. With hyphens for
+        underscores it names the command, ``pontryagin solve PACKAGE``, and the benchmarks.
     title, source : str
         Title of the paper; authors and year.
     chapter : str
@@ -81,7 +81,7 @@ PAPERS = (
 
 
 def packages() -> tuple[str, ...]:
-    """The papers' folders, each once, in the order of the ledger.
+    """The folders of the papers without repetition, in the order of the ledger.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def packages() -> tuple[str, ...]:
 
 
 def commands() -> dict[str, str]:
-    """The folder behind each command of ``pontryagin solve``, in the order of the chapters.
+    """The folder of each command of ``pontryagin solve``, in the order of the chapters.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def room(package: str, name: str) -> Any:
 
 
 def having(name: str) -> list[str]:
-    """The dotted names of the papers' modules of that name, in the order of the chapters.
+    """The dotted names of all papers' modules with a given name, in the order of the chapters.
 
     Examples
     --------

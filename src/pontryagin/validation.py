@@ -1,4 +1,4 @@
-"""Checks of what users pass in: each names the argument, what it got and what it takes."""
+"""Checks of arguments; their errors name the argument, what it accepts and what was given."""
 
 from math import isfinite
 from operator import index
@@ -16,9 +16,9 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
     Raises
     ------
     TypeError
-        If it does not hold real numbers.
+        If `value` does not hold real numbers.
     ValueError
-        If it holds nan or infinity, or is ragged.
+        If `value` holds nan or infinity, or is ragged.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
 
 
 def _from_objects(name: str, array: NDArray[np.object_], takes: str) -> Array:
-    """Numbers that NumPy does not know as such (fractions, SymPy numbers)."""
+    """Floats from an array of Python objects that are numbers (fractions, SymPy numbers)."""
     try:
         if any(entry is None for entry in array.flat):
             raise TypeError
@@ -71,12 +71,12 @@ def vectors(name: str, value: ArrayLike, length: int) -> Array:
 
 
 def integer(name: str, value: object) -> int:
-    """`value` as an integer, of whichever sign.
+    """`value` as an integer, positive, zero or negative.
 
     Raises
     ------
     TypeError
-        If it is none.
+        If `value` is not an integer.
     """
     try:
         if isinstance(value, (bool, np.bool_)):
@@ -98,7 +98,7 @@ def positive(name: str, value: ArrayLike) -> Array:
 def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
     """`value` (k,) or (..., k) broadcast against the intervals [start, end] (...), as (..., k).
 
-    Times outside by no more than rounding are moved to the end of the interval; others are refused.
+    Times that lie outside by no more than rounding are moved to the nearer end; others raise ValueError.
     """
     array = np.atleast_1d(finite(name, value, "a number or an array (k,) of times"))
     start, end = start[..., None], end[..., None]
@@ -126,7 +126,7 @@ def common_shape(**shapes: tuple[int, ...]) -> tuple[int, ...]:
     Raises
     ------
     ValueError
-        About the first argument that does not broadcast with those before it.
+        If they do not broadcast; the error names the first argument that does not fit those before it.
     """
     try:
         return np.broadcast_shapes(*shapes.values())

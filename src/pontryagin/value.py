@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 Class = TypeVar("Class")
 
 NAN = object()
-"""Stands for nan in what is compared, since nan does not equal itself."""
+"""Takes the place of nan in comparisons, since nan does not equal itself."""
 
 
 def value_class(cls: type[Class]) -> type[Class]:
-    """Make the instances of a dataclass values; a decorator above ``@dataclass(frozen=True, eq=False)``.
+    """Make a dataclass compare, hash and pickle by value; used above ``@dataclass(frozen=True, eq=False)``.
 
-    Two instances are equal if they are of one class and all their fields are: arrays entry by entry with nan
-    equal to nan, nested dataclasses, tuples and mappings by what they hold, functions by identity. A field
-    made with ``field(compare=False)`` is left out. Equal instances have equal hashes.
+    Two instances are equal if they are of one class and all their fields are equal: arrays entry by entry
+    with nan equal to nan; nested dataclasses, tuples and mappings by what they hold; functions by identity.
+    A field made with ``field(compare=False)`` is left out. Equal instances have equal hashes.
 
     Arrays in fields, in tuples and mappings in fields, and in cached properties become read-only, without a
     copy: a class that takes arrays from a user copies them in ``__post_init__``. Pickles and copies hold the
-    fields alone, so that cached properties are computed anew, and are read-only again. What of ``__eq__``,
-    ``__hash__``, ``__getstate__`` and ``__setstate__`` a class defines itself is kept, and so is the
-    ``__init__`` of a dataclass with ``init=False``, which makes its arrays read-only by `freeze`.
+    fields alone; cached properties are then computed again, and are read-only again. Methods ``__eq__``,
+    ``__hash__``, ``__getstate__`` and ``__setstate__`` that a class defines itself are kept. So is the
+    ``__init__`` of a dataclass with ``init=False``, which must make its arrays read-only by `freeze`.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def value_class(cls: type[Class]) -> type[Class]:
 
 
 def freeze(value: object) -> None:
-    """Make an array read-only, or those in a tuple or a mapping."""
+    """Make an array read-only, or the arrays in a tuple or a mapping."""
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif isinstance(value, tuple):
@@ -63,9 +63,9 @@ def freeze(value: object) -> None:
 
 
 def _initialiser(cls: Any) -> Any:
-    """``__init__`` of a dataclass, as `dataclass` writes it but filling ``__dict__`` at once.
+    """An ``__init__`` with the signature that `dataclass` gives it, which fills ``__dict__`` directly.
 
-    This takes half the time of a frozen dataclass's own, and pays for making the arrays read-only.
+    It takes half the time of a frozen dataclass's own, which makes up for the time to freeze the arrays.
     """
     given = {entry.name: entry for entry in fields(cls)}
     parameters = [entry for entry in given.values() if entry.init]
@@ -89,13 +89,13 @@ def _initialiser(cls: Any) -> Any:
 
 
 def _parameter(entry: Field[Any]) -> str:
-    """A field as a parameter of ``__init__``; its default is MISSING where a factory makes it."""
+    """A field as a parameter of ``__init__``; the default is MISSING where a factory makes the value."""
     required = entry.default is MISSING and entry.default_factory is MISSING
     return entry.name if required else f"{entry.name}=given[{entry.name!r}].default"
 
 
 def _initial(entry: Field[Any]) -> str:
-    """What ``__init__`` stores in a field."""
+    """The expression for the value that ``__init__`` stores in a field."""
     if entry.default_factory is MISSING:
         return entry.name if entry.init else f"given[{entry.name!r}].default"
     made = f"given[{entry.name!r}].default_factory()"
@@ -103,7 +103,7 @@ def _initial(entry: Field[Any]) -> str:
 
 
 def _read_only(function: Any) -> Any:
-    """The function of a cached property, with read-only arrays in what it returns."""
+    """The function of a cached property, changed to return read-only arrays."""
 
     @wraps(function)
     def computed(self: object) -> Any:
@@ -154,7 +154,7 @@ def _key(value: Any) -> Any:
 
 
 def _array_key(array: NDArray[Any]) -> Any:
-    """Shape, type and entries of an array, with one zero and one nan."""
+    """Shape, type and entries of an array, with -0.0 taken as 0.0 and every nan as the same nan."""
     if array.dtype.kind == "O":
         return array.shape, tuple(map(_key, array.ravel().tolist()))
     if array.dtype.kind in "fc":

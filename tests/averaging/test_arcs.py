@@ -15,7 +15,7 @@ KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] i
 
 @pytest.mark.parametrize("taylor", KINDS)
 def test_the_least_time_oscillator_is_the_known_one(taylor):
-    """x'' = -x + sign(sin(t + 1)): between switches circles about +1 or -1, followed in closed form."""
+    """x'' = -x + sign(sin(t + 1)), whose solution between switches is a circle about +1 or -1."""
     (force,), modes = modal([sp.sign(sp.sin(t + 1))])
     follow = switched_flow(modes, [x, v], [v, -x + force], clock=t, taylor=taylor)
     grid = np.linspace(0.0, 7.0, 29)

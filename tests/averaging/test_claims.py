@@ -1,6 +1,6 @@
-"""The ledger of Akulenko 1977: sections 1 and 2 entry by entry, and the whole of it in order.
+"""The ledger of Akulenko 1977: the entries of sections 1 and 2 one by one, and the order of all entries.
 
-Section 3's entries are checked by the tests of its examples.
+The entries of section 3 are checked by the tests of its examples.
 """
 
 import re

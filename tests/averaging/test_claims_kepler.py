@@ -28,7 +28,7 @@ UNSOUND = {
     "conditional": {"after (3.4): e", "(3.7)"},
     "misprint": {"(3.6): γ", "after (3.8): dp_K/dτ", "(3.9): E", "after (3.9): v"},
 }
-"""What does not hold as printed."""
+"""Entries that do not hold as printed."""
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The command line: what it prints is what the solvers found, and every mistake is one line."""
+"""The command line prints the solvers' results, and one line for every mistake of the user."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""How fast the errors of the averaged and of the corrected cost fall with epsilon."""
+"""Orders in epsilon of the errors of the averaged cost and of the corrected cost."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def test_the_first_correction_takes_the_error_from_the_first_order_to_the_second
     solution = smooth_example(1, 2, k=1.0, ripple=0.5)
     found = measured(solution, EPSILONS)
     assert found.slope(found.averaged) == pytest.approx(1, abs=0.1)
-    bound = np.pi**2 / 2 / window(solution).authority  # the optimum's phase is off by half a turn at most
+    bound = np.pi**2 / 2 / window(solution).authority  # the phase at the end is off by half a turn at most
     assert (found.corrected < 1.1 * bound * found.epsilon**2).all()
     assert (
         np.abs(found.exact - found.first - found.epsilon * found.correction) < bound * found.epsilon**2

@@ -1,4 +1,4 @@
-"""The first correction, proved for any coefficients and checked where quadrature is exact."""
+"""The first correction: proofs for arbitrary coefficients, and a check by quadrature."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_primitives_have_zero_mean_and_the_right_derivative():
 
 @pytest.mark.slow
 def test_the_transformation_removes_the_anomaly_to_second_order():
-    """One slow variable, any coefficients."""
+    """The proof is for one slow variable and arbitrary coefficients."""
     assert sp.simplify(theory.transformed(periodic("k", (a, p)), periodic("m", (a, p)), [a], [p])) == 0
 
 
@@ -91,7 +91,7 @@ FORCE, POTENTIAL, ENERGIES = 0.5, 0.6, (2.0, 3.0)
 
 
 def pace(energy, angle):
-    """Time per angle at the energy, in the potential V = 0.6 cos x."""
+    """dt/dx at an energy, in the potential V = 0.6 cos x."""
     return 1 / np.sqrt(2 * (energy - POTENTIAL * np.cos(angle)))
 
 
@@ -100,21 +100,21 @@ def mean_pace(energy):
 
 
 def primitive_of_pace(energy, angle):
-    """Odd in the angle, as the pace is even."""
+    """Zero-mean primitive of the pace minus its mean; odd in the angle, as the pace is even."""
     order = np.arange(1, 32)
     cosines = np.fft.rfft(pace(energy, np.arange(64) * np.pi / 32)).real[1:32] / 32
     return (cosines / order * np.sin(np.multiply.outer(angle, order))).sum(axis=-1)
 
 
 def second_mean(energy):
-    """Mean of the force's oscillation times the energy's derivative of the pace's primitive."""
+    """Mean of the oscillating force times the derivative by energy of `primitive_of_pace`."""
     angles, step = np.arange(64) * np.pi / 32, 1e-5
     above, below = (primitive_of_pace(energy + d, angles) for d in (step, -step))
     return (FORCE * np.sin(angles) * (above - below) / (2 * step)).mean()
 
 
 def least_time(epsilon, x0):
-    """Slow time and anomaly of arrival of da/dx = eps (1 + f sin x), dtau/dx = eps pace: a quadrature."""
+    """Slow time and anomaly at the end for da/dx = eps (1 + f sin x), dtau/dx = eps pace, by quadrature."""
 
     def energy(angle):
         return ENERGIES[0] + epsilon * (angle - x0 - FORCE * (np.cos(angle) - np.cos(x0)))
@@ -126,7 +126,7 @@ def least_time(epsilon, x0):
 
 
 def test_least_time_of_an_asymmetric_rotor_by_quadrature():
-    """Here no family of extremals is at hand, so the anomaly at the end is the one of the arrival."""
+    """The control is constant here, so that the anomaly at the end is fixed by the motion."""
     v = sp.Function("v", positive=True)(a, x)
     k1, k2 = theory.anomaly_hamiltonian(p * v * (1 + sp.sin(x) / 2) - 1, sp.S.Zero, v)
     assert k2 == 0

@@ -1,4 +1,4 @@
-"""Osculating elements against flights in Cartesian coordinates, and the phase against the clock."""
+"""Osculating elements compared with Cartesian trajectories, and the phase with time."""
 
 import functools
 
@@ -26,7 +26,7 @@ from pontryagin.averaging.derivation.kepler import (
 
 
 def fly(state, thrust, times):
-    """Newton's law in the plane, with a thrust (radial, transverse) held constant; states (k, 4)."""
+    """States (k, 4) by Newton's law in the plane under a constant thrust (radial, transverse)."""
 
     def rates(_, s):
         radius = np.hypot(*s[:2])
@@ -39,7 +39,7 @@ def fly(state, thrust, times):
 
 
 def elements(states):
-    """E, K, e, gamma, true and mean anomaly (6, ...) of Cartesian states, by vectors."""
+    """E, K, e, gamma, true and mean anomaly (6, ...) of Cartesian states, by vector formulas."""
     x, y, vx, vy = np.moveaxis(np.asarray(states), -1, 0)
     r = np.hypot(x, y)
     E, K = (vx**2 + vy**2) / 2 - 1 / r, x * vy - y * vx
@@ -78,7 +78,7 @@ def derived_rates():
 orbits = st.tuples(
     st.floats(-2.0, -0.1), st.floats(0.05, 0.9), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)
 ).map(lambda o: (o[0], np.sqrt((1 - o[1] ** 2) / (-2 * o[0])), o[2], o[3]))
-"""E, K, gamma, x, with the eccentricity between 0.05 and 0.9."""
+"""Strategy of (E, K, gamma, x) with an eccentricity between 0.05 and 0.9."""
 thrusts = st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))
 
 

@@ -1,4 +1,4 @@
-"""The closed solution of example 2 against quadrature, propagation, true flights and exact extremals."""
+"""The closed solution of example 2 compared with quadrature, integration and exact extremals."""
 
 import functools
 
@@ -32,7 +32,7 @@ prices = st.floats(0.05, 5.0)
 
 
 def mean_hamiltonian(E, K, p, l):
-    """<h*>: Cartesian velocity and moment arm on the ellipse, averaged over time in the eccentric anomaly."""
+    """<h*> by Cartesian velocity and position on the ellipse, averaged over time by the eccentric anomaly."""
     shape, a = np.sqrt(1 + 2 * E * K**2), -1 / (2 * E)
     density = 1 - shape * np.cos(XI)
     place = a * np.array([np.cos(XI) - shape, np.sqrt(1 - shape**2) * np.sin(XI)])
@@ -42,7 +42,7 @@ def mean_hamiltonian(E, K, p, l):
 
 
 def slopes(z, l):
-    """Hamilton's equations of <h*>, by central differences of fourth order in E, K, p_E, p_K."""
+    """Rates of (E, K, p_E, p_K) by Hamilton's equations of <h*>, with fourth-order central differences."""
     gradient = np.empty(4)
     for k, step in enumerate(1e-4 * np.array([-z[0], z[1], 1, 1])):
         shifts = [z + j * step * np.eye(4)[k] for j in (-2, -1, 1, 2)]
@@ -150,7 +150,7 @@ L, START, MOMENTUM, TARGET = 0.1, -0.5, 0.9, -0.35
 
 
 def extremal_rates(_, y, eps):
-    """The maximum principle in Cartesian coordinates: place, velocity, their costates, cost."""
+    """Rates of position, velocity, their costates and the cost by the maximum principle in Cartesian axes."""
     q, v, a, b = y[:8].reshape(4, 2)
     r = np.hypot(*q)
     force = -q / r**3 + eps * b / 2
@@ -158,7 +158,7 @@ def extremal_rates(_, y, eps):
 
 
 def flown_back(K1, x1, eps):
-    """K and xi at the level E = START, and the cost, of the extremal that ends at K1, x1 with H = 0."""
+    """K, xi at the energy E = START, and the cost, of the extremal that ends at K1, x1 with H = 0."""
     shape = np.sqrt(1 + 2 * TARGET * K1**2)
     r = K1**2 / (1 + shape * np.cos(x1))
     q = r * np.array([np.cos(x1), np.sin(x1)])

@@ -1,4 +1,4 @@
-"""The general theory as symbolic identities; the rippled closed forms against SciPy."""
+"""The general theory as symbolic identities; the closed forms of the rippled example compared with SciPy."""
 
 import math
 

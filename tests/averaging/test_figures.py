@@ -1,4 +1,4 @@
-"""What the figures and tables show is what the solvers found: lines are read back and checked."""
+"""Figures and tables show the solvers' results: their lines are read back and checked."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def rippled():
 
 @pytest.fixture(autouse=True)
 def brief(monkeypatch):
-    """One problem of the slopes, at three epsilons."""
+    """Restrict the measured cost errors to one problem and three values of epsilon."""
     name = "rippled flywheel"
     known, whole = cost_errors.problems()[name], cost_errors.errors
     monkeypatch.setattr(cost_errors, "problems", lambda: {name: known})
@@ -36,7 +36,7 @@ def lines(axis, label):
 
 
 def labelled(figure):
-    """The figure says what its axes are, and can be written."""
+    """Assert that the axes of a figure are labelled, and that it can be written."""
     assert any(axis.get_xlabel() for axis in figure.axes)
     assert any(axis.get_ylabel() for axis in figure.axes)
     assert len(svg_of(figure)) > 5000

@@ -1,4 +1,4 @@
-"""The committed kernels and systems are what the derivations generate; solving with them loads no SymPy."""
+"""The committed kernels and systems equal what the derivations generate; solving does not import SymPy."""
 
 import ast
 import inspect

@@ -1,4 +1,4 @@
-"""Examples 1 and 3 in numbers: the derived averages against quadrature and against the exact motion."""
+"""Examples 1 and 3 in numbers: the derived averages compared with quadrature and the exact motion."""
 
 import numpy as np
 import pytest
@@ -15,14 +15,14 @@ from pontryagin.averaging.derivation import rigid_body, rotor, smooth
 
 AXES = st.floats(0.2, 5.0)
 LX, LY = 1.0, 0.5
-RATE = 0.7709822125950  # 2/pi times E of the parameter 3/4
+RATE = 0.7709822125950  # (2/pi) E, the complete elliptic integral, at the parameter 3/4
 MASS = (1 + sp.cos(rotor.x) / 2) ** 2
 POTENTIAL = sp.sin(rotor.x) / 2
 FORCE = sp.Rational(1, 4) + sp.cos(rotor.x) / 5
 
 
 def body(ratio, control, epsilon, inertia=None):
-    """Euler's equations in numbers, from the derivation; control is a function of (w, t)."""
+    """Right-hand side of Euler's equations, from the derivation; control is a function of (w, t)."""
     moments = dict(zip(rigid_body.moments, inertia or (1, 1, ratio), strict=True))
     rates = rigid_body.euler_rates().subs(moments).subs(rigid_body.epsilon, epsilon)
     compiled = sp.lambdify([list(rigid_body.w), list(rigid_body.u)], list(rates))
@@ -30,7 +30,7 @@ def body(ratio, control, epsilon, inertia=None):
 
 
 def time_to_stop(ratio, control, epsilon, start, level, inertia=None, limit=5.0):
-    """Slow time at which a first falls to a level."""
+    """Slow time at which the variable a first falls to a level."""
 
     def low(t, w):
         return np.hypot(w[0], w[1]) - level
@@ -43,7 +43,7 @@ def time_to_stop(ratio, control, epsilon, start, level, inertia=None, limit=5.0)
 
 
 def braking(lx, ly, power=2):
-    """The synthesis; power 1 is the printed one."""
+    """The braking control as a feedback on w; power 1 gives the printed one."""
 
     def control(w, t):
         r = np.hypot(lx * w[0], ly * w[1])
@@ -88,7 +88,7 @@ def test_braking_takes_the_averaged_time_within_order_epsilon_and_the_printed_co
         errors.append(abs(time - (1 - 0.05) / RATE))
         assert errors[-1] < epsilon
     printed = time_to_stop(1.6, braking(LX, LY, power=1), 0.01, [0.6, 0.8, 2.0], 0.05)
-    # it leaves the ellipsoid where w is along y, and so is faster than anything allowed
+    # The printed control leaves the ellipsoid where w is along y, and so is faster than any admissible one.
     w = np.array([0.0, 1.0, 2.0])
     assert sum((np.array(braking(LX, LY, power=1)(w, 0))[:2] / [LX, LY]) ** 2) == pytest.approx(4)
     assert printed < (1 - 0.05) / RATE - 0.2
@@ -176,7 +176,7 @@ def test_a_rotor_follows_the_averaged_energy_with_the_power_of_the_force():
 
 
 def braking_time(extra, epsilon, a0, a1, height):
-    """Time to lower a rotor's energy after accelerating over the angle `extra`; m = 1, V = height cos x."""
+    """Time to reduce a rotor's energy after acceleration over the angle `extra`; m = 1, V = height cos x."""
     top = a0 + epsilon * extra
     turns = (top - a1) / epsilon
     grid = 400

@@ -1,4 +1,4 @@
-"""The third paper's benchmark: its contestants solve the problems that they are timed on."""
+"""The third paper's benchmark: every method that is timed solves its problem."""
 
 import numpy as np
 import pytest
@@ -97,7 +97,7 @@ def test_rows_of_exact_and_averaged_and_their_figure(monkeypatch):
     monkeypatch.setattr(enumeration, "ROUNDS", 1)
     rows = enumeration._of_one(EXAMPLES[SMOOTH].one, (0.1, 0.05))
     assert [row[2] for row in rows] == [3, 7] and [row[3] for row in rows] == [2, 4]
-    assert all(row[10] < 2 * row[9] for row in rows)  # the correction brings the cost nearer
+    assert all(row[10] < 2 * row[9] for row in rows)  # the correction reduces the error of the cost
     table = {
         "example": [SMOOTH] * 2,
         "epsilon": [row[0] for row in rows],

@@ -1,4 +1,4 @@
-"""The second paper's benchmark: peers find our gauges and plans, root finders end where they are said to."""
+"""The second paper's benchmark: peers agree with our gauges and plans, root finders end where reported."""
 
 import numpy as np
 import pytest

@@ -37,7 +37,7 @@ def extremal():
 def test_the_residual_of_every_form_vanishes_at_the_extremal_and_its_jacobian_is_exact(problem, extremal):
     scaled, duration, h = extremal.problem.scaled, extremal.flight.duration, 1e-6
     at = problem.start(extremal.flight.costates)
-    if problem.name == EIGHT:  # (16) asks for Phi*, and the gauge nu0 may be anything
+    if problem.name == EIGHT:  # (16) contains Phi*, and the gauge nu0 is arbitrary
         size = np.linalg.norm(problem.residual(scaled, at, duration)[0])
         at, _ = starts.newton(problem, scaled, extremal.flight.costates, duration)
         assert size > 1e-3

@@ -17,7 +17,7 @@ HEYOKA = pytest.mark.skipif(not has_heyoka(), reason="heyoka is not installed")
 
 
 def relay(taylor):
-    """x'' = -u with u the sign of x: one system whose parameter changes its sign at every event."""
+    """x'' = -u with u the sign of x: one system with a parameter that changes its sign at every event."""
     system = Symbolic((x, v), (v, -u), (u,), wrt=(x, v), event_functions=(-u * x,))
     along = integrator(system, taylor)
     return SwitchedFlow(lambda sign: Arc(along, (sign,)), lambda sign, _: -sign, jumps=True)
@@ -40,7 +40,7 @@ def test_a_relay_oscillator_switches_every_half_period(taylor):
     assert len(pieces) == 1 + int((10.0 / quarter + 1) / 2)
 
     def end(a):
-        """The same by the period, from rest at a."""
+        """State at time 10 from rest at a, in closed form by the period."""
         q = np.sqrt(2 * a)
         s, sign = (10.0 + q) % (4 * q) - q, 1.0
         if s > q:
@@ -56,7 +56,7 @@ def test_a_relay_oscillator_switches_every_half_period(taylor):
 @pytest.mark.parametrize("taylor", KINDS)
 def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
     flow, x0 = relay(taylor), 0.5
-    times = np.linspace(0.0, 4.0, 41)  # the switches at 1 and 3 stand in the grid
+    times = np.linspace(0.0, 4.0, 41)  # the grid holds the switches at 1 and 3
     s = (times + 1) % 4 - 1
     s, sign = np.where(s > 1, s - 2, s), np.where(s > 1, -1.0, 1.0)
     expected = np.stack([sign * (0.5 - s * s / 2), -sign * s], axis=1)
@@ -88,13 +88,13 @@ def bang_bang(taylor):
 
 
 def curve(of, t, z, p):
-    """Below the switching curve x = v^2/2, where v < 0."""
+    """Event function v^2/2 - x; it is negative before the switching curve x = v^2/2 with v < 0."""
     return z[1] * z[1] / 2 - z[0]
 
 
 @pytest.mark.parametrize("taylor", KINDS)
 def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
-    """From rest at x0 the switch is at sqrt(x0); kernels are plain functions, one for each mode."""
+    """From rest at x0 the switch is at sqrt(x0); each mode has a kernel of its own."""
     flow, x0 = bang_bang(taylor), 1.3
     equations = flow.arc("-").integrator.equations
     pieces, last = follow(flow, start(equations, [x0, 0.0]), "-", 0.0, 2 * np.sqrt(x0))
@@ -108,7 +108,7 @@ def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
 
 @pytest.mark.parametrize("taylor", KINDS)
 def test_a_tangency_is_no_switch_to_differentiate(taylor):
-    """x falls to 0 at a speed of 0.14, less than the 0.2 that counts as grazing; short steps see it."""
+    """x reaches 0 at a speed of 0.14, below the grazing limit of 0.2; short steps do not skip the event."""
     flow = SwitchedFlow(
         lambda mode: Arc(integrator(Kernel(("x", "v"), gravity, 0, (0,), (height,)), taylor), (), 0.1),
         lambda mode, event: mode + 1,
@@ -144,7 +144,7 @@ def test_switches_without_end_are_given_up(taylor):
 
 @HEYOKA
 def test_lanes_switch_each_in_its_own_time():
-    """A ramp x' = u that turns at x = 1, u to -u, side by side with others of other slopes."""
+    """Ramps x' = u of different slopes side by side; each changes u to -u at x = 1."""
     turning = Kernel(("x",), lambda of, t, z, p: [p[0] + 0.0 * z[0]], 1, (0,), (one_passed,), 1e-14)
     slopes = np.linspace(0.5, 3.0, 11)
     ends = np.linspace(3.0, 1.0, 11)

@@ -1,4 +1,4 @@
-"""Piecewise Chebyshev series: exact on polynomials, whatever the panels."""
+"""Piecewise Chebyshev series are exact on polynomials for any panels."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Compiled functions take the values of the expressions they were made from."""
+"""Compiled functions have the values of the expressions that they were made from."""
 
 import math
 

@@ -90,7 +90,7 @@ def test_a_zero_at_the_first_point_is_a_crossing():
 
 
 def test_bratus_fold():
-    """The largest rate with a solution is 3.5138; the solution through 1 on the upper branch is Kubicek's."""
+    """The largest rate with a solution is 3.5138; the solution on the upper branch at rate 1 is Kubicek's."""
     points = follow(bratu, np.zeros(40), 0.0, 1.0, scales=lambda u: np.full_like(u, 1 + np.abs(u).max()))
     path = list(itertools.takewhile(lambda p: not (p.parameter < 1 and p.unknowns.max() > 1), points))
     assert max(p.parameter for p in path) == pytest.approx(3.5138, abs=0.05)
@@ -104,7 +104,7 @@ def test_bratus_fold():
 
 
 def test_only_the_first_rows_need_hold():
-    """The second equation is looked at from outside: where x = p on the circle."""
+    """The first equation defines the circle; the second, x = p, is only evaluated to find a crossing."""
 
     def both(x, p):
         equations, slope = circle(x, p)

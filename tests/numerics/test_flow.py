@@ -1,4 +1,4 @@
-"""Both integrators follow the same equations."""
+"""Flows by either integrator have the conserved quantities, periods and closed forms of known equations."""
 
 import numpy as np
 import pytest

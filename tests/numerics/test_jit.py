@@ -1,4 +1,4 @@
-"""Stacks have the values of single calls, compiled or not."""
+"""Stacks of problems have the values of single calls, compiled or not."""
 
 from math import sqrt
 
@@ -54,7 +54,7 @@ def test_without_numba_the_same_numbers_come_more_slowly(monkeypatch):
 
 
 def doubles(values):
-    """A kernel of arrays."""
+    """A kernel that works on an array in place."""
     for i in range(values.shape[0]):
         values[i] *= 2.0
 
@@ -93,7 +93,7 @@ def test_a_kernel_may_use_numbers_and_functions_only():
 
 
 def test_two_things_of_one_name_do_not_meet_in_one_kernel():
-    """The compiled module has one namespace; modules of plain Python have one each."""
+    """A compiled kernel has one namespace, whereas plain Python modules have one each; clashes are errors."""
 
     def in_module(text, **names):
         scope: dict = dict(names)

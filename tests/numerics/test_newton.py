@@ -1,4 +1,4 @@
-"""Newton's method on textbook problems: what it finds, and what it says stopped it."""
+"""Newton's method on textbook problems: the solution, and the reported reason for stopping."""
 
 from dataclasses import dataclass
 
@@ -33,7 +33,7 @@ def test_the_valley_is_left_at_its_lowest_point():
 
 
 def test_steps_are_halved_where_the_whole_step_overshoots():
-    """arctan: without damping Newton's method diverges from beyond 1.39."""
+    """For arctan, undamped Newton's method diverges from |x| > 1.39."""
     found = newton(scalar(np.arctan, lambda x: 1 / (1 + x**2)), np.array([20.0]))
     assert abs(found.unknowns[0]) < 1e-15
 
@@ -50,7 +50,7 @@ def test_a_step_to_where_the_equations_fail_is_shortened():
 
 
 def test_inadmissible_steps_are_not_made():
-    """x^2 = 4 from 0.1, where the first step leads to 20."""
+    """x^2 = 4 from 0.1, where the full first step goes to 20."""
     tried = []
 
     def square(x):
@@ -77,7 +77,7 @@ def test_it_says_what_stopped_it(problem, start, outcome):
 
 
 def test_the_first_steps_may_be_rough():
-    """One exact evaluation to start from and one after the last step are enough."""
+    """After the rough steps at most three accurate evaluations are needed."""
     exact = []
 
     def cubic(x, error=0.0):
@@ -98,7 +98,7 @@ def test_the_expected_correction_is_that_of_quadratic_convergence():
 
 
 def roots_of(targets):
-    """x^2 = target, nan for x <= 0."""
+    """The equations x^2 = target, with nan for x <= 0."""
 
     def evaluate(members, x):
         x = np.where(x > 0, x, np.nan)

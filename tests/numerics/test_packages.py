@@ -1,4 +1,4 @@
-"""Optional packages: present ones are found, a missing one warns once in a process."""
+"""Optional packages: installed ones are found; a missing one gives one warning per process."""
 
 import warnings
 

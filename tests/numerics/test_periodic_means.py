@@ -1,4 +1,4 @@
-"""Means over a turn against mpmath and closed forms, for densities that are smooth, nearly not, and not."""
+"""Means over a turn against mpmath and closed forms, for densities that are smooth, nearly so, or not."""
 
 import mpmath as mp
 import numpy as np
@@ -21,7 +21,7 @@ RULES = [SOLVING, CHECKING]
 
 
 def density(function):
-    """A density of points with one parameter: function(x, parameter), one column."""
+    """A maker of densities with one column, function(x, parameter), from the parameters of the points."""
 
     def make(parameters):
         values = np.atleast_1d(parameters)
@@ -44,7 +44,7 @@ def test_the_trapezoid_is_exact_to_rounding_for_poles_at_any_distance(rule, r):
 @pytest.mark.parametrize("harmonic", [1, 2, 4, 8, 12])
 @pytest.mark.parametrize("m", [0.5, 0.99, 1 - 1e-4, 1 - 1e-8, 1 - 1e-12])
 def test_densities_with_symmetries_do_not_settle_by_chance(rule, harmonic, m):
-    """A rule and its double see the same of a function whose period is a multiple of the finer one's step."""
+    """A short period can make a rule and its double agree on a wrong value, which must not be accepted."""
     repeated = density(lambda x, m: np.sqrt(1 - m * np.sin(harmonic * x) ** 2))
     value = smooth_mean(repeated(m), 1, rule)[0, 0]
     assert value == pytest.approx(2 / np.pi * ellipe(m), rel=1e-9)

@@ -35,7 +35,7 @@ def test_what_is_not_integrable_is_never_finished():
 
 
 def test_rounding_in_the_density_does_not_halve_for_ever():
-    """Noise of 1e-11: no halving gets below the strict change, the loose one takes it."""
+    """With noise of 1e-11 no halving satisfies the strict tolerance; the loose one is satisfied."""
     calls = []
 
     def noisy(x):

@@ -1,4 +1,4 @@
-"""Quaternions against SciPy's rotations and against what defines them."""
+"""Quaternions against SciPy's rotations and against their defining identities."""
 
 import numpy as np
 from numpy.testing import assert_allclose

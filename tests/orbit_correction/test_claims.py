@@ -1,4 +1,4 @@
-"""The ledger of Ibragimov 2017: altered examples fail, and all numbered statements are there."""
+"""The ledger of Ibragimov 2017: altered examples fail, and all numbered statements have entries."""
 
 import re
 from dataclasses import replace

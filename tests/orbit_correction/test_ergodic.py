@@ -1,4 +1,4 @@
-"""The limit of N alpha(N): against the gauge of many steps, means in closed form, and symmetry."""
+"""The limit of N alpha(N): against the gauge of many steps, closed forms of means, and symmetry."""
 
 import numpy as np
 import pytest
@@ -37,12 +37,12 @@ def test_amplitude_and_constant_part_stay(z0, t):
 
 @given(st.floats(0.1, 3), st.floats(-5, 5))
 def test_the_means_of_the_square_are_in_closed_form(rho, c):
-    """Mean of |rho cos| is 2 rho / pi; of |c - 2 rho sin|, |c| or an arc sine."""
+    """The mean of |rho cos| is 2 rho / pi; that of |c - 2 rho sin| is |c| or has an arc sine."""
     if abs(c) >= 2 * rho:
         transverse = abs(c)
     else:
         transverse = 2 / np.pi * (c * np.arcsin(c / (2 * rho)) + np.sqrt(4 * rho**2 - c**2))
-    # In the dual of the modes the constant part counts twice in the transverse impulse.
+    # In the dual of `modes` the constant part has the factor 2 in the transverse impulse.
     found = mean_support(rho, c / 2, 0.25, 1.0, "box")
     assert_allclose(found, 2 * rho / np.pi + transverse, rtol=1e-6)
 

@@ -1,4 +1,4 @@
-"""Recordings hold the solver's arrays, and their sets are those of the impulses still to come."""
+"""Recordings hold the solver's arrays, and their sets are those of the remaining impulses."""
 
 import subprocess
 import sys
@@ -100,7 +100,7 @@ def test_the_nets_and_the_state_are_those_of_the_linear_motion(played):
 
 
 def _within_hull(point, corners):
-    """Whether a point is a mixture of corners."""
+    """Whether a point is a convex combination of corners."""
     equal = np.vstack([corners.T, np.ones(len(corners))])
     answer = linprog(
         np.zeros(len(corners)), A_eq=equal, b_eq=np.append(point, 1), bounds=[(0, None)] * len(corners)
@@ -110,7 +110,7 @@ def _within_hull(point, corners):
 
 @pytest.mark.parametrize("fired", range(6))
 def test_what_remains_has_the_state_on_its_boundary(fired):
-    """From each instant the rest of the controls, and no smaller ones, bring the state back."""
+    """From each instant the remaining controls, and no smaller ones, bring the state back."""
     plan = PLANS["orbit-correction"]
     left = remaining(plan, fired)
     recorded = np.array(Z0)

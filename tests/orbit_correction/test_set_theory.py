@@ -1,7 +1,7 @@
 """The lemmas and theorems of sections 2 to 6 on random systems in dimension 2 to 6 with random ellipsoids.
 
-Sets are described by points, trajectories and support functions; gauges come from the solver with its
-bounds.
+Sets are described by points, trajectories and support functions. The solver gives gauges and
+their bounds.
 """
 
 from dataclasses import dataclass
@@ -82,7 +82,7 @@ def systems(draw):
 
 
 def support(factors, p):
-    """Support function of the sum of the G B."""
+    """Support function of the sum of the ellipsoids G B."""
     return np.linalg.norm(np.einsum("kij,i->kj", factors, p), axis=1).sum()
 
 
@@ -112,7 +112,7 @@ def test_lemma_1_controls_that_end_at_zero_start_in_the_sum(case):
 
 @given(systems())
 def test_lemma_1_outside_the_sum_no_controls_end_at_zero(case):
-    """Lemma 1, the other inclusion."""
+    """Lemma 1: no controls of system (1) bring states outside the sum to 0."""
     p = case.direction()
     x = 1.01 * support_parts(case.reach(), p).sum(axis=0)
     assert gauge(case.system(), x, case.steps).alpha > 1.009
@@ -132,7 +132,7 @@ def test_corollary_1_in_support_functions(case):
 
 @given(systems())
 def test_lemma_2_and_corollary_2_one_support_point_and_disjoint_cones(case):
-    """Lemma 2: one support point for each p. Corollary 2: two boundary points share no normal."""
+    """Lemma 2: each p has one support point. Corollary 2: two boundary points have no common normal."""
     L, p = case.L[0], case.direction()
     best = L @ L.T @ p / np.linalg.norm(L.T @ p)
     assert_allclose([level(L, best), p @ best], [1, np.linalg.norm(L.T @ p)], rtol=1e-11)
@@ -225,7 +225,7 @@ def test_theorems_1_to_3_from_the_boundary(case):
 
 @given(systems())
 def test_lemmas_6_7_and_theorem_4_from_inside(case):
-    """From a state inside, as in (5): Lemma 7 on the system (7), Theorem 4, and Lemma 6.
+    """From an interior state, as in (5): Lemma 7 on the system (7), Theorem 4, and Lemma 6.
 
     By Lemma 6 the controls of (6), which leave out alpha, miss the origin.
     """

@@ -1,4 +1,4 @@
-"""Impulses that the ball wastes: the paper's example, and larger sets that never need more."""
+"""Impulses that the ball wastes: the paper's example; larger sets never need more impulses."""
 
 import numpy as np
 import pytest

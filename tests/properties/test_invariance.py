@@ -1,4 +1,4 @@
-"""What every solver must respect: units, sign, time reversal, the origin of time, and the free motion."""
+"""Invariances of every solver: units, sign, time reversal, the origin of time, and the free motion."""
 
 import numpy as np
 import pytest
@@ -83,14 +83,14 @@ def test_both_ends_may_move_with_the_free_motion(solve, maneuver, start):
 @every_solver
 @given(first=moments(), second=moments())
 def test_the_least_norm_is_a_norm_of_the_moments(solve, first, second):
-    """Convex and homogeneous: norm(c + d) <= norm(c) + norm(d), as the sum of both controls is one."""
+    """norm(c + d) <= norm(c) + norm(d), as the sum of the two controls has the moments c + d."""
     a, b, both = (float(solve(maneuver_with(c)).norm) for c in (first, second, first + second))
     assert both <= (a + b) * (1 + 1e-12)
 
 
 @given(c=moments())
 def test_hoelder_orders_the_norms(c):
-    """On T = 1: |u|_1 <= |u|_2 <= |u|_inf for the same u, hence for the least of each."""
+    """For T = 1, |u|_1 <= |u|_2 <= |u|_inf holds for every u, hence for the least norms."""
     one, two, most = (
         float(solve(maneuver_with(c)).norm) for solve in (minimum_impulse, minimum_energy, minimum_peak)
     )

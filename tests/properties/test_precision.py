@@ -1,4 +1,4 @@
-"""Answers against fifty digits, over scales and conditions where double precision has little to spare."""
+"""Solutions compared with fifty-digit arithmetic, in cases that are hard in double precision."""
 
 import mpmath as mp
 import numpy as np
@@ -13,7 +13,7 @@ from strategies import maneuver_with, moments, states, wide
 
 
 def exact_moments(x0, xf, T):
-    """c in exact arithmetic from ends given as floats."""
+    """The moments c in extended precision, from ends given as floats."""
     a, b, T = [exactly(x) for x in x0], [exactly(x) for x in xf], exactly(T)
     return [b[0] - a[0] - T * a[1] - T * T * a[2] / 2, b[1] - a[1] - T * a[2], b[2] - a[2]]
 
@@ -32,7 +32,7 @@ def exact_energy(c, T):
 
 
 def exact_impulse(c, T):
-    """Largest p.mu over the extreme quadratics, from the theory's closed form, in fifty digits."""
+    """Largest p.mu over the extreme quadratics, from the closed form of the theory, in fifty digits."""
     m = [c[2], c[1] / T, 2 * c[0] / T**2]
 
     def one_side(m0, m1, m2):
@@ -54,7 +54,7 @@ def exact_impulse(c, T):
 )
 @given(x0=states(wide()), xf=states(wide()), duration=st.floats(-3, 3).map(lambda e: 10.0**e))
 def test_norms_over_six_decades_of_data(solve, exact, x0, xf, duration):
-    """Relative to what rounding the moments themselves may do: the norm of the sizes of their terms."""
+    """The tolerance is relative to the norm plus that of the moduli of the moments' terms, for rounding."""
     with mp.workdps(50):
         expected = exact(exact_moments(x0, xf, duration), exactly(duration))
         sizes = exact_moments(-np.abs(x0), np.abs(xf), duration)
@@ -64,7 +64,7 @@ def test_norms_over_six_decades_of_data(solve, exact, x0, xf, duration):
 
 
 def exact_peak_of(c, T):
-    """The least peak for any T by scaling to T = 1, with the roots of the quartic."""
+    """The least peak for any T, from the roots of the quartic after scaling to T = 1."""
     scaled = [c[0] / T**3, c[1] / T**2, c[2] / T]
     size = max(map(abs, scaled))
     return size * exact_peak([x / size for x in scaled]) if size else mp.mpf(0)
@@ -90,7 +90,7 @@ def test_the_energy_to_the_last_digits(c):
     disturb=st.tuples(*[st.integers(-3, 3)] * 3),
 )
 def test_nearly_constant_controls_perturbed_in_the_last_bits(width, place, disturb):
-    """Around the constant control the quartic has a triple root; the level keeps all its digits."""
+    """The quartic has a triple root at the constant control, yet the peak keeps all its digits near it."""
     b = place * (1 - width)
     a = b + width
     c = np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])

@@ -1,4 +1,4 @@
-"""A stack gives what its members give: to the bit, whichever way it is run, and without exceptions."""
+"""A stack has the same results as its members, bit by bit, compiled or not, and raises no exceptions."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ KERNELS = {
 
 
 def narrow_flips(rng, count):
-    """Moments of controls that are constant but for a flip of width 1e-1 to 1e-14."""
+    """Moments of controls that are constant except for a reversal of width 1e-1 to 1e-14."""
     width = 10.0 ** rng.uniform(-14, -1, count)
     b = rng.random(count) * (1 - width)
     a, level = b + width, rng.choice([-1.0, 1.0], count)
@@ -29,7 +29,7 @@ def narrow_flips(rng, count):
 
 
 def problems(count):
-    """Moments and durations (4, count): of size one, over forty decades, on a lattice, u nearly constant."""
+    """Moments and durations (4, count): of size one, over forty decades, on a lattice, nearly constant u."""
     rng = np.random.default_rng(7)
     part = count // 4
     usual = rng.standard_normal((3, part))
@@ -92,7 +92,7 @@ def test_residual_and_gap_of_a_hundred_thousand_transfers():
 
 @pytest.mark.parametrize("name", ["energy", "peak", "impulse"])
 def test_special_numbers_raise_nothing_in_plain_python(name):
-    """Zeros, halves, neighbours of one, numbers whose squares vanish or overflow: finite, and as compiled."""
+    """Plain kernels agree with the compiled ones at zeros, halves, near one, and at tiny and huge numbers."""
     kernel, stack = KERNELS[name]
     special = [0.0, 1.0, 0.5, 1 / 6, 1e-8, 1e-20, 1e-160, 1e-300, 1e100, 1 + 2e-16, 1 - 1e-16, 1 / 3]
     special += [-x for x in special]
@@ -103,7 +103,7 @@ def test_special_numbers_raise_nothing_in_plain_python(name):
 
 
 def test_a_stack_is_cut_at_no_particular_size():
-    """Just below and just above the size from which stacks are compiled."""
+    """Sizes just below and just above the size from which stacks are compiled give the same results."""
     for count in (1, jit.COMPILE_FROM - 1, jit.COMPILE_FROM, jit.COMPILE_FROM + 1):
         columns = problems(4 * count)[:, :count]
         solution = minimum_peak(Maneuver(np.zeros(3), *maneuver_columns(columns)))

@@ -63,7 +63,7 @@ def solved(name: str) -> Any:
 
 
 def arrays(value: Any) -> Iterator[np.ndarray]:
-    """The arrays in fields, tuples, mappings and what an instance has computed and kept."""
+    """All arrays in a value: in its fields, tuples, mappings and cached properties."""
     if isinstance(value, np.ndarray):
         yield value
     elif isinstance(value, dict):
@@ -77,7 +77,7 @@ def arrays(value: Any) -> Iterator[np.ndarray]:
 
 
 def read_everything(value: Any) -> None:
-    """Have cached properties computed."""
+    """Read every cached property, so that it is computed."""
     for name, _ in inspect.getmembers(type(value), lambda member: hasattr(member, "attrname")):
         getattr(value, name)
 

@@ -1,4 +1,4 @@
-"""Stacks of flights: each member is as if integrated alone, whatever the others do."""
+"""Stacks of flights: each member has the same result as if integrated alone."""
 
 import math
 
@@ -22,7 +22,7 @@ FALLING = np.array([0.02, -0.04, 0.01, 0.19, 0.05, -0.16])
 
 
 def problem(degrees: float = 20, length: float = 1.0, gravity: float = 1.0, **changes) -> Rendezvous:
-    """A problem with lengths in units of `length`, and with times such that the motion is the same."""
+    """A problem scaled by `length`, with times scaled so that the motion is the same for every `gravity`."""
     time = math.sqrt(length**3 / gravity)
     given = {"time_weight": 0, "energy_weight": 1, "peak": math.inf, "duration": 6.0} | changes
     given["duration"] = given["duration"] and given["duration"] * time
@@ -34,7 +34,7 @@ def problem(degrees: float = 20, length: float = 1.0, gravity: float = 1.0, **ch
 
 @pytest.fixture(scope="module")
 def best():
-    """The extremal found from coasting by moving the goal, without random starts."""
+    """The extremal found by continuation from coasting, without random starts."""
     given = problem()
     scaled = given.scaled
     return Extremal(given, cold_start(Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)))
@@ -46,7 +46,7 @@ def starts(count: int) -> np.ndarray:
 
 @pytest.mark.parametrize(("peak", "bang"), KINDS)
 def test_each_flight_of_a_stack_ends_as_if_integrated_alone(peak, bang):
-    """More flights than lanes, of different durations, in both charts, with different switches."""
+    """There are more flights than lanes, with different durations and switches, in both charts."""
     scaled, costates = problem().scaled, starts(19)
     durations = np.linspace(0.5, 4.0, 19)
     together = fly_all(scaled, costates, durations, peak, bang)
@@ -85,7 +85,7 @@ def test_without_heyoka_the_flights_have_the_same_ends():
 
 
 def test_the_mode_of_every_arc_is_that_of_the_switching_function():
-    """Also where an arc begins exactly at |n| = 2 alpha2 p_max."""
+    """This holds also for arcs that begin exactly at |n| = 2 alpha2 p_max."""
     given = problem(peak=0.06)
     for costates in 2 * starts(12) / given.scaled.costate_units:
         alone = fly(given.scaled, costates, given.scaled.duration, given.scaled.peak)

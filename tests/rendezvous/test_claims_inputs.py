@@ -1,7 +1,7 @@
 """Every argument of the ledger depends on the derivation: with a wrong derived input its check fails.
 
-An input is a function that the argument calls; it is replaced wherever it is called by one whose result is
-slightly wrong: a sign, a factor, an additional term.
+An input is a function that the argument calls. It is replaced everywhere by a function whose result is
+slightly wrong: by a sign, a factor or an additional term.
 """
 
 import sys

@@ -362,7 +362,7 @@ class TestErrors:
         assert_refused(run("--file", path), "no extremal of this duration stays within the peak", status=1)
 
     def test_a_solution_whose_certificate_does_not_close_is_refused(self, write, leap, monkeypatch):
-        """Costates that are wrong by 1e-4 lead to another place."""
+        """With costates that are wrong by 1e-4 the craft ends at another place."""
         scaled = leap.problem.scaled
         setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
         moved = leap.root.unknowns + 1e-4

@@ -26,7 +26,7 @@ from pontryagin.rendezvous.derivation import (
 )
 
 TARGET = [1.0, 1.5, 0.1, np.sqrt(1.5)]
-"""fM, p*, e*, c*."""
+"""Values of fM, p*, e* and c*."""
 SCALE = {"unsaturated": 1.0, "saturated": 0.08, "time-optimal": 0.08}
 SPAN = np.linspace(0.0, 3.0, 7)
 START = [1.1, 0.1, 1.05, 0.4]
@@ -45,7 +45,7 @@ MEASURES = compiler.function(
 
 
 def trajectory(form, start, scale):
-    # By SciPy: for a few trajectories compiling the Taylor integrator takes longer than it saves.
+    # SciPy integrates: for a few trajectories, compiling the Taylor integrator takes longer than it saves.
     integrate = flow(form.states, form.rates, form.parameters, taylor=False)
     return integrate(start, SPAN, [*TARGET, scale])
 

@@ -1,4 +1,4 @@
-"""Limiting cases of the solvers (beside the target, close to the centre), values, errors."""
+"""Limiting cases of the solvers (beside the target, close to the centre), value semantics, errors."""
 
 import copy
 import itertools
@@ -40,7 +40,7 @@ def tilted(degrees, **changes):
 
 
 def beside(distance, **changes):
-    """A problem whose craft starts above the target at a distance, with the target's velocity."""
+    """A problem of free duration whose craft starts above the target at a distance, with its v1 and c."""
     turn = [math.cos(0.3), 0, 0, math.sin(0.3)]
     radius = 1.5 / (1 + 0.1 * math.cos(0.6))
     craft = Chaser(radius + distance, 0.1 * math.sqrt(1 / 1.5) * math.sin(0.6), math.sqrt(1.5), turn)
@@ -60,7 +60,7 @@ def diving():
 
 
 def simpson(rate, extremal):
-    """The integral of a function of time, on a mesh that is fine where the craft is close to the centre."""
+    """The integral of a function of time by Simpson's rule, with a finer mesh near the closest approach."""
     end = extremal.duration
     nearest = end * np.argmin(extremal.state(np.linspace(0, end, 20_001))[:, 0]) / 20_000
     total = 0.0

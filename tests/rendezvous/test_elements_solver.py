@@ -1,4 +1,4 @@
-"""The solvers in Sapunkov's elements: both functionals, against `solve`, Newton's law and differences."""
+"""The solvers in Sapunkov's elements for both functionals, against `solve`, Newton's law and differences."""
 
 import math
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ def problem(degrees: float, **changes) -> Rendezvous:
 
 
 def at_random(expression: sp.Expr):
-    """An expression at exact rational values of its symbols."""
+    """The value of an expression at arbitrary rational values of its symbols, exact."""
     symbols = sorted(expression.free_symbols, key=str)
     return expression.subs({x: sp.Rational(7 + 3 * i * i, 11 + 5 * i) for i, x in enumerate(symbols)})
 
@@ -151,7 +151,7 @@ def test_states_on_the_first_axis_have_elements():
     ids=["unbounded", "bounded", "jumping", "smoothed"],
 )
 def test_the_jacobian_is_the_derivative_of_the_equations(law, duration):
-    """Also across switches, where the derivatives are discontinuous."""
+    """This holds across switches too, where the derivatives are discontinuous."""
     setting, h = ElementsSetting(problem(20).scaled, law, duration), 1e-6
     point = np.append(COSTATES * (1.0 if law.kind == "fuel" else 0.1), 2.2)
     exact = equations(setting, point)
@@ -176,7 +176,10 @@ def test_both_integrators_give_the_same_flight():
 
 
 def by_the_axes(given: Rendezvous) -> Extremal:
-    """The solution in the axes eta: one extremal where that suffices, otherwise the full search."""
+    """The solution by the equations in the axes eta.
+
+    Without a bound and with a fixed duration it is the extremal by `cold_start`, otherwise that of `solve`.
+    """
     if given.free or given.peak < math.inf:
         return solve(given)
     setting = shooting.Setting(given.scaled, 1.0, math.inf, duration=given.scaled.duration)
@@ -193,7 +196,7 @@ def by_the_axes(given: Rendezvous) -> Extremal:
     ],
 )
 def test_the_solution_in_the_elements_is_an_extremal_found_in_the_axes_eta(degrees, changes):
-    """The solution in the elements starts from coasting, independently of the other one."""
+    """Both solutions are found from coasting, independently of each other."""
     given = problem(degrees, **changes)
     mine = solve_in_elements(given)
     other = by_the_axes(given)
@@ -214,7 +217,7 @@ def test_the_solution_in_the_elements_is_an_extremal_found_in_the_axes_eta(degre
 
 
 def test_the_transformed_costates_of_a_solution_are_a_solution_in_the_elements():
-    """Between inclined ellipses, in km and s, with attitudes other than 1."""
+    """The ellipses are inclined, the units km and s, and the craft's attitude is not the unit quaternion."""
     craft = Chaser(7000.0, 0.3, 54000.0, [0.6, 0, 0.8, 0])
     target = Orbit.from_angles(9000.0, 0.2, 0.3, 1.3, 0.5, 0.6)
     given = Rendezvous(craft, target, 0.0, 1.0, math.inf, gravity=398600.0, duration=5000.0)
@@ -314,14 +317,14 @@ def test_no_step_of_the_integrator_misses_a_burn_of_a_nearly_discontinuous_thrus
             exact, rough = (fly_elements(LEAP.scaled, costates, 3.0, law, rough=r).end for r in (False, True))
         except pontryagin.NotConverged:
             continue
-        assert_allclose(rough, exact, atol=1e-3 * np.abs(exact).max())  # a leap costs 1 and more
+        assert_allclose(rough, exact, atol=1e-3 * np.abs(exact).max())  # a missed burn: 1 or more
         compared += 1
     assert compared > 20
 
 
 @dataclass(frozen=True)
 class Level:
-    """A setting that only says what a function of the first unknown should be."""
+    """A setting that holds only the value required of a function of the first unknown."""
 
     value: float
     rough: bool = False
@@ -329,7 +332,7 @@ class Level:
 
 @pytest.fixture
 def bent(monkeypatch):
-    """Equations whose first is a given function of the first unknown, and the others 1 each."""
+    """Replace the shooting equations: a given function of the first unknown has a value, the others are 1."""
 
     def bend(function, slope):
         def equations(setting, unknowns):

@@ -30,7 +30,7 @@ SIGN_CHANGES = {"ellipse"}
 
 
 def allowed(mesh: int) -> float:
-    """Relative error allowed to a direct cost: of the order 2.5 in the length of an interval."""
+    """Relative error allowed for a direct cost, of the order 2.5 in the length of an interval."""
     return 5e-6 * (40 / mesh) ** 2.5
 
 

@@ -37,7 +37,7 @@ ANGLE = -25
 
 
 def transfer(peak, duration, turns=0):
-    """From a circle to an inclined ellipse in km and s, in fixed time; `peak`, `duration` with fM = r = 1."""
+    """From a circle to an inclined ellipse in fixed time, in km and s; arguments in units with fM = r = 1."""
     attitude = Rotation.from_quat(START, scalar_first=True) * Rotation.from_euler("x", 20, degrees=True)
     target = Orbit(1.5 * LENGTH, 0.1, attitude.as_quat(scalar_first=True), 0.6)
     problem = Rendezvous(
@@ -136,7 +136,7 @@ def test_the_bound_and_its_threshold_are_recorded_if_the_thrust_is_bounded(met, 
 
 
 def in_scene(problem, vectors):
-    """Inertial vectors in the axes of the target's orbit, over p*."""
+    """Inertial vectors in the axes of the target's orbit, in units of p*."""
     axes = Rotation.from_quat(problem.target.attitude, scalar_first=True)
     return axes.inv().apply(vectors) / problem.target.parameter
 
@@ -162,7 +162,7 @@ def _units(vectors):
 
 
 def newton(t, place, velocity, push=lambda t: np.zeros(3)):
-    """Places by Newton's law, lengths over p*, times over sqrt(p*^3/fM)."""
+    """Places by Newton's law, with lengths in units of p* and times in units of sqrt(p*^3/fM)."""
 
     def rates(time, state):
         return [*state[3:], *(-state[:3] / np.linalg.norm(state[:3]) ** 3 + push(time))]

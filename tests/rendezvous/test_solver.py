@@ -51,7 +51,7 @@ def test_importing_the_package_loads_neither_sympy_nor_an_integrator():
 @pytest.mark.parametrize("degrees", INCLINATIONS)
 @pytest.mark.parametrize(("ratio", "peak"), [(0.01, 0.05), (0.001, 0.05), (math.inf, 0.05), (0.01, math.inf)])
 def test_the_jacobian_is_the_derivative_of_the_equations(degrees, ratio, peak):
-    """Also across the switches, of the terminal law, in the bound, in alpha1/alpha2 and in the lead."""
+    """It is so across switches, for the terminal law, and in the bound, alpha1/alpha2 and the lead too."""
     setting, h = Setting(problem(degrees).scaled, ratio, peak), 1e-6
     point = np.append(COSTATES, 6.0)
     exact = equations(setting, point)
@@ -91,7 +91,7 @@ def test_both_charts_give_the_same_attitude():
 
 @pytest.mark.parametrize("degrees", INCLINATIONS)
 def test_a_cold_start_meets_the_target_in_every_geometry(degrees):
-    """(6) is checked by the 16 equations, the place by Newton's law and Kepler's equation."""
+    """The 16 equations check (6); Newton's law and Kepler's equation check the place."""
     setting = Setting(problem(degrees).scaled, 1.0, math.inf, duration=3.0)
     root = cold_start(setting)
     assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
@@ -128,7 +128,7 @@ def test_a_meeting_ahead_of_the_target_violates_only_the_condition_on_the_attitu
 
 
 def test_the_slope_of_the_cost_over_the_duration_is_minus_the_square_of_the_end_thrust():
-    """dJ/dt_k = alpha1 - alpha2 p(t_k)^2 along the family of fixed times."""
+    """dJ/dt_k = alpha1 - alpha2 p(t_k)^2 along the family of extremals of fixed duration."""
     setting, h = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0), 1e-4
     here = cold_start(setting)
     later, sooner = (energy(meet(setting.replace(duration=3.0 + x), here.unknowns).flight) for x in (h, -h))
@@ -148,7 +148,7 @@ def test_a_mixed_problem_reaches_the_bound_and_obeys_the_law_at_the_end():
 
 
 def least_time(degrees: float):
-    """The extremal of least time by one homotopy from the unbounded problem."""
+    """A problem of least time, and its extremal by one homotopy from the unbounded problem."""
     given = problem(degrees, time_weight=1, energy_weight=0, peak=0.1)
     scaled = given.scaled
     loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
@@ -167,7 +167,7 @@ def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
 
 @pytest.mark.slow
 def test_the_solution_does_not_depend_on_units_and_on_the_sign_of_quaternions():
-    """Lengths times 7000, fM = 398600, and -Lambda* in place of Lambda*."""
+    """Lengths are multiplied by 7000, fM is 398600, and -Lambda* takes the place of Lambda*."""
     plain = problem(20, duration=8.0)
     length, gravity = 7000.0, 398600.0
     time = math.sqrt(length**3 / gravity)

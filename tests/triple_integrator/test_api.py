@@ -1,4 +1,4 @@
-"""The public face: names, what an import costs, and that every argument and field is documented."""
+"""The public interface: names, the cost of an import, and the documentation of every argument and field."""
 
 import ast
 import dataclasses
@@ -52,7 +52,7 @@ def public_things():
 
 
 def parameters(thing):
-    """What a caller passes: the fields of a dataclass, the arguments of a function."""
+    """The names of what a caller passes: the fields of a dataclass or the arguments of a function."""
     if dataclasses.is_dataclass(thing):
         return [field.name for field in dataclasses.fields(thing) if field.init]
     called = thing.__init__ if inspect.isclass(thing) else thing
@@ -157,7 +157,7 @@ def test_every_field_is_documented_where_any_is():
 
 
 def test_every_argument_is_documented_where_any_is():
-    """A docstring with a Parameters section names them all, and names nothing that is no argument."""
+    """A docstring with a Parameters section names all arguments and nothing else."""
     wrong = {}
     for name, thing in public_things().items():
         told = section(inspect.getdoc(thing) or "", "Parameters")

@@ -1,4 +1,4 @@
-"""What the figures draw is what the mathematics says: their lines are read back and checked."""
+"""Figures: their lines are read back and compared with the mathematics."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ BODY = RigidBody([[1200, 90, -60], [90, 900, 40], [-60, 40, 700]])
 
 
 def curves(ax, least=50):
-    """Lines of an axes with at least so many points, as (x, y)."""
+    """Lines of an axes that have at least `least` points, as (x, y)."""
     return [line.get_data() for line in ax.lines if len(line.get_xdata()) >= least]
 
 
@@ -131,7 +131,7 @@ class TestRegimes:
         assert image[middle, middle + 20] == 1  # nearly constant: one sign
 
     def test_boundaries_separate_regimes(self):
-        """Across each great circle drawn the regime changes, at a random place of it."""
+        """At a random place of each great circle drawn the regime is different on its two sides."""
         start, end, middle = sphere.unit_impulse(np.array([1.0, 0.0, 0.5]))
         for first, last in ((start, end), (start, -middle), (end, -middle), (start, -end)):
             point = sphere.arc(first, last, 9)[4]

@@ -1,4 +1,4 @@
-"""The committed kernels are what the derivation generates, in plain arithmetic."""
+"""The committed kernels are those that the derivation generates, in plain arithmetic."""
 
 import ast
 import inspect

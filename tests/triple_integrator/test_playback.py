@@ -1,4 +1,4 @@
-"""Recordings: they are valid, and they hold the states and torques of the solutions."""
+"""Recordings are valid and hold the states and torques of the solutions."""
 
 import subprocess
 import sys

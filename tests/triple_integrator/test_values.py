@@ -105,7 +105,7 @@ def test_plain_pickle_refuses_a_lambda_and_names_the_argument():
 
 
 class ByValue(pickle.Pickler):
-    """Functions by value, as cloudpickle pickles them."""
+    """A pickler that pickles functions by value, as cloudpickle does."""
 
     def reducer_override(self, obj):
         if not isinstance(obj, FunctionType) or obj is rebuilt:

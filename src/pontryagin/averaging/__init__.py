@@ -13,7 +13,7 @@ omega            omega                    frequency of the phase
 f, F             f, phase_rate            rates per epsilon, of the slow variables and of the anomaly
 u, U             control, control_set     control and the convex set it is taken from
 M                target                   what vanishes at the end
-g                terminal_cost            what is minimised; its integral part stands in running_cost
+g                terminal_cost            what is minimised; its integral part is running_cost
 p, q             costates, phase_costate  variables conjugate to a and to the anomaly
 H, h*            hamiltonian              h*: max over u of what epsilon multiplies in H, (1.4)
 u*               maximiser                the control that attains it, (1.5)

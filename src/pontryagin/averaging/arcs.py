@@ -1,6 +1,6 @@
-"""Flows whose right-hand side holds modes, the signs of switching functions, followed arc by arc.
+"""Integration, arc by arc, of equations that contain modes: the signs of switching functions.
 
-A mode is a parameter, 1 or -1, that keeps its value on an arc and changes it where its function vanishes.
+A mode is a parameter, 1 or -1, that is constant on an arc and changes where its function vanishes.
 """
 
 from collections.abc import Hashable, Sequence
@@ -29,19 +29,19 @@ def switched_ends(
     wrt: Sequence[sp.Symbol] = (),
     taylor: bool | None = None,
 ) -> Ends:
-    """As `pontryagin.numerics.lanes.ends`, for rates that hold modes.
+    """`pontryagin.numerics.lanes.ends` for rates that contain modes.
 
     Parameters
     ----------
     modes : tuple of (sympy.Symbol, sympy.Expr)
         Modes and the functions whose signs they are, in states, parameters, clock and earlier modes.
     states, rates, parameters, clock, wrt, taylor
-        As there.
+        As in `pontryagin.numerics.lanes.ends`.
 
     Examples
     --------
-    A ball under a force towards the origin, 1 in modulus, from rest at 1/2: it is back after four arcs of
-    unit duration.
+    A ball is drawn to the origin by a force of modulus 1. Released at rest at 1/2, it is back there after
+    four arcs of unit duration.
 
     >>> x, v, m = sp.symbols("x v m")
     >>> fall = switched_ends(((m, x),), [x, v], [v, -m], wrt=[v])
@@ -74,7 +74,7 @@ def switched_flow(
     clock: Hashable = None,
     taylor: bool | None = None,
 ) -> Flow:
-    """As `pontryagin.numerics.flow.flow`, for rates that hold modes."""
+    """`pontryagin.numerics.flow.flow` for rates that contain modes."""
     along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, (), taylor)
 
     def sample(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
@@ -95,7 +95,7 @@ def _integrator(
     wrt: tuple[sp.Symbol, ...],
     taylor: bool | None,
 ) -> Integrator:
-    """The signs are its last parameters; an event is where a sign is no longer that of its function."""
+    """An integrator with the modes as last parameters and an event where a mode must change its sign."""
     symbols = tuple(mode for mode, _ in modes)
     events = tuple(-mode * switching for mode, switching in modes)
     return integrator(Symbolic(states, rates, (*parameters, *symbols), clock, wrt, events), taylor)
@@ -111,7 +111,7 @@ def _flow(along: Integrator, constants: Array) -> SwitchedFlow[Signs]:
 
 
 def signs_at(along: Integrator, time: float, state: Array, constants: Array) -> Signs:
-    """The modes that hold from a point on; one whose function vanishes there has the sign of its slope."""
+    """Values of the modes just after a point; where a function vanishes there, the sign of its slope."""
     equations = along.equations
     signs = np.ones(equations.events)
     for i in range(len(signs)):

@@ -50,7 +50,7 @@ EXPRESSIONS = ("omega", "weight", "running_cost", "terminal_cost", "phase_rate",
 
 
 class _PythonPrinter(StrPrinter):  # type: ignore[misc]
-    """SymPy's text, in which Python does not divide two integers."""
+    """SymPy's text form, with each fraction as an exact Rational instead of a quotient of integers."""
 
     def _print_Rational(self, expression: sp.Rational) -> str:
         return f"Rational({expression.p}, {expression.q})"

@@ -13,17 +13,17 @@ Modes = tuple[tuple[sp.Symbol, sp.Expr], ...]
 
 
 def modal(expressions: Sequence[sp.Expr]) -> tuple[tuple[sp.Expr, ...], Modes]:
-    """Replace signs, moduli, maxima and alternatives by modes.
+    """Replace sign, Abs, Max, Min and Piecewise by modes.
 
     Returns
     -------
     tuple of expressions, tuple of (mode, switching function)
-        The switching functions may hold modes found before.
+        A switching function may contain modes that stand before it in the tuple.
 
     Raises
     ------
     ValueError
-        If an alternative is not decided by one inequality.
+        If a Piecewise is not decided by one inequality.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The paper's examples as the command line and tables ask for them: options, columns and solvers."""
+"""Options, table columns and solvers of the paper's examples, for the command line."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,17 +14,17 @@ from pontryagin.io import (
 from pontryagin.terminal import console
 
 VECTORS = {"omega0": ("omega_x", "omega_y", "omega_z"), "semiaxes": ("l_x", "l_y", "l_z")}
-"""Options of three numbers, and the columns of a table that hold them."""
+"""Options that take three numbers, each with the table columns that hold them."""
 
 FORMULAS = {"mass": ("x",), "potential": ("x",), "force": ("x", "v")}
-"""Options that hold formulas, and the variables of those."""
+"""Options that take formulas, each with the variables that its formula may contain."""
 
 Given = Mapping[str, str | None]
 
 
 @dataclass(frozen=True)
 class ExampleSchema:
-    """An example of the paper as the command line and tables state it.
+    """One example of the paper: its solver, and its arguments on the command line and in tables.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ class ExampleSchema:
         Name of the function of `pontryagin.averaging`.
     title : str
     required : tuple of str
-        Its arguments; on the command line each has two hyphens before it.
+        Arguments that must be given; on the command line each has two hyphens before it.
     optional : mapping of str to str
-        Arguments that may be left out, and what they are then.
+        Arguments that may be left out, with their default values.
     either : tuple of str
         Arguments of which exactly one must be given.
     phase : bool
@@ -59,7 +59,7 @@ class ExampleSchema:
         Raises
         ------
         pontryagin.terminal.console.Refusal
-            If one is missing or is not what it should be.
+            If an argument is missing or invalid, or two arguments exclude each other.
         """
         console.required({option(name): given[name] for name in self.required})
         self._require_one([name for name in self.either if given[name] is not None])
@@ -67,7 +67,10 @@ class ExampleSchema:
         return {name: value(name, text) for name, text in texts.items() if text is not None}
 
     def stack(self, given: Given, path: Path) -> tuple[rows.Rows, dict[str, Any]]:
-        """A row of a table for each problem, and the arguments' values: its columns, or options for all."""
+        """Read a table with one problem in each row, and find the value of every argument.
+
+        A value is the array of a column, or one number from an option for all rows.
+        """
         wanted = [name for name in self.required if given[name] is None]
         possible = [name for name in self.options if name not in FORMULAS and name not in self.required]
         with console.reading("--batch", path):
@@ -150,7 +153,7 @@ def _columns(names: list[str]) -> list[str]:
 
 
 def value(name: str, text: str) -> Any:
-    """What an argument's text stands for: a number, three, or an expression.
+    """The value that an argument's text stands for: a number, three numbers, or an expression.
 
     Examples
     --------

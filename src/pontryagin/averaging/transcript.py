@@ -1,4 +1,4 @@
-"""An averaged solution and its exact extremals in words and numbers: a table, JSON, columns of CSV."""
+"""Reports of an averaged solution and its exact extremals: as a table, as JSON, as columns of CSV."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ Report = dict[str, dict[str, Any]]
 
 PROOF = ("boundary", "transversality", "hamiltonian", "maximality")
 SHOWN = 6
-"""Extremals that a table lists; JSON holds all."""
+"""Number of extremals that a table lists; JSON lists all of them."""
 
 
 def transcript(
@@ -19,21 +19,21 @@ def transcript(
     phase: float | None = None,
     exact: Any = None,
 ) -> Report:
-    """One solution as headings with their quantities, named as the attributes of the library.
+    """Report one solution: quantities under headings, named like the attributes of the library.
 
     Parameters
     ----------
     problem : mapping
-        What was schema.
+        The example and its arguments; reported unchanged.
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     epsilon : float, optional
-        With it the correction is reported, and the exact extremals.
+        If given together with `exact`, the correction and the exact extremals are reported too.
     phase : float, optional
         Phase at the start.
     exact : Extremals, optional
-        Best first; beside epsilon. Where they leave no choice of the anomaly at the end, the correction is
-        that for the best one's.
+        The exact extremals, best first. Where the anomaly at the end cannot be chosen, the correction is the
+        one for the best extremal's anomaly.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def transcript(
 
 
 def shown(report: Report) -> Report:
-    """The same for a table: an extremal a line, the best `SHOWN` of them."""
+    """The report as a table shows it, with a line for each of the best `SHOWN` extremals."""
     if "exact" not in report:
         return report
     exact = report["exact"]
@@ -88,7 +88,7 @@ def shown(report: Report) -> Report:
 
 
 def conclusion(report: Report) -> str:
-    """What the numbers say about the cost.
+    """State the costs that were found, in one or two sentences.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def conclusion(report: Report) -> str:
 
 
 def answers(solution: Any, epsilon: float | None = None, phase: float | None = None) -> dict[str, Any]:
-    """Columns of a stack of solutions: each (n,)."""
+    """Result columns, (n,) each, for a stack of n solutions."""
     report = {"duration": solution.duration, "cost": solution.cost}
     if epsilon is not None:
         correction = solution.correction(phase)

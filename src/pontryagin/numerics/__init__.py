@@ -1,1 +1,1 @@
-"""Numerical methods that know no paper: flows, arcs, Newton's method, continuation, quadrature."""
+"""Numerical methods independent of the papers: flows, arcs, Newton's method, continuation, quadrature."""

@@ -1,9 +1,9 @@
-"""Arcs between switches: flows of several modes, each smooth, that change at the zeros of event functions.
+"""Trajectories of smooth arcs in several modes, with switches at the zeros of event functions.
 
-A mode is what holds between two switches: which right-hand side, with which parameters. `SwitchedFlow` says
-how each mode flows and which one follows; `follow` finds the arcs of a trajectory, with its derivatives in
-the initial values, and `sample` evaluates it. Where the rates jump at a switch, f- before and f+ after, the
-derivatives jump as well, by the saltation matrix: with the event function g,
+A mode is the right-hand side, with its parameters, that holds between two switches. `SwitchedFlow` states the
+equations of each mode and which mode follows it; `follow` finds the arcs of a trajectory with its derivatives
+in the initial values, and `sample` evaluates it. Where the rates jump at a switch, f- before and f+ after,
+the derivatives jump as well, by the saltation matrix: with the event function g,
 
     dx+ = dx- + (f+ - f-) (grad g, dx-)/g',    g' = (grad g, f-) + dg/dt.
 """
@@ -25,14 +25,14 @@ Mode = TypeVar("Mode")
 
 
 class Arc(NamedTuple):
-    """How one mode flows.
+    """How one mode is integrated.
 
     Attributes
     ----------
     integrator : Integrator
-        Of its equations, whose event functions are negative on the arc.
+        The integrator of the mode's equations, whose event functions are negative on the arc.
     parameters : (p,) sequence
-        Their values in this mode.
+        Values of the parameters in this mode.
     longest : float
         Longest step of the integrator.
     """
@@ -50,10 +50,11 @@ class Piece(Generic[Mode]):
     Attributes
     ----------
     begin : float
-        Time where it begins.
+        Time at which the arc begins.
     mode : Mode
+        The mode of the arc.
     whole : (n + n m,) array
-        The states there, followed by the rows of their derivatives.
+        The states at the beginning, followed by the rows of their derivatives.
     """
 
     begin: float
@@ -68,13 +69,13 @@ class SwitchedFlow(Generic[Mode]):
     Attributes
     ----------
     arc : function (mode) -> Arc
-        How a mode flows.
+        How a mode is integrated.
     following : function (mode, event) -> mode
-        The mode after an event, by its index.
+        The mode after the event with a given index.
     jumps : bool
         Whether the rates jump at a switch, and with them the derivatives.
     grazing : float
-        Rate of an event function at a switch up to which it counts as a tangency.
+        A switch counts as a tangency if the event function's rate there is at most this.
     most : int
         A trajectory with more switches than this is given up.
     """
@@ -86,7 +87,7 @@ class SwitchedFlow(Generic[Mode]):
     most: int = 200
 
     def crossed(self, mode: Mode, reached: Reached) -> Piece[Mode]:
-        """The beginning of the arc after the event that ended one."""
+        """The arc that begins after the event that ended the arc before."""
         assert reached.event is not None
         after = self.following(mode, reached.event)
         n = len(self.arc(mode).integrator.equations.identity)
@@ -104,7 +105,7 @@ class SwitchedFlow(Generic[Mode]):
 
 
 def rates(arc: Arc, time: float, state: Array) -> Array:
-    """x' (n,) of a mode."""
+    """x', (n,), in the mode of an arc."""
     return arc.integrator.equations.rates(time, state, arc.parameters)
 
 
@@ -119,15 +120,15 @@ def follow(
     whole : (n + n m,) array
         States and derivatives at the beginning.
     mode : Mode
-        The mode there.
+        The mode at the beginning.
     begin, end : float
         Times.
 
     Raises
     ------
     NotConverged
-        Where an integrator stops short, a switching function touches zero without crossing it, or there is
-        no end of switches.
+        Where an integrator stops short, a switching function touches zero without crossing it, or there are
+        more switches than ``flow.most``.
     """
     pieces = [Piece(begin, mode, whole)]
     last: Integrator | None = None
@@ -146,9 +147,9 @@ def follow(
 
 
 def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Array) -> Array:
-    """The states at ascending times of the trajectory that begins at the first of them, (k, n).
+    """The states, (k, n), at ascending times of the trajectory that begins at the first of them.
 
-    It is integrated once, where `follow` and `sample` would do so twice.
+    The trajectory is integrated once; `follow` and `sample` together would integrate it twice.
     """
     n = len(flow.arc(mode).integrator.equations.identity)
     rows = np.empty((len(times), n))
@@ -164,7 +165,7 @@ def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Ar
         if reached.event is None:
             break
         piece, last, switches = flow.crossed(piece.mode, reached), integrator, switches + 1
-        while done < len(times) and times[done] <= piece.begin:  # the grid meets the switch
+        while done < len(times) and times[done] <= piece.begin:  # a point of the grid is the switch itself
             rows[done] = piece.whole[:n]
             done += 1
         if switches > flow.most:
@@ -173,7 +174,7 @@ def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Ar
 
 
 def sample(flow: SwitchedFlow[Mode], pieces: Sequence[Piece[Mode]], times: Array) -> Array:
-    """The states of a trajectory, whose arcs are known, at times in any order, (k, n)."""
+    """The states, (k, n), of a trajectory with known arcs at times in any order."""
     which = places(pieces, times)
     n = len(flow.arc(pieces[0].mode).integrator.equations.identity)
     rows = np.empty((len(times), n))
@@ -182,13 +183,13 @@ def sample(flow: SwitchedFlow[Mode], pieces: Sequence[Piece[Mode]], times: Array
         grid, back = np.unique(np.append(times[chosen], piece.begin), return_inverse=True)
         integrator, parameters, longest = flow.arc(piece.mode)
         states, reached = integrator.sample(piece.whole, grid, parameters, longest)
-        missing = len(grid) - len(states)  # at the end of the arc the event may come first, by rounding
+        missing = len(grid) - len(states)  # by rounding, the event may come just before the end of the arc
         states = np.vstack([states, *[reached.whole[:n]] * missing])
         rows[chosen] = states[back[:-1]]
     return rows
 
 
 def places(pieces: Sequence[Piece[Mode]], times: Array) -> Array:
-    """Index of the arc that holds at each time, (k,)."""
+    """Index of the arc that each time belongs to, (k,)."""
     begins = np.array([piece.begin for piece in pieces])
     return np.clip(np.searchsorted(begins, times, side="right") - 1, 0, None)

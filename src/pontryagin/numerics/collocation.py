@@ -1,4 +1,4 @@
-"""Collocation on panels of [0, 1]: piecewise Chebyshev series with the matrix that integrates them.
+"""Collocation on panels of [0, 1]: piecewise Chebyshev series and their integration matrix.
 
 A boundary value problem z' = f(z) becomes z - z(0) = integrals @ f(z) at the points of a `Mesh`.
 """
@@ -14,13 +14,14 @@ from pontryagin.arrays import Array
 
 @dataclass(frozen=True)
 class Mesh:
-    """Panels of [0, 1], each with degree + 1 points of which the last is the next one's first.
+    """Panels of [0, 1], each with degree + 1 points; the last point of a panel is the first of the next.
 
     Parameters
     ----------
     edges : tuple of float
-        Ascending from 0 to 1.
+        Ends of the panels, ascending from 0 to 1.
     degree : int
+        Degree of the series on each panel.
     """
 
     edges: tuple[float, ...]
@@ -79,7 +80,10 @@ def derivative(edges: Array, series: Array, s: Array) -> Array:
 
 
 def _located(edges: Array, series: Array, s: Array) -> tuple[Array, Array, Array]:
-    """For each s: the coefficients (..., k, degree + 1, w) of its panel, its place in it, and its length."""
+    """For each s: the coefficients (..., k, degree + 1, w) of its panel, where s lies in it, its length.
+
+    The place within the panel runs from 0 to 1.
+    """
     if series.shape[-3] == 1:
         low, length = edges[..., :1], edges[..., 1:] - edges[..., :1]
         return series, np.clip((s - low) / length, 0.0, 1.0), length

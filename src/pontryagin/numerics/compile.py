@@ -1,7 +1,7 @@
 """Numeric functions made from SymPy expressions.
 
-`function` makes a NumPy function of named expressions, `columns` a leaner one for inner loops, and `source`
-writes named expressions as readable text for a paper's `kernels.py`.
+`function` makes a NumPy function of named expressions, `columns` one with less overhead for inner loops, and
+`source` writes named expressions as readable text for a paper's `kernels.py`.
 """
 
 import functools
@@ -20,17 +20,17 @@ def function(
 ) -> Callable[..., tuple[Array, ...]]:
     """Compile named SymPy expressions into one NumPy function.
 
-    Common subexpressions are evaluated once; every output has the broadcast shape of the arguments, also
-    where its expression is constant; a matrix gains its own axes at the end.
+    Common subexpressions are evaluated once. Every output has the broadcast shape of the arguments, even if
+    its expression is constant; a matrix has its own axes after these.
 
     Parameters
     ----------
     name : str
-        Name of the function made.
+        Name of the function that is made.
     arguments : sequence of sympy.Symbol
         Its positional arguments, in order.
     outputs : mapping of str to sympy.Expr or sympy.Matrix
-        What it returns, as a tuple in this order.
+        The outputs, returned as a tuple in this order.
 
     Raises
     ------
@@ -84,8 +84,8 @@ def columns(
 ) -> Callable[..., tuple[Any, ...]]:
     """Compile SymPy expressions into a plain function that leaves broadcasting to NumPy.
 
-    Where `function` first brings all arguments to one shape, here a subexpression is evaluated at the shape
-    of the arguments in it alone, and a constant stays a number. Inner loops call this.
+    `function` first broadcasts all arguments to one shape. Here each subexpression has the shape of its own
+    arguments only, and a constant stays a number, which is faster in inner loops.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def columns(
 
 
 def _as_pieces(extreme: Any) -> Any:
-    """Max or Min as Piecewise: NumPy's own would need arguments of one shape."""
+    """Max or Min rewritten as Piecewise, since SymPy's NumPy code for them needs arguments of one shape."""
     import sympy as sp
 
     return extreme.rewrite(sp.Piecewise)
@@ -122,7 +122,7 @@ def _real(name: str, value: object) -> Array:
 def source(name: str, arguments: Sequence[Any], outputs: Mapping[str, Any], doc: str) -> str:
     """Write named scalar SymPy expressions as the text of one Python function.
 
-    The text uses arithmetic and the `math` module only, so that it runs on floats as it is and under Numba.
+    The text uses arithmetic and the `math` module only, so that it runs on floats in plain Python and Numba.
 
     Examples
     --------
@@ -164,7 +164,7 @@ def _scalar_printer() -> Any:
     from sympy.printing.pycode import PythonCodePrinter
 
     class ScalarPrinter(PythonCodePrinter):  # type: ignore[misc]
-        """Plain Python with small integer powers written as products, three times faster than `**`."""
+        """Prints plain Python with small integer powers as products, three times faster than `**`."""
 
         def _print_Pow(self, expr: Any, rational: bool = False) -> str:
             base, exponent = expr.base, expr.exp

@@ -1,8 +1,8 @@
 """Derivatives by a complex step: f'(x) v = Im f(x + i h v) / h, exact to rounding for analytic functions.
 
-The step h is so small that its square vanishes beside 1, and nothing is subtracted, so that no digit is lost.
-The function must be written in operations that take complex numbers; `abs`, comparisons and conjugates of the
-inputs spoil the derivative.
+The step h is so small that its square is negligible beside 1, and nothing is subtracted, so that no digit is
+lost. The function must be written in operations that take complex numbers; `abs`, comparisons and conjugates
+of the inputs spoil the derivative.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ STEP = 1e-30
 """Size of the imaginary step."""
 
 Columns = Callable[[NDArray[np.complexfloating]], ArrayLike]
-"""A function of inputs (n, ...) along the first axis to outputs (m, ...), broadcast along the others."""
+"""A function of inputs (n, ...) that returns outputs (m, ...) and broadcasts along the later axes."""
 
 
 def derivative(
@@ -29,7 +29,7 @@ def derivative(
     function : function of an array of the point's shape
         Analytic in its argument.
     point, direction : array_like
-        Where, and along what.
+        Where the derivative is taken, and along which direction.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def jacobian(function: Columns, point: ArrayLike, directions: ArrayLike | None =
     Parameters
     ----------
     function : function of an (n, d, ...) array
-        It returns (m, d, ...): the first axis holds what goes in and what comes out.
+        It returns (m, d, ...); inputs and outputs are along the first axis.
     point : (n, ...) array_like
         One point, or a stack of them along the last axes.
     directions : (n, d) array_like, optional

@@ -1,9 +1,10 @@
-"""Curves of solutions: followed by pseudo-arclength or over the parameter, to a value of it, round folds.
+"""Continuation: curves of solutions followed by pseudo-arclength (round folds) or in the parameter.
 
 A family is a system of equations with a parameter. `follow` predicts along the tangent of the curve of its
 solutions and corrects across it, so that the curve may turn back (a fold: two solutions meet) and give
-several solutions at one value of the parameter. `march` goes over the parameter itself, by secants, and ends
-at a fold. `crossings` finds where on a curve a function vanishes, `reach` polishes the first of those.
+several solutions at one value of the parameter. `march` steps in the parameter itself, predicts by secants
+and ends at a fold. `crossings` finds where on a curve a function vanishes; `reach` finds the first point
+with a given value of the parameter and polishes it.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -17,14 +18,17 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton import E, Scales, ones
 
 Family = Callable[[Array, float], tuple[E, Array]]
-"""Unknowns (n,) and the parameter to the equations and the residual's derivative in the parameter, (m,)."""
+"""A function of the unknowns (n,) and the parameter.
+
+It returns the equations and the residual's derivative in the parameter, (m,).
+"""
 
 CLOSE = 1e-9
-"""Size of a correction, in shares of the scales, after which a point of a curve is taken."""
+"""A point of a curve is accepted after a correction below this size, measured in the scales."""
 CLOSE_ENOUGH = 1e-5
-"""The same from the second correction on: the error after it is its square."""
+"""From the second correction on this size suffices: the error after it is of the order of its square."""
 CORRECTIONS = 6
-"""Corrections after which a step is shortened."""
+"""Number of corrections after which a step that has not converged is shortened."""
 LEAST_STEP = 1e-5
 """Arclength of a step below which a curve is given up."""
 
@@ -60,22 +64,22 @@ def follow(
     unknowns : (n,) array
         A solution.
     start : float
-        Its parameter.
+        Its value of the parameter.
     sense : float
-        Positive where the parameter is to grow at first, negative where it is to fall.
+        Positive if the parameter is to grow at first, negative if it is to fall.
     scales : function of unknowns, optional
-        What the unknowns are measured by; the parameter is measured by 1.
+        Units of the unknowns; the unit of the parameter is 1.
     step, largest : float
-        The first arclength of a step, and the largest.
+        The first and the largest arclength of a step.
     steps : int
-        The most points.
+        The largest number of steps.
     rows : int, optional
-        Only the first so many equations hold along the curve, in as many unknowns.
+        If given, the curve satisfies only the first ``rows`` equations, in as many unknowns.
 
     Yields
     ------
     Point
-        The first is the start itself. The curve ends where the steps become too short or too many.
+        The start itself, then further points. The curve ends where the steps become too short or too many.
 
     Examples
     --------
@@ -108,7 +112,7 @@ def follow(
 
 
 def _tangent(jacobian: Array, by_parameter: Array, scale: Array, direction: Array) -> Array:
-    """The scaled unit tangent of the curve that does not turn back from a direction."""
+    """The scaled unit tangent of the curve, in the sense that agrees with a given direction."""
     matrix = np.column_stack([jacobian, by_parameter]) * scale
     matrix /= np.linalg.norm(matrix, axis=1, keepdims=True)
     tangent = np.asarray(np.linalg.svd(matrix)[2][-1])
@@ -118,7 +122,10 @@ def _tangent(jacobian: Array, by_parameter: Array, scale: Array, direction: Arra
 def _land(
     family: Family[E], here: Point[E], scale: Array, tangent: Array, step: float, rows: int | None
 ) -> tuple[Point[E], Array, int] | None:
-    """Predict along the tangent, correct across it: the new point, its slope in the parameter, the effort."""
+    """The next point of the curve, predicted along the tangent and corrected across it; None if that fails.
+
+    Also returned are the residual's derivative in the parameter and the number of corrections.
+    """
     start = np.append(here.unknowns, here.parameter)
     y = start + step * scale * tangent
     last = np.inf
@@ -153,7 +160,7 @@ def crossings(
 ) -> Iterator[tuple[Array, float]]:
     """Unknowns and parameters, by the secant, where a function changes its sign between points of a curve.
 
-    Where it vanishes at the very first point, that one comes first.
+    If the function vanishes at the very first point, that point comes first.
     """
     last: Point[E] | None = None
     before = 0.0
@@ -172,7 +179,7 @@ def crossings(
 
 
 def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array], R], reason: str) -> R:
-    """The solution at a value of the parameter, where the curve first has it.
+    """The solution at the first point of a curve with a given value of the parameter.
 
     Parameters
     ----------
@@ -181,14 +188,14 @@ def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array]
     parameter : float
         The value.
     polish : function of unknowns
-        Newton's method at that value, from unknowns by the secant.
+        Newton's method at that value; it starts from unknowns by the secant.
     reason : str
-        What `NotConverged` says if the curve ends before.
+        The message of `NotConverged` if the curve ends before.
 
     Raises
     ------
     NotConverged
-        If the curve does not come to the value; the residual is how far from it the nearest point is.
+        If the curve does not reach the value; the residual is the distance from it to the nearest point.
     """
     nearest = np.inf
 
@@ -213,27 +220,27 @@ def march(
     growth: float = 1.6,
     tries: int = 60,
 ) -> Iterator[Point[E]]:
-    """Solutions over the parameter up to a value, each guessed by the secant through the two before it.
+    """Solutions at successive values of the parameter, each guessed by the secant through the two before it.
 
     Parameters
     ----------
     solve_at : function of the parameter and a guess (n,)
-        The solution there; it raises `NotConverged` where the guess is too far, which halves the step.
+        The solution there. It raises `NotConverged` where the guess is too far off; the step is then halved.
     start : Point
         A solution.
     end : float
-        The value.
+        The last value of the parameter.
     first, largest, least : float
         The first step of the parameter, the largest, and the one below which the march is given up.
     growth : float
-        By what a step grows after each success.
+        Factor by which a step grows after each success.
     tries : int
-        The most steps tried.
+        The largest number of steps tried.
 
     Yields
     ------
     Point
-        The first is the start itself, the last is at ``end`` if that was reached.
+        The first is the start itself; the last is at ``end`` if that was reached.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Differential equations as integrators need them: as heyoka's expressions, and as functions of NumPy arrays.
+"""Differential equations for the integrators, as heyoka's expressions and as functions of NumPy arrays.
 
 The right-hand side is given either by SymPy expressions (`Symbolic`) or by a plain function of numbers that
-runs on both (`Kernel`). Both forms know the variational equations, and the event functions that end an arc.
+runs on both (`Kernel`). Both provide the variational equations and the event functions that end an arc.
 """
 
 import math
@@ -18,7 +18,10 @@ from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.complex_step import STEP, jacobian
 
 SMALL = 200
-"""heyoka unrolls right-hand sides of fewer operations than this: faster, but slow to compile."""
+"""heyoka compiles right-hand sides with more operations than this as loops.
+
+Unrolled code is faster to run, but slow to compile.
+"""
 
 Values = Sequence[float] | Array
 """The values of parameters, (p,)."""
@@ -36,7 +39,7 @@ class Equations(Protocol):
 
     @property
     def identity(self) -> Array:
-        """Derivatives of the initial states in the initial values chosen, (n, m)."""
+        """Derivatives of the initial states in the chosen initial values, (n, m): columns of the identity."""
 
     @property
     def events(self) -> int:
@@ -50,10 +53,10 @@ class Equations(Protocol):
         """The system in heyoka's expressions, without its variational equations."""
 
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
-        """f (n,)."""
+        """f, (n,)."""
 
     def variational(self, time: Any, state: Array, columns: Array, parameters: Any) -> Array:
-        """f beside (df/dx) columns, (n, 1 + m), for columns (n, m)."""
+        """f and the matrix (df/dx) @ columns side by side, (n, 1 + m), for given columns (n, m)."""
 
     def event(self, i: int, time: float, state: Array, parameters: Values) -> float:
         """Event function i."""
@@ -72,7 +75,7 @@ class Symbolic:
     Parameters
     ----------
     states, expressions, parameters : tuple
-        Symbols x, their rates f as expressions, symbols p.
+        Symbols x, expressions of their rates f, symbols p.
     clock : sympy.Symbol, optional
         The independent variable, if the expressions hold it.
     wrt : tuple of sympy.Symbol
@@ -136,7 +139,7 @@ class Symbolic:
         return found
 
     def variational(self, time: Any, state: Array, columns: Array, parameters: Any) -> Array:
-        """See `Equations`; also of stacks, states (..., n), columns (..., n, m) and parameters (..., p)."""
+        """See `Equations`; takes stacks too: states (..., n), columns (..., n, m), parameters (..., p)."""
         arguments = (time, *np.moveaxis(state, -1, 0), *np.moveaxis(np.asarray(parameters), -1, 0))
         rates, *jacobian = self._rates(*arguments)
         return np.concatenate([rates, jacobian[0] @ columns], axis=-1) if self.wrt else rates
@@ -183,7 +186,7 @@ class Symbolic:
 def heyoka_system(
     states: Sequence[Any], rates: Sequence[Any], parameters: Sequence[Any], clock: Hashable
 ) -> tuple[list[tuple[Number, Number]], dict[Any, Number]]:
-    """SymPy equations in heyoka's expressions, shared parts built once, and the table of symbols."""
+    """SymPy equations in heyoka's expressions, with shared parts built once, and the table of symbols."""
     import heyoka as hy
     import sympy as sp
 
@@ -198,7 +201,7 @@ def heyoka_system(
 
 
 def with_floats(expression: Any) -> Any:
-    """The expression with fractions as floats where heyoka takes none: denominators no power of two."""
+    """The expression with floats for fractions that heyoka cannot take: denominators not a power of two."""
     import sympy as sp
 
     taken = sp.sympify(expression)
@@ -207,7 +210,7 @@ def with_floats(expression: Any) -> Any:
 
 
 def compact(rates: Sequence[Any]) -> bool:
-    """Whether heyoka should compile loops for SymPy rates: they hold `SMALL` operations or more."""
+    """Whether heyoka should compile loops for SymPy rates, because they hold more than `SMALL` operations."""
     import sympy as sp
 
     return bool(sp.count_ops(list(rates)) > SMALL)
@@ -217,14 +220,14 @@ def compact(rates: Sequence[Any]) -> bool:
 
 
 class Arithmetic(NamedTuple):
-    """What a plain right-hand side calls on its numbers, arrays or heyoka's expressions alike.
+    """The functions that a plain right-hand side may call on arrays or on heyoka's expressions.
 
     Attributes
     ----------
     lift : callable
-        Takes a kernel, a function in arithmetic, sqrt, sin and cos, to one of these numbers.
+        Turns a kernel (a function in arithmetic, sqrt, sin and cos) into a function of such numbers.
     sqrt, tanh : callable
-        Of these numbers.
+        Functions of such numbers.
     """
 
     lift: Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -253,7 +256,7 @@ def on_heyoka() -> Arithmetic:
 RightHandSide = Callable[[Arithmetic, Number, Any, Any], Sequence[Number]]
 """A function (arithmetic, t, x, p) -> n rates; x and p are sequences of numbers, or arrays of such rows."""
 EventFunction = Callable[[Arithmetic, Number, Any, Any], Number]
-"""A function (arithmetic, t, x, p) -> value, as above."""
+"""A function (arithmetic, t, x, p) -> value, with arguments as for `RightHandSide`."""
 
 
 @dataclass(frozen=True)
@@ -265,7 +268,7 @@ class Kernel:
     names : tuple of str
         Names of the n states.
     right_hand_side : function (arithmetic, t, x, p) -> n rates
-        It calls nothing but arithmetic and what `Arithmetic` offers.
+        It uses only arithmetic operators and the functions of `Arithmetic`.
     parameters : int
         Number of parameters p.
     wrt : tuple of int
@@ -273,8 +276,8 @@ class Kernel:
     event_functions : tuple of functions (arithmetic, t, x, p) -> value
         See `Equations`.
     slack : float
-        heyoka ends an arc this far beyond the zero of an event function. Where the next arc begins at a zero
-        of its own event function to the last bit, heyoka overlooks the other zeros of the first step.
+        heyoka ends an arc where an event function has this value rather than zero. If the next arc began
+        exactly at a zero of its own event function, heyoka would overlook other zeros in the first step.
     """
 
     names: tuple[str, ...]
@@ -286,7 +289,7 @@ class Kernel:
 
     @cached_property
     def identity(self) -> Array:
-        """Derivatives of the initial states in those of ``wrt``, (n, m)."""
+        """Derivatives of the initial states in those listed in ``wrt``, (n, m)."""
         return np.eye(len(self.names))[:, list(self.wrt)]
 
     @property

@@ -1,8 +1,8 @@
 """Flows of differential equations by heyoka's Taylor integrator, or by SciPy's DOP853 without heyoka.
 
-This is the only adapter to both, for one trajectory at a time; `pontryagin.numerics.lanes` follows many.
-`integrator` follows any `pontryagin.numerics.equations.Equations` up to an event, `flow` samples the
-trajectories of SymPy equations. Without heyoka the same right-hand sides are integrated tens of times slower.
+This module integrates one trajectory at a time; `pontryagin.numerics.lanes` integrates many. `integrator`
+follows any `pontryagin.numerics.equations.Equations` up to an event, `flow` samples the trajectories of SymPy
+equations. Without heyoka the same right-hand sides are integrated tens of times slower.
 """
 
 import functools
@@ -23,21 +23,21 @@ Flow = Callable[..., Array]
 
 TOLERANCE = 1e-15
 ROUGH = 1e-10
-"""Tolerance of flights that only guess: what comes of them is polished by one to rounding."""
+"""Tolerance of trajectories that only give a guess, which is polished later with `TOLERANCE`."""
 LEAST_DOP853 = 1e-13
 """Smallest relative tolerance that DOP853 is given."""
 STEPS = 100_000
-"""Most steps of one call where nothing else is said."""
+"""Largest number of steps of one call, unless another limit is given."""
 
 
 @functools.cache
 def has_heyoka() -> bool:
-    """Whether heyoka can be imported; one warning in a process where it cannot."""
+    """Whether heyoka can be imported; if not, warn once per process."""
     if not installed("heyoka", "flows use SciPy's DOP853, slower"):
         return False
     import heyoka
 
-    heyoka.set_logger_level_error()  # a trial step into a singularity is refused, and warrants no line
+    heyoka.set_logger_level_error()  # trial steps into a singularity are rejected and need no log message
     return True
 
 
@@ -48,7 +48,7 @@ def flow(
     taylor: bool | None = None,
     clock: Hashable = None,
 ) -> Flow:
-    """Compile x' = rates(x, p) into a function that follows it.
+    """Compile x' = rates(x, p) into a function that integrates it.
 
     Parameters
     ----------
@@ -66,8 +66,8 @@ def flow(
     Returns
     -------
     function (start, times, parameters=()) -> (k, n) array
-        The states at the times (k,), ascending, from ``start`` (n,) at the first of them. It raises
-        `pontryagin.NotConverged` where the integrator stops short.
+        The states at the times (k,), ascending, from ``start`` (n,) at the first of them. The function
+        raises `pontryagin.NotConverged` where the integrator stops short.
 
     Raises
     ------
@@ -97,10 +97,11 @@ class Reached(NamedTuple):
     Attributes
     ----------
     time : float
+        Time at the end of the arc.
     whole : array
         The n states there, followed by the rows of their derivatives if these were integrated.
     event : int or None
-        Which event ended the arc; None at the end of its time.
+        Index of the event that ended the arc; None if it reached its end time.
     """
 
     time: float
@@ -112,14 +113,14 @@ class Integrator(Protocol):
     """Follows one system of equations, one trajectory at a time.
 
     ``whole`` holds the n states followed by the n m derivatives, row by row. ``longest`` bounds the steps.
-    ``resume`` says that the arc goes on where the last one of the same integrator was ended by an event, and
-    that this event must not end it again at once. Both methods raise `pontryagin.NotConverged` where the
+    ``resume`` states that the arc begins where an event ended the last arc of the same integrator; that
+    event then does not end the new arc at once. Both methods raise `pontryagin.NotConverged` where the
     integrator stops short.
     """
 
     @property
     def equations(self) -> Equations:
-        """What it follows."""
+        """The equations that are integrated."""
 
     def run(
         self,
@@ -130,7 +131,7 @@ class Integrator(Protocol):
         longest: float = math.inf,
         resume: bool = False,
     ) -> Reached:
-        """Follow the states and derivatives up to ``end``, or to the event before it."""
+        """Integrate the states and derivatives up to ``end``, or to an event before it."""
 
     def sample(
         self,
@@ -140,7 +141,7 @@ class Integrator(Protocol):
         longest: float = math.inf,
         resume: bool = False,
     ) -> tuple[Array, Reached]:
-        """The states at ascending times from the first of them on, (k, n): those before an event, if any."""
+        """The states, (k, n), at ascending times, beginning at the first; none after an event."""
 
 
 @functools.lru_cache(maxsize=64)
@@ -155,14 +156,14 @@ def integrator(
     Parameters
     ----------
     equations : Equations
-        What it follows; hashable.
+        The equations to be integrated; hashable.
     taylor : bool, optional
         Whether to use heyoka; by default wherever it is installed.
     tolerance : float
         Relative error allowed in a step.
     steps_per_unit : float
-        heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this:
-        it runs into a singularity.
+        heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this,
+        since it then runs into a singularity.
     """
     use_taylor = has_heyoka() if taylor is None else taylor
     if use_taylor:
@@ -171,7 +172,7 @@ def integrator(
 
 
 def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
-    """heyoka's integrator of some equations, with their derivatives and events; of one lane if 0 is given."""
+    """heyoka's integrator of some equations, with derivatives and events; scalar if ``lanes`` is 0."""
     import heyoka as hy
 
     pairs, wrt, functions = equations.in_heyoka()
@@ -294,7 +295,7 @@ class _RungeKutta:
         return found, Reached(span[1], found.y[:, -1].copy() if found.y.size else whole, None)
 
     def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:
-        """Event function i; an arc that begins at its zero is not ended there, since it must grow."""
+        """Event function i for SciPy; only growth through zero ends an arc, not a zero at its beginning."""
 
         def event(t: float, flat: Array) -> float:
             return self.equations.event(i, t, flat[:n], parameters)

@@ -1,7 +1,7 @@
-"""Plain Python kernels compiled by Numba, and kept on disk under the hash of their source.
+"""Plain Python kernels compiled by Numba and cached on disk under the hash of their source.
 
 `batched` runs a scalar solver over a stack of problems, `compiled` compiles a function of arrays. Both take
-plain Python, which runs as it is for small work and where Numba is not installed.
+plain Python; small work runs uncompiled, as does everything where Numba is not installed.
 """
 
 import functools
@@ -24,7 +24,7 @@ from pontryagin.arrays import Array
 from pontryagin.numerics.packages import installed
 
 COMPILE_FROM = 512
-"""Stacks of at least this many problems are worth the half second that Numba takes to load."""
+"""Number of problems from which a stack is worth the half second that Numba takes to load."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Batched:
     kernel : function of n floats returning a tuple of floats
         The solver in plain Python.
     outputs : int
-        How many floats it returns.
+        Number of floats that the kernel returns.
     """
 
     kernel: Callable[..., tuple[float, ...]]
@@ -54,14 +54,14 @@ class Batched:
         return result
 
     def _plain(self, *values: float) -> tuple[float, ...]:
-        """One problem in plain Python; nan, as in compiled code, where it overflows or divides by zero."""
+        """Solve one problem in plain Python; overflow and division by zero give nan, as in compiled code."""
         try:
             return self.kernel(*values)
         except ArithmeticError:
             return (math.nan,) * self.outputs
 
     def one(self, *values: float) -> Array:
-        """Solve one problem, as (outputs,), by compiled code if a large stack was solved before."""
+        """Solve one problem, as (outputs,); by compiled code if it is loaded because of a large stack."""
         if self.kernel not in _LOADED:
             return np.array(self._plain(*values))
         result = np.empty(self.outputs)
@@ -72,16 +72,16 @@ class Batched:
 def batched(kernel: Callable[..., tuple[float, ...]], outputs: int) -> Batched:
     """Run a scalar solver over a stack of problems.
 
-    Small stacks run the plain Python source; large ones the same source compiled by Numba and cached on
-    disk under the hash of that source, so that an edited kernel is compiled anew. A kernel that is compiled
-    already serves small stacks and single problems too.
+    Small stacks run the plain Python source. Large stacks run the same source compiled by Numba and cached
+    on disk under the hash of that source, so that an edited kernel is compiled again. Once a kernel is
+    compiled and loaded, small stacks and single problems use it too.
 
     Parameters
     ----------
     kernel : function of n floats returning a tuple of floats
-        Written in plain arithmetic and the `math` module; what it calls must be so too.
+        Written in plain arithmetic and the `math` module, as are all functions that it calls.
     outputs : int
-        How many floats it returns.
+        Number of floats that the kernel returns.
 
     Examples
     --------
@@ -98,7 +98,7 @@ _LOADED: dict[Callable[..., Any], types.ModuleType] = {}
 
 
 def has_numba() -> bool:
-    """Whether Numba can be imported; one warning in a process where it cannot."""
+    """Whether Numba can be imported; if not, warn once per process."""
     return installed("numba", "large stacks run as plain Python, slowly")
 
 
@@ -133,18 +133,18 @@ _COMPILED: dict[tuple[Callable[..., Any], str], Callable[..., Any]] = {}
 
 
 def compiled(kernel: Callable[..., Any], signature: str, large: bool = True) -> Callable[..., Any]:
-    """Compile a plain function of arrays by Numba for one signature, cached on disk like `batched`.
+    """Compile a plain function of arrays by Numba for one signature, cached on disk as for `batched`.
 
-    As in `batched`, small work runs in plain Python unless the kernel is compiled already.
+    As in `batched`, small work runs in plain Python unless the compiled kernel is already loaded.
 
     Parameters
     ----------
     kernel : function
-        Written in plain arithmetic, loops over arrays, the `math` module and ``np.empty`` and its kin.
+        Written in plain arithmetic, loops over arrays, the `math` module and functions like ``np.empty``.
     signature : str
         Its types in Numba's notation, such as ``"void(float64[::1], float64[:, ::1])"``.
     large : bool
-        Whether the work at hand is worth the half second that Numba takes to load.
+        Whether there is enough work to justify the half second that Numba takes to load.
 
     Returns
     -------
@@ -164,7 +164,7 @@ def compiled(kernel: Callable[..., Any], signature: str, large: bool = True) -> 
 
 
 def _closure_source(kernel: Callable[..., Any]) -> str:
-    """The kernel's source and that of everything it calls, as the text of one module."""
+    """The source of a kernel and of all functions that it calls, as the text of one module."""
     functions: dict[str, Callable[..., Any]] = {}
     constants: dict[str, float] = {}
     imported: set[str] = set()
@@ -207,7 +207,7 @@ def _closure_source(kernel: Callable[..., Any]) -> str:
 
 
 def _load(text: str) -> types.ModuleType:
-    """Import a module from its text, kept in the user's cache under the hash of the text."""
+    """Import a module from its text, which is stored in the user's cache under its hash."""
     digest = hashlib.sha256(text.encode()).hexdigest()[:20]
     path = _cache_folder() / f"kernel_{digest}.py"
     if not path.exists():

@@ -1,4 +1,4 @@
-"""Kepler's equation and the anomalies of an elliptic orbit, for arrays that broadcast, revolutions counted.
+"""Kepler's equation and the anomalies of an elliptic orbit; arrays broadcast, and revolutions are counted.
 
     M = E - e sin E,    tan(f/2) = sqrt((1 + e)/(1 - e)) tan(E/2)
 
@@ -13,13 +13,13 @@ from pontryagin.arrays import Array
 
 FULL_TURN = 2 * np.pi
 ITERATIONS = 100
-"""Newton steps after which the iteration is ended; it takes a few, or some dozens as e comes close to 1."""
+"""Largest number of Newton steps; a few are needed, or some dozens as e comes close to 1."""
 
 
 def eccentric_anomaly(mean: ArrayLike, eccentricity: ArrayLike) -> Array:
-    """E of M = E - e sin E, by Newton's method from the side on which it converges monotonically.
+    """E that solves M = E - e sin E, by Newton's method from the side on which it converges monotonically.
 
-    Between 0 and pi the equation is convex in E, and M + e lies beyond its root.
+    Between 0 and pi the equation is convex in E, and the starting point M + e lies beyond its root.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def mean_motion(parameter: ArrayLike, eccentricity: ArrayLike, gravity: ArrayLik
 def true_anomaly_after(
     true: ArrayLike, time: ArrayLike, parameter: ArrayLike, eccentricity: ArrayLike, gravity: ArrayLike = 1.0
 ) -> Array:
-    """The true anomaly a time after a given one, revolutions counted.
+    """The true anomaly at a given time after the anomaly ``true``, with revolutions counted.
 
     Examples
     --------

@@ -1,7 +1,8 @@
-"""Many trajectories of one system, each from its own start, in the vector mode of heyoka's Taylor integrator.
+"""Many trajectories of one system at once, in the vector mode of heyoka's Taylor integrator.
 
-As many trajectories as the processor has lanes go side by side. An event in one lane stops all of them; the
-parameters of its lane change, and they go on. A lane whose trajectory has ended takes up the next one.
+Each trajectory has its own start. As many are integrated side by side as the processor has lanes. An event in
+one lane stops all lanes; the parameters of its lane are changed, and all continue. A lane whose trajectory
+has ended takes the next one.
 """
 
 import functools
@@ -24,18 +25,18 @@ Ends = Callable[..., tuple[Array, Array]]
 
 @dataclass(frozen=True)
 class LaneEnds:
-    """Where k trajectories of n states with m derivatives end.
+    """The ends of k trajectories of n states with m derivatives.
 
     Attributes
     ----------
     states : (k, n) array
-        nan where the end was not reached.
+        States at the ends; nan where the end was not reached.
     slopes : (k, n, m) array
-        Derivatives in the initial values; nan there too.
+        Derivatives of the states in the initial values; nan where the end was not reached.
     left : (k,) array
-        Time that was left where the integrator stopped; 0 at the end, inf where numbers overflowed.
+        Remaining time where the integrator stopped; 0 at the end, inf where numbers overflowed.
     switches : (k,) array of int
-        Events on the way.
+        Number of events on the way.
     """
 
     states: Array
@@ -52,7 +53,7 @@ class Lanes:
         self._own = threading.local()  # heyoka's object holds the trajectories that are being followed
 
     def taylor(self) -> Any:
-        """heyoka's object of this thread."""
+        """heyoka's integrator for the current thread."""
         import heyoka as hy
 
         try:
@@ -72,7 +73,7 @@ class Lanes:
         switched: Callable[[int, Array], Array] | None = None,
         most_switches: int = 0,
     ) -> LaneEnds:
-        """Carry trajectories to their ends.
+        """Integrate trajectories to their ends.
 
         Parameters
         ----------
@@ -81,11 +82,11 @@ class Lanes:
         begin, end : (k,) arrays
             Times; an end may lie before its beginning.
         parameters : (k, p) array
-            Of each.
+            Parameters of each trajectory.
         steps : (k,) array
-            Most steps of each.
+            Largest number of steps of each trajectory.
         switched : function (event, parameters (p,)) -> parameters (p,), optional
-            What an event changes; states and derivatives go on without a jump.
+            Parameters after an event; states and derivatives continue without a jump.
         most_switches : int
             A trajectory with more events is given up.
         """
@@ -108,7 +109,7 @@ class Lanes:
         going_on = (hy.taylor_outcome.success, hy.taylor_outcome.step_limit)
 
         def take_up(free: NDArray[np.int64]) -> None:
-            """Give the next trajectories to free lanes; with none left, the first at its beginning."""
+            """Give the next trajectories to free lanes; with none left, lanes idle at the first start."""
             nonlocal order
             chosen, order = order[: len(free)], order[len(free) :]
             source = np.zeros(len(free), dtype=np.int64)
@@ -148,7 +149,7 @@ class Lanes:
 
 
 def _store(found: LaneEnds, which: NDArray[np.int64], wholes: Array) -> None:
-    """Keep the ends, columns of ``wholes``, that are finite."""
+    """Store those ends, columns of ``wholes``, that are finite."""
     n, finite = found.states.shape[1], np.isfinite(wholes).all(axis=0)
     kept = which[finite]
     found.left[which] = np.where(finite, 0.0, math.inf)
@@ -165,7 +166,7 @@ def ends(
     taylor: bool | None = None,
     tolerance: float = TOLERANCE,
 ) -> Ends:
-    """Compile x' = rates(x, p) into a function that carries many trajectories to their ends.
+    """Compile x' = rates(x, p) into a function that integrates many trajectories to their ends.
 
     Parameters
     ----------
@@ -174,14 +175,14 @@ def ends(
     wrt : sequence of sympy.Symbol
         States in whose initial values the ends are differentiated, by the variational equations.
     tolerance : float
-        Relative error allowed in a step; a rougher one is faster where only derivatives are wanted.
+        Relative error allowed in a step; a larger one is faster where only derivatives are needed.
 
     Returns
     -------
     function (starts, begin, end, parameters=()) -> (k, n) array, (k, n, m) array
-        From ``starts`` (k, n) at ``begin`` (k,) the states at ``end`` (k,), and their derivatives in the m
-        initial values ``wrt``. ``parameters`` is (p,) or (k, p). It raises `pontryagin.NotConverged` where
-        an integrator stops short. The same equations are compiled once.
+        The states at ``end`` (k,) of the trajectories from ``starts`` (k, n) at ``begin`` (k,), and their
+        derivatives in the m initial values ``wrt``. ``parameters`` is (p,) or (k, p). The function raises
+        `pontryagin.NotConverged` where an integrator stops short. The same equations are compiled once.
 
     Examples
     --------
@@ -221,7 +222,7 @@ Run = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
 
 @functools.lru_cache(maxsize=64)
 def _side_by_side(equations: Symbolic, tolerance: float) -> Run:
-    """By heyoka, in groups of as many as there are lanes: all of a group end together."""
+    """Integration by heyoka in groups of as many trajectories as lanes; a group is finished as a whole."""
     own, n, m = Lanes(equations, tolerance), *equations.identity.shape
 
     def run(start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
@@ -249,7 +250,7 @@ def _side_by_side(equations: Symbolic, tolerance: float) -> Run:
 
 @functools.lru_cache(maxsize=64)
 def _as_one_system(equations: Symbolic, tolerance: float) -> Run:
-    """By DOP853: all trajectories as one system over the share of their times."""
+    """Integration by DOP853 of all trajectories as one system, in time as a share of each one's span."""
     from scipy.integrate import solve_ivp
 
     rtol = max(tolerance, LEAST_DOP853)

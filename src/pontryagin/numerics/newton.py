@@ -1,7 +1,8 @@
-"""Newton's method with damping, for one system of equations.
+"""Damped Newton's method for one system of equations.
 
-An evaluation may be dear (a flight, say), so the last one is handed back. The result says what stopped the
-iteration; nothing is raised because it did not converge. `newton_stack` solves many systems side by side.
+An evaluation may be expensive (an integrated trajectory, say), so the last one is returned with the result.
+The result says what stopped the iteration; failure to converge raises nothing. `newton_stack` solves many
+systems side by side.
 """
 
 from collections.abc import Callable
@@ -16,32 +17,33 @@ from pontryagin.errors import NotConverged
 Outcome = Literal["converged", "stalled", "singular", "iterations"]
 """What stopped the iteration.
 
-The next correction is expected to be negligible; no share of the step makes the residual smaller, which near
-a solution is rounding; the Jacobian is singular; or the steps were used up.
+"converged": the next correction is expected to be negligible. "stalled": no tried length of the step makes
+the residual smaller, which near a solution is due to rounding. "singular": the Jacobian is singular.
+"iterations": the steps were used up.
 """
 
 ROUNDING = 1e-15
-"""Relative correction that cannot be told from rounding."""
+"""Relative correction that is not distinguishable from rounding."""
 QUADRATIC = 1e-9
-"""Residual below which a step is no longer shortened: what the whole step cannot improve is rounding."""
+"""Residual below which steps are not shortened: a full step that fails to reduce it has met rounding."""
 
 
 class Linearised(Protocol):
-    """Equations at some unknowns."""
+    """Equations evaluated at given unknowns."""
 
     @property
     def residual(self) -> Array:
-        """What is zero at a solution, (m,)."""
+        """The residual, zero at a solution, (m,)."""
 
     @property
     def jacobian(self) -> Array:
-        """Its derivatives in the unknowns, (m, n)."""
+        """Derivatives of the residual in the unknowns, (m, n)."""
 
 
 E = TypeVar("E", bound=Linearised)
 
 Scales = Callable[[Array], Array]
-"""Unknowns (n,) to the sizes that their corrections are measured by, (n,)."""
+"""A function of the unknowns (n,) that gives the units in which corrections are measured, (n,)."""
 
 
 def ones(unknowns: Array) -> Array:
@@ -57,7 +59,7 @@ class Iterate(Generic[E]):
     ----------
     unknowns : (n,) array
     equations : object with ``residual`` and ``jacobian``
-        The equations there.
+        The equations evaluated at the unknowns.
     correction : float
         The last relative correction; inf if none was made.
     outcome : str
@@ -87,31 +89,31 @@ def newton(
     rough: Callable[[Array], E] | None = None,
     rough_tolerance: float = 1e-8,
 ) -> Iterate[E]:
-    """Newton's method for one system, its steps halved until the residual becomes smaller.
+    """Newton's method for one system, with each step halved until the residual becomes smaller.
 
     Parameters
     ----------
     evaluate : function of unknowns (n,)
         The equations; it may raise `NotConverged` where they cannot be evaluated, which shortens the step.
     unknowns : (n,) array
-        Where to begin.
+        Initial guess.
     scales : function of unknowns, optional
-        What corrections are measured by.
+        Units in which corrections are measured, see `Scales`.
     tolerance : float
-        Relative correction, expected by quadratic convergence, of a step that need not be made.
+        The iteration ends when quadratic convergence predicts a next relative correction below this.
     iterations, halvings : int
-        The most steps, and how many lengths of each are tried: 1, 1/2, 1/4, ...
+        The largest number of steps, and how many lengths of each are tried: 1, 1/2, 1/4, ...
     admissible : function of unknowns before and after a step, optional
         Whether a step may be made at all.
     rough : function of unknowns, optional
         A cheaper evaluation of the same equations, with which the first steps are made.
     rough_tolerance : float
-        The tolerance of those.
+        The tolerance of the steps made with ``rough``.
 
     Raises
     ------
     NotConverged
-        If the equations cannot be evaluated where it begins.
+        If the equations cannot be evaluated at the initial guess.
 
     Examples
     --------
@@ -153,9 +155,10 @@ def _approach(
     halvings: int,
     allowed: Callable[[Array, Array], bool],
 ) -> tuple[Array, float]:
-    """The first steps, by the rough evaluation: where they lead, and the last relative correction.
+    """The first steps, by the rough evaluation: the unknowns reached and the last relative correction.
 
-    The last step is made without evaluating the equations after it.
+    The last step is made without evaluating the equations after it. The correction is inf if the rough
+    iteration did not converge.
     """
     here = rough(unknowns)
     correction = np.inf
@@ -183,7 +186,7 @@ def newton_step(here: Linearised) -> Array | None:
 
 
 def expected(correction: float, last: float) -> float:
-    """The correction to come, after two of quadratic convergence; after one, that one."""
+    """The next correction, predicted from two by quadratic convergence; with only one, that one itself."""
     return correction * min(1.0, (correction / last) ** 2) if last < np.inf else correction
 
 
@@ -195,7 +198,7 @@ def _damped(
     halvings: int,
     allowed: Callable[[Array, Array], bool],
 ) -> tuple[Array, E] | None:
-    """The longest of the halved steps that makes the residual smaller; None if none does."""
+    """Unknowns and equations after the longest halved step that reduces the residual; None if none does."""
     size = np.linalg.norm(here.residual)
     for halving in range(1 if size < QUADRATIC else halvings):
         trial = unknowns + step / 2**halving

@@ -1,6 +1,6 @@
-"""Newton's method with damping, for a stack of systems side by side, each with a damping of its own.
+"""Damped Newton's method for a stack of systems side by side, each damped on its own.
 
-The result says which members converged; nothing is raised because some did not. `newton` solves one system.
+The result says which members converged; failure to converge raises nothing. `newton` solves one system.
 """
 
 from collections.abc import Callable
@@ -14,11 +14,11 @@ from pontryagin.arrays import Array
 
 
 class LinearisedStack(Protocol):
-    """A stack of systems at unknowns of their own."""
+    """A stack of systems, each evaluated at its own unknowns."""
 
     @property
     def residual(self) -> Array:
-        """What is zero at the solutions, (k, m); nan where it cannot be evaluated."""
+        """Residuals, zero at solutions, (k, m); nan where they cannot be evaluated."""
 
     def jacobian(self, rows: NDArray[np.intp]) -> Array:
         """Derivatives of the residuals of some rows in their unknowns, (len(rows), m, n)."""
@@ -26,7 +26,7 @@ class LinearisedStack(Protocol):
 
 @dataclass(frozen=True)
 class Evaluated:
-    """Residuals (k, m) with Jacobians (k, m, n) that are known already: a `LinearisedStack`."""
+    """A `LinearisedStack` whose residuals (k, m) and Jacobians (k, m, n) are all computed beforehand."""
 
     residual: Array
     jacobians: Array
@@ -71,23 +71,25 @@ def newton_stack(
 ) -> Iterates:
     """Newton's method for a stack of systems, each with its own damping.
 
-    In every round each member that is not finished tries its step, or a half of what it tried last; those
-    whose residual becomes smaller take it.
+    In every round each unfinished member tries its full step, or half of what it tried last; members whose
+    residual becomes smaller accept the trial.
 
     Parameters
     ----------
     evaluate : function of members (k,) and unknowns (k, n)
         The systems of those members; rows of nan where one cannot be evaluated.
     unknowns : (s, n) array
-        Where to begin.
+        Initial guesses.
     tolerance : float
         Size of the residual at which a member is finished.
     step_tolerance : float
-        Size of a step that is made without a further look: the error after it is its square.
+        A step up to this size is made as the last one, without evaluating the equations after it, since the
+        error after it is of the order of its square.
     iterations, halvings : int
-        The most steps of a member, and how often each may be halved.
+        The largest number of steps of a member, and how often each may be halved.
     decrease : float
-        What a share of a step must gain: the new residual is at most (1 - decrease * share) of the old one.
+        Required gain of a step shortened to a given share: the new residual is at most
+        (1 - decrease * share) times the old one.
     size, step_size : function of members, unknowns and residuals or steps, optional
         Sizes (k,) of residuals and of steps; by default Euclidean norms.
     admissible : function of members and unknowns, optional
@@ -112,7 +114,7 @@ def newton_stack(
     open_ = np.isfinite(residual) & ~finished
 
     def aim(members: NDArray[np.intp], there: LinearisedStack, rows: NDArray[np.intp]) -> None:
-        """New steps of some members; the last one of those that are close is made at once."""
+        """Compute the next steps of some members; a step within the step tolerance is made at once."""
         step[members] = solved(there.jacobian(rows), -there.residual[rows])
         correction[members] = _sized(measure_step(members, x[members], step[members]))
         share[members] = 1.0
@@ -148,7 +150,7 @@ def newton_stack(
 def solved(matrices: Array, right: Array) -> Array:
     """Solutions (k, n) of stacked linear systems (k, m, n); by least squares if some are singular.
 
-    Rows that are not finite have nan.
+    The solution is nan for systems that hold nan or infinity.
     """
     usable = np.isfinite(matrices).all(axis=(1, 2)) & np.isfinite(right).all(axis=1)
     result = np.full((len(matrices), matrices.shape[-1]), np.nan)

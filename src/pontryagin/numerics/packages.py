@@ -1,4 +1,4 @@
-"""Optional compiled packages: whether they are installed, with one warning where one is not."""
+"""Optional compiled packages: whether each is installed, with one warning if it is not."""
 
 import functools
 import importlib.util
@@ -7,7 +7,7 @@ import warnings
 
 @functools.cache
 def installed(package: str, consequence: str) -> bool:
-    """Whether a package can be imported; if not, warn once in a process what follows from that.
+    """Whether a package can be imported; if not, warn once per process about the consequence.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Means of functions over a turn: by the trapezoid where smooth, by Gauss's rule between switches."""
+"""Means of 2 pi-periodic functions: trapezoidal rule for smooth ones, Gauss's rule between switches."""
 
 import functools
 from collections.abc import Callable
@@ -14,7 +14,7 @@ Selection = NDArray[np.intp] | slice
 
 
 class MeanRule(NamedTuple):
-    """Numbers of nodes that the trapezoid and Gauss's rule begin with, and the trapezoid's first node."""
+    """Initial numbers of nodes of the trapezoidal rule and of Gauss's rule; first node of the former."""
 
     trapezoid: int
     gauss: int
@@ -23,22 +23,22 @@ class MeanRule(NamedTuple):
 
 SOLVING = MeanRule(16, 6, 0.0)
 CHECKING = MeanRule(24, 9, 1.0)
-"""A rule with other nodes than `SOLVING`: a harmonic that one of them misses is seen by the other."""
+"""A rule with other nodes than `SOLVING`, so that a harmonic missed by one of them is seen by the other."""
 LAST, GAUSS_LAST = 2**9, 384
-"""Largest numbers of nodes of the trapezoid, and of Gauss's rule on one interval."""
+"""Largest numbers of nodes of the trapezoidal rule, and of Gauss's rule on one interval."""
 HALF_DIGITS, FALL = 1e-8, 1e-2
-"""Change by a doubling that is accepted as the last one, and the ratio of changes that shows convergence."""
+"""Largest relative change by the last doubling, and ratio of successive changes that shows convergence."""
 PARTS = 8
-"""Panels of a turn before they are halved."""
+"""Number of panels of a turn before any is halved."""
 HALVING = Halving(nodes=16)
 ROUNDING = 1e-14
-"""A column that cancels to zero is computed to this share of the largest column only."""
+"""Accuracy of a column that cancels to zero, as a share of the largest column."""
 LOOK = 128
-"""Points of a turn at which signs are compared to find switches."""
+"""Number of points of a turn at which signs are compared to find switches."""
 
 
 def mean(density: Density, switches: Array, rule: MeanRule, judged: Selection = EVERY) -> Array:
-    """Means (points, columns) of functions that are smooth between switches (points, s), filled up by nan.
+    """Means (points, columns) of functions that are smooth between switches (points, s), padded with nan.
 
     Only the `judged` columns decide when a rule is fine enough; the others are their derivatives.
     """
@@ -56,11 +56,11 @@ def mean(density: Density, switches: Array, rule: MeanRule, judged: Selection = 
 
 
 def smooth_mean(density: Density, points: int, rule: MeanRule = SOLVING, judged: Selection = EVERY) -> Array:
-    """Means of periodic functions by the trapezoid, its nodes doubled until the means change no more.
+    """Means of periodic functions by the trapezoidal rule, its nodes doubled until the means settle.
 
     The first three rules share one call of the density; the third is the earliest that can be accepted.
-    Where the trapezoid does not converge (a density that is nearly not smooth), `halved_mean` takes over.
-    Returns (points, columns); nan where the density is not defined.
+    Where the trapezoidal rule does not converge (a density that is nearly not smooth), `halved_mean` is
+    used. Returns (points, columns); nan where the density is not defined.
     """
     size = 4 * rule.trapezoid
 
@@ -85,7 +85,7 @@ def smooth_mean(density: Density, points: int, rule: MeanRule = SOLVING, judged:
 
 @functools.cache
 def _nested(size: int) -> Array:
-    """Weights of the trapezoid on every fourth node, on every other and on all, (3, size)."""
+    """Weights of the trapezoidal rule on every fourth node, on every second one and on all, (3, size)."""
     weights = np.zeros((3, size))
     for row, step in zip(weights, (4, 2, 1), strict=True):
         row[::step] = step / size
@@ -93,7 +93,7 @@ def _nested(size: int) -> Array:
 
 
 def halved_mean(density: Density, points: int, judged: Selection = EVERY) -> Array:
-    """Means by `integrals` on halved intervals, as (points, columns); nan where they do not converge."""
+    """Means by `integrals` on halved panels, as (points, columns); nan where they do not converge."""
     member = np.repeat(np.arange(points), PARTS)
     edges = 2 * np.pi * np.arange(PARTS + 1) / PARTS
     low, high = np.tile(edges[:-1], points), np.tile(edges[1:], points)
@@ -104,7 +104,7 @@ def halved_mean(density: Density, points: int, judged: Selection = EVERY) -> Arr
 def split_mean(
     density: Density, switches: Array, first: int = SOLVING.gauss, judged: Selection = EVERY
 ) -> Array:
-    """Means of functions that are smooth between switches (points, s), ascending, filled up by nan."""
+    """Means of functions that are smooth between ascending switches (points, s), padded with nan."""
     size = first
 
     def sums(active: NDArray[np.intp]) -> tuple[Array, Array]:
@@ -132,11 +132,11 @@ def _refined(
     doublings: int,
     judged: Selection,
 ) -> Array:
-    """Means by a rule that is doubled at the points where it has not settled; `begin` gives the first ones.
+    """Means by a rule that is doubled at the points where it has not settled; `begin` gives the first means.
 
-    Each doubling squares the error of a rule that converges geometrically, so that a change in the second
-    half of the digits can be the last. It is accepted where it is much smaller than the change before, which
-    shows that the rule converges so, or where one of the two is rounding. The first change alone proves
+    Each doubling squares the error of a rule that converges geometrically; a change in the second half of
+    the digits may therefore be the last. It is accepted if it is much smaller than the change before, which
+    shows geometric convergence, or if one of the two changes is rounding. The first change alone proves
     nothing for a density with symmetries.
     """
     active = np.arange(points)
@@ -161,7 +161,7 @@ def _refined(
 
 
 def split_rule(switches: Array, size: int) -> tuple[Array, Array]:
-    """Nodes and weights (points, panels * size) of Gauss's rule from switch to switch over one turn."""
+    """Nodes and weights (points, panels * size) of Gauss's rule between consecutive switches of one turn."""
     nodes, weights = gauss(size)
     last = switches[:, :1] + 2 * np.pi
     edges = np.concatenate([np.where(np.isnan(switches), last, switches), last], axis=1)
@@ -172,9 +172,9 @@ def split_rule(switches: Array, size: int) -> tuple[Array, Array]:
 
 
 def find_switches(switching: Density, points: int) -> Array:
-    """Angles where switching functions change sign in a turn, (points, s), ascending, filled up by nan.
+    """Angles in a turn where switching functions change sign, (points, s), ascending, padded with nan.
 
-    The columns of `switching` are the functions, then as many derivatives of them in the angle.
+    The columns of `switching` are the functions, followed by their derivatives in the angle.
     """
     grid = 2 * np.pi * (np.arange(LOOK + 1) + 0.5) / LOOK
     columns = switching(grid[None], np.arange(points))
@@ -200,7 +200,10 @@ def find_switches(switching: Density, points: int) -> Array:
 
 
 def _close_pairs(switching: Density, grid: Array, columns: Array) -> tuple[Array, ...] | None:
-    """Brackets of two switches between neighbouring nodes, where an extremum between has the other sign."""
+    """Brackets of pairs of switches between neighbouring nodes, where an extremum has the other sign.
+
+    Returns lower and upper ends, points, columns and whether the function falls; None if there is no pair.
+    """
     count = columns.shape[-1] // 2
     value, slope = columns[..., :count], columns[..., count:]
     towards = value * slope
@@ -236,7 +239,7 @@ def _refine(
     which: NDArray[np.intp],
     falling: NDArray[np.bool_],
 ) -> Array:
-    """Switches in brackets by Newton's method, with bisection where it leaves the bracket."""
+    """Switches within brackets by Newton's method, with bisection where a step would leave the bracket."""
     x: Array = (low + high) / 2
     rows = np.arange(len(point))
     for _ in range(60):

@@ -1,4 +1,4 @@
-"""Integrals by Gauss's rule on panels, each halved until halving it again changes nothing."""
+"""Integrals by Gauss's rule on panels, each halved until a further halving no longer changes its integral."""
 
 import functools
 from collections.abc import Callable
@@ -10,21 +10,24 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 
 Density = Callable[[Array, NDArray[np.intp]], Array]
-"""Arguments (panels, nodes) and the members (panels,) they are of, to columns (panels, nodes, columns)."""
+"""Integrands: a function of arguments (panels, nodes) and of the members (panels,) that they belong to.
+
+It returns the values of all integrands, (panels, nodes, columns).
+"""
 
 NODES = 12
 """Nodes of Gauss's rule on each panel."""
 STRICT = 1e-14
-"""Change by a halving at which a panel is finished, relative to the integral of the modulus."""
+"""A panel is finished when a halving changes it by less, relative to the integral of the modulus."""
 EVERY = slice(None)
-"""All columns."""
+"""Selects all columns."""
 
 
 class Halving(NamedTuple):
-    """How long panels are halved, and what is asked of them.
+    """The number of halvings at ``most``, and the change of a panel's integral that is accepted.
 
-    Where a panel becomes so short that the density's own rounding is seen, a halving no longer changes its
-    integral by less; so after ``strict`` halvings a larger change, ``loose``, is accepted.
+    Where panels are so short that rounding in the integrand dominates, further halving does not reduce the
+    change. After ``strict`` halvings the larger relative change ``loose`` is therefore accepted.
     """
 
     strict: int = 20
@@ -43,7 +46,7 @@ def integral(
     rate : function of an array (k,)
         The integrand, (k,).
     edges : (n,) array_like
-        Ascending: the ends of the panels to begin with.
+        Ends of the initial panels, ascending.
     halving : Halving, optional
 
     Returns
@@ -77,18 +80,18 @@ def integrals(
     judged: NDArray[np.intp] | slice = EVERY,
     halving: Halving | None = None,
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Integrals of many functions side by side, each over panels of its own.
+    """Integrals of many functions at once, each over panels of its own.
 
     Parameters
     ----------
     density : function (x, member) -> columns
         The integrands at x (k, nodes) on panels that belong to ``member`` (k,): (k, nodes, columns).
     member : (panels,) array of int
-        Whose panel each is: 0, 1, ..., at least one panel for each.
+        The member that each panel belongs to: 0, 1, ..., with at least one panel for each.
     low, high : (panels,) arrays
-        Their ends.
+        Ends of the panels.
     judged : slice or array of int
-        The columns that say whether a panel is fine enough; the others may be their derivatives.
+        The columns that decide whether a panel is fine enough; the others may be their derivatives.
     halving : Halving, optional
 
     Returns
@@ -96,7 +99,7 @@ def integrals(
     (members, columns) array
         The integrals.
     (members,) array of bool
-        Whether all panels of a member were finished; where not, the best value is given.
+        Whether all panels of a member were finished; where not, the integral is the best value found.
     """
     rule = halving or Halving()
     value, size = _panels(density, member, low, high, rule.nodes)

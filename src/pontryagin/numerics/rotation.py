@@ -1,4 +1,4 @@
-"""Quaternions, attitudes of a body as quaternions and rotation vectors, and how they change with the rate.
+"""Quaternions and rotation vectors as attitudes of a body, and their rates of change.
 
 Quaternions are scalar first and turn body axes into inertial axes; a rotation vector phi is a turn by |phi|
 about phi. Angular rates w are in body axes. Every function takes stacks, (..., 3) and (..., 4); the products
@@ -14,6 +14,7 @@ from pontryagin.validation import vectors
 
 FULL_TURN = 2 * np.pi
 
+# Orders and coefficients of the power series in `_curvature`.
 _ORDERS = np.arange(1, 28)
 _SERIES = 2 * zetac(2 * _ORDERS)
 
@@ -42,12 +43,12 @@ def product(a: ArrayLike, b: ArrayLike) -> Array:
 
 
 def conjugate(a: ArrayLike) -> Array:
-    """a~, of which the vector part has the other sign, (..., 4)."""
+    """a~, the quaternion with the vector part reversed, (..., 4)."""
     return np.asarray(np.asarray(a) * np.array([1.0, -1.0, -1.0, -1.0]))
 
 
 def pure(vector: ArrayLike) -> Array:
-    """The quaternion with a vector and no scalar part, (..., 3) -> (..., 4)."""
+    """The quaternion with a given vector part and zero scalar part, (..., 3) -> (..., 4)."""
     given = np.asarray(vector)
     return np.concatenate([np.zeros_like(given[..., :1]), given], axis=-1)
 
@@ -91,8 +92,8 @@ def quaternion(phi: ArrayLike) -> Array:
 def rotation_vector(attitude: ArrayLike) -> Array:
     """Rotation vector of a quaternion, (..., 4) -> (..., 3), with 0 <= |phi| <= 2 pi.
 
-    A quaternion and its negative are one attitude reached by two turns: phi tells which. Along a motion
-    that starts with a small turn phi is continuous up to a full turn.
+    A quaternion and its negative are the same attitude, reached by two different turns; phi distinguishes
+    them. Along a motion that starts with a small turn phi is continuous up to a full turn.
 
     Examples
     --------
@@ -122,7 +123,7 @@ def vector_rate_matrix(phi: Array) -> Array:
 
 
 def vector_acceleration_drift(phi: Array, w: Array) -> Array:
-    """(B^-1)' w: what phi'' = B^-1 w' + (B^-1)' w has beside the angular acceleration, (..., 3)."""
+    """(B^-1)' w, (..., 3): the part of phi'' = B^-1 w' + (B^-1)' w without the angular acceleration w'."""
     g, slope = _curvature(phi)
     inner = cross(phi, w)
     rate = w + inner / 2 + g * cross(phi, inner)
@@ -134,8 +135,8 @@ def vector_acceleration_drift(phi: Array, w: Array) -> Array:
 def _curvature(phi: Array) -> tuple[Array, Array]:
     """g = (1 - (t/2) cot(t/2))/t^2 and (dg/dt)/t at t = |phi|, (..., 1) each.
 
-    From g = sum over k of 2/((2 pi k)^2 - t^2): the first term keeps the pole at a full turn, the others are
-    a power series in r = (t / 2 pi)^2 that loses a factor of 4 per term up to there.
+    By g = sum over k of 2/((2 pi k)^2 - t^2): the first term has the pole at a full turn; the others are a
+    power series in r = (t / 2 pi)^2 whose terms fall by a factor of 4 or more for t up to a full turn.
     """
     r = (phi**2).sum(axis=-1, keepdims=True) / FULL_TURN**2
     powers = r[..., None] ** (_ORDERS - 1)

@@ -1,8 +1,8 @@
 """Orbit correction with the fewest impulses (Ibragimov 2017), by 0-controllable sets.
 
-A satellite near a circular orbit fires impulses at equal intervals. The states that N steps bring back form
-a sum of ellipsoids. N steps suffice if the gauge alpha(N) of the initial state in this set is at most 1, and
-the normal of the set at the scaled state is the costate of a discrete maximum principle.
+A satellite near a circular orbit fires impulses at equal intervals. The states that N steps bring back to the
+circle form a sum of ellipsoids. N steps suffice if the gauge alpha(N) of the initial state in this set is at
+most 1, and the normal of the set at the scaled state is the costate of a discrete maximum principle.
 
 derivation   from the equations of motion to the summands, in SymPy
 claims       the ledger's entries; printed: the paper's worked example
@@ -10,7 +10,7 @@ system       the satellite and its regrouped steps (12); any system (1) with ell
 gauges       alpha for each shape of the controls, Lemma 7 and Lemma 9
 plan         the three sets of impulses, N_min, Theorem 4, other plans of the same length
 flight       plans on the nonlinear equations, and the closed loop
-ergodic, intervals, montecarlo, waste   studies: many steps, the interval, random injections, the ball's waste
+ergodic, intervals, montecarlo, waste   studies: many steps, the interval, random injections, wasted impulses
 sets         boundaries of controllable sets, for figures and playback
 
 paper             here               meaning

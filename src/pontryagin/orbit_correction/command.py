@@ -11,7 +11,7 @@ from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
 
 ARGUMENTS = {"z0": "--z0", "interval": "--interval", "peak": "--peak"}
-"""The option behind each argument of `correct` that the solver checks."""
+"""The command-line option for each argument of `correct` that the solver checks."""
 
 Text = str | None
 File = Path | None

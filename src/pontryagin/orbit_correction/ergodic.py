@@ -24,19 +24,19 @@ from pontryagin.orbit_correction.system import satellite
 from pontryagin.validation import vectors
 
 PHASES = 1 << 14
-"""Phases at which the mean is taken."""
+"""Number of phases over which the mean is taken."""
 
 LARGEST_PERIOD = 64
-"""Intervals that make whole revolutions are looked for up to this number."""
+"""Largest number of intervals for which it is checked whether they make whole revolutions."""
 
 MODES = np.array([[-1.0, 0.0, -2.0], [0.0, 1.0, 0.0], [2.0, 0.0, 2.0]])
-"""The first two rows give the components that rotate under e^{At}, the third the one that is constant."""
+"""The rows give components of z: the first two rotate under e^{At}, the third is constant."""
 
 
 def modes(z0: ArrayLike) -> Array:
     """The amplitude of the oscillation and the constant part of deviations (..., 3), as (..., 2).
 
-    In the components of `MODES` the motion rotates the first two; the third, twice the deviation of the
+    The motion rotates the first two of the components of `MODES`. The third, twice the deviation of the
     angular momentum, is constant.
 
     Examples
@@ -58,8 +58,8 @@ def mean_support(
     amplitude, constant : (...) array_like
         Length of the component of psi along the oscillation, and its component along the constant part.
     interval, peak, thrust
-        As in `correct`. Only the mean of the ball depends on the interval, since its steps hold neighbouring
-        impulses.
+        As in `correct`. Only the mean of the ball depends on the interval, since its steps contain
+        neighbouring impulses.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
     Returns
     -------
     float
-        N counts steps: of three impulse components for the ball, else of one impulse.
+        The limit, where N counts steps: of three impulse components for the ball, else of one impulse.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def limit(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: s
 
 
 def _period(interval: float) -> int:
-    """How many intervals make whole revolutions; 0 if more than `LARGEST_PERIOD`."""
+    """The least number of intervals that make whole revolutions; 0 if it exceeds `LARGEST_PERIOD`."""
     turns = np.arange(1, LARGEST_PERIOD + 1) * interval / (2 * np.pi)
     whole = np.flatnonzero(np.abs(turns - np.round(turns)) < 1e-12)
     return int(whole[0]) + 1 if whole.size else 0
@@ -145,7 +145,7 @@ def _period(interval: float) -> int:
 def approach(
     z0: ArrayLike, counts: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust: str = "ball"
 ) -> Array:
-    """alpha(N) N for whole numbers of steps (k,), (k,)."""
+    """alpha(N) N, (k,), for numbers of steps N (k,)."""
     steps = np.asarray(counts, dtype=np.int64)
     correct(z0, interval, peak, thrust)
     state = np.broadcast_to(vectors("z0", z0, 3), (len(steps), 3))

@@ -1,7 +1,7 @@
 """Plans flown on the nonlinear equations of motion, and new plans for the deviation that they leave.
 
 A plan is made for the linearised equations, so that the deviation it leaves is quadratic in |z0|. Two further
-plans, each for what the one before left, reduce it to rounding.
+plans, each for the deviation that the one before left, reduce it to rounding.
 """
 
 from dataclasses import dataclass
@@ -22,10 +22,10 @@ CIRCLE = np.array([1.0, 0.0, 1.0])
 """The circular orbit (r, v_R, v_T), from which deviations are measured."""
 
 ROUNDING = 1e-14
-"""A deviation of at most this length is due to rounding: radius and speed are numbers near 1."""
+"""A deviation of at most this length is due to rounding, since radius and speed are numbers near 1."""
 
 ROUNDS = 12
-"""Most plans of a closed loop."""
+"""Largest number of plans of a closed loop."""
 
 
 @cache
@@ -47,9 +47,9 @@ class Flight:
     Attributes
     ----------
     impulses : (M, 2) array
-        Radial and transverse, at the starts of the intervals.
+        Radial and transverse impulses at the starts of the intervals, orbital speeds.
     interval : float
-        Time between impulses.
+        Time between impulses, rad of the orbit.
     states : (M + 1, 3) array
         Deviations (dr, dv_R, dv_T) before each impulse, and at the end; dimensionless.
     angles : (M + 1,) array
@@ -144,7 +144,7 @@ class ClosedLoop:
     Attributes
     ----------
     plans, flights : tuples
-        In the order in which they are flown.
+        The plans and their flights, in the order in which they are flown.
     """
 
     plans: tuple[Plan, ...]
@@ -169,7 +169,7 @@ def close_loop(
     thrust: str = "ball",
     tolerance: float = ROUNDING,
 ) -> ClosedLoop:
-    """Plan and fly anew until only rounding is left of the deviation.
+    """Plan and fly repeatedly until only rounding is left of the deviation.
 
     Parameters
     ----------
@@ -178,15 +178,15 @@ def close_loop(
     interval, peak, thrust
         As in `correct`.
     tolerance : float
-        Length of the deviation at which the loop ends; the default is rounding, for radius and speed are
-        numbers near 1.
+        Length of the deviation at which the loop ends. The default is the size of rounding errors, since
+        radius and speed are numbers near 1.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is invalid, with its name.
     pontryagin.NotConverged
-        If a dozen plans leave a longer deviation.
+        If the deviation is still longer after a dozen plans.
 
     Examples
     --------
@@ -214,7 +214,7 @@ def residuals(
     peak: float = 0.0035,
     thrust: str = "ball",
 ) -> tuple[Array, Array]:
-    """Sizes |z0| and lengths of what flights leave, (k,) each, for multiples of one state.
+    """Sizes |z0| and lengths of the deviations left by the flights, (k,) each, for multiples of one state.
 
     State and peak are multiplied by the same factors, so that the plans are multiples of one plan and only
     the nonlinear terms differ.

@@ -1,8 +1,8 @@
 """How controllability, the gauge and the number of impulses depend on the interval between impulses.
 
-At whole revolutions every impulse acts at one place of the orbit, and the radius cannot be changed. At half
-revolutions all radial impulses are parallel, so that H(k) of (12) does not exist; the states can still be
-corrected.
+At intervals of whole revolutions all impulses act at one place of the orbit, and the radius cannot be changed
+there. At half revolutions all radial impulses are parallel, so that H(k) of (12) does not exist; the states
+can still be corrected.
 """
 
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ def singular_values(intervals: ArrayLike, impulses: int) -> Array:
 def step_condition(intervals: ArrayLike) -> Array:
     """Condition numbers of B(k) of (12) for an even and an odd step, (..., 2).
 
-    A condition number beyond rounding says that H(k) does not exist.
+    If a condition number exceeds the inverse of the rounding error, H(k) does not exist.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def step_condition(intervals: ArrayLike) -> Array:
 @value_class
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """Plans of one state for many intervals.
+    """Plans for one state at many intervals between impulses.
 
     Attributes
     ----------

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 CHUNK = 250
-"""States that are planned between two moves of the progress bar."""
+"""Number of states that are planned between two updates of the progress bar."""
 
 
 @value_class
@@ -87,7 +87,8 @@ def impulse_distribution(
     Parameters
     ----------
     covariance : (3, 3) array_like
-        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric, not indefinite.
+        Covariance of (dr, dv_R, dv_T), in units of the orbit's radius and speed; symmetric and
+        positive semidefinite.
     samples : int
         Number of errors.
     interval, peak : float

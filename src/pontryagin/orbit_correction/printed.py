@@ -1,7 +1,7 @@
 """The paper's worked example as printed at the end of section 7: the problem, N_min, alpha and both tables.
 
-Every number of the paper's that the claims judge, and that figures and recordings show, is read from here.
-Numbers are texts, so that the digits that are printed are known.
+Claims, figures and recordings read the numbers of this example from here. Numbers are strings, so that the
+number of printed digits is known.
 """
 
 INTERVAL, PEAK = "0.25", "0.0035"
@@ -17,7 +17,7 @@ STATES = (
     ("0.00698e-2", "0.35937e-2", "0.07851e-2"),
     ("0", "0", "0"),
 )
-"""Rows x*(0) = z0 to x*(4) of the first table."""
+"""The states x*(0) = z0 to x*(4) of the first table, as rows."""
 
 COSTATES = (
     ("0.1294", "0.2360", "-0.9631"),
@@ -25,7 +25,7 @@ COSTATES = (
     ("0.2617", "-0.5720", "-0.6986"),
     ("0.6534", "-0.9623", "0.0850"),
 )
-"""Rows psi(0) to psi(3) of the first table."""
+"""The adjoint vectors psi(0) to psi(3) of the first table, as rows."""
 
 CONTROLS = (
     ("-0.04354e-2", "-0.24779e-2", "-0.27185e-2"),
@@ -33,7 +33,7 @@ CONTROLS = (
     ("-0.17352e-2", "-0.52475e-2", "-0.01554e-2"),
     ("-0.10099e-2", "-0.38877e-2", "0.01550e-2"),
 )
-"""Rows u*(0) to u*(3) of the second table."""
+"""The controls u*(0) to u*(3) of the second table, as rows."""
 
 Z0 = tuple(float(number) for number in STATES[0])
 """The initial deviation, as numbers."""

@@ -1,7 +1,7 @@
 """Points on the boundary of 0-controllable sets, and a frame in which flat sets can be drawn.
 
-The states X(N - k, k) that the steps from k on bring back are the sum of the remaining G_i U, carried along
-by the free motion. By Lemma 5 a boundary point of a sum is the sum of boundary points with a common normal.
+The set X(N - k, k) of states that the steps from k on bring back is the sum of the remaining G_i U, carried
+along by the free motion. By Lemma 5 a boundary point of a sum is the sum of boundary points with one normal.
 """
 
 from dataclasses import dataclass
@@ -14,8 +14,8 @@ from pontryagin.arrays import Array
 def support_points(factors: Array, normals: Array, square: bool) -> Array:
     """The support points rho(p) of Lemma 2 of the sum of G_k U, for outward normals p (..., 3), as (..., 3).
 
-    U is the unit ball of the components, or for `square` the cube. For a sum it is the sum of the support
-    points, Lemma 5 and (10).
+    U is the unit ball of the components, or for `square` the cube. The support point of a sum is the sum of
+    the support points, Lemma 5 and (10).
 
     Examples
     --------
@@ -38,9 +38,9 @@ class Frame:
     Attributes
     ----------
     axes : (3, 3) array
-        Unit rows, the longest axis first.
+        The axes as unit rows, the longest axis first.
     extents : (3,) array
-        Half-widths of the set along them, dimensionless.
+        Half-widths of the set along the axes, dimensionless.
     """
 
     axes: Array
@@ -51,12 +51,12 @@ class Frame:
         return np.asarray(states @ self.axes.T / self.extents)
 
     def normals(self, costates: Array) -> Array:
-        """Unit normals (..., 3) in this frame of planes with the given normals: Lemma 3, p goes to A^-T p."""
+        """Unit normals (..., 3) in this frame of planes with given normals p: along A^-T p, Lemma 3."""
         carried = costates @ self.axes.T * self.extents
         return np.asarray(carried / np.linalg.norm(carried, axis=-1, keepdims=True))
 
     def back(self, normals: Array) -> Array:
-        """The inverse of `normals`, up to the lengths: costates of normals (..., 3) of this frame."""
+        """The inverse of `normals`, up to lengths: the costates of normals (..., 3) in this frame."""
         return np.asarray(normals / self.extents @ self.axes)
 
 

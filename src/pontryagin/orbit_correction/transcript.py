@@ -1,4 +1,4 @@
-"""A plan as the command line prints it: a table or JSON of one plan, CSV of many."""
+"""Plans as the command line prints them: one plan as a table or JSON, many as CSV."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from pontryagin.orbit_correction.plan.correction import Plan
 from pontryagin.orbit_correction.system import satellite
 
 Report = dict[str, dict[str, Any]]
-"""Headings, and under each its quantities by name."""
+"""Quantities by their heading and, below it, by their name."""
 
 COLUMNS = ("dr", "dv_R", "dv_T")
 """The columns of a CSV file of states."""
@@ -32,7 +32,7 @@ def transcript(plan: Plan) -> Report:
     Parameters
     ----------
     plan : Plan
-        Of one state.
+        A plan of one state.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def transcript(plan: Plan) -> Report:
 def samples(plan: Plan, count: int) -> dict[str, Array]:
     """Linear motion and costate at evenly spaced times: ``t`` (k,), ``state`` and ``costate`` (k, 3).
 
-    At the instant of an impulse the state is that after it.
+    At the instant of an impulse the state is the one after the impulse.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def conclusion(plan: Plan) -> str:
 
 
 def to_csv(states: Rows, plan: Plan) -> str:
-    """The rows as they were read, each with its plan; entries beyond a state's own impulses are empty."""
+    """The rows as they were read, each with its plan; cells beyond the impulses of a state are empty."""
     answers = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
     answers |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
     answers |= {name: getattr(plan.certificate, name) for name in PROOF}

@@ -1,4 +1,4 @@
-"""The impulses that the paper's ball wastes, counted against the disc and against the square it replaces."""
+"""The impulses that the paper's ball wastes, in comparison with the disc and the square that it replaces."""
 
 from dataclasses import dataclass
 
@@ -30,15 +30,16 @@ class Waste:
     counts: dict[str, NDArray[np.int64]]
 
     def wasted(self, thrust: str = "box") -> NDArray[np.int64]:
-        """How many impulses more than another set the ball needs, (...)."""
+        """How many more impulses the ball needs than another set, (...)."""
         return self.counts["ball"] - self.counts[thrust]
 
 
 def count_impulses(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Waste:
     """Count the impulses that ball, disc and box need for the same states.
 
-    The square holds the ball and the disc, so that it never needs more impulses. After an odd number of steps
-    of the ball, half of the last impulse is unused. Neither of ball and disc contains the other.
+    The square contains the ball and the disc, so that it never needs more impulses than they do. After an odd
+    number of steps of the ball, half of the last impulse is unused. Neither the ball nor the disc contains
+    the other.
 
     Parameters
     ----------

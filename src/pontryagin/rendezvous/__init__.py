@@ -3,15 +3,15 @@
 A craft under thrust meets another one that coasts on a Kepler ellipse, at a free place of its orbit. The
 functional is the integral of alpha1 + alpha2 p^2, and the thrust is bounded. Pimkina & Chelnokov write the
 motion in rotating axes eta (eta1 along the radius, eta3 along R x V, attitude quaternion lambda) and reduce
-the 16 equations of the maximum principle to ten. Their condition (15), which is to replace that on the
+the 16 equations of the maximum principle to ten. Their condition (15), meant to replace the condition on the
 attitude, has rank two instead of three; an eleventh equation restores the lost condition. Sapunkov uses
-orbital elements A, B from the Kustaanheimo-Stiefel regularisation; in them the same problem is solved, and
-that of least fuel.
+orbital elements A, B from the Kustaanheimo-Stiefel regularisation; both the same problem and the least-fuel
+problem are solved in them.
 
 paper            here                       meaning
 ---------------  -------------------------  ------------------------------------------------------
 r, v1, c         r, v1, c                   distance, radial velocity, areal constant |R x V|
-r*, v1*          goal                       the target's, at the meeting; c* below
+r*, v1*          goal                       r and v1 of the target at the meeting; c* below
 lambda           attitude                   quaternion of eta in inertial axes, scalar first
 lambda*          goal                       the target's attitude at the meeting
 omega_eta        -                          angular velocity of eta
@@ -32,7 +32,7 @@ mu, Phi*         mu, anomaly_costate        costates of lambda and phi*
 nu = lambda~mu   nu1, nu2, nu3              (the scan prints nu as v)
 nu*              -                          mu lambda~, constant
 n_eta            switching                  the primer vector, along which the thrust lies
-C_phi            anomaly_constant           Phi* (1 + e* cos phi*)^2, constant
+C_phi            anomaly_constant           Phi* (1 + e* cos phi*)^2, constant along a flight
 H0               hamiltonian                Hamiltonian at the optimal thrust, 0 where t_k is free
 -                chi                        angle about nu*, which the ten equations do not contain
 A, B, Q          A, B, Q                    Sapunkov's elements; Q = A^2 + B^2, twice the semi-axis

@@ -1,4 +1,4 @@
-"""Estimates before any extremal is known: the gap between craft and target, durations, angles."""
+"""Estimates made before any extremal is known: the gap between craft and target, durations, angles."""
 
 import math
 
@@ -12,37 +12,37 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
 
 TOGETHER = 1e-8
-"""Distance and difference of velocities, in units of the target's orbit, that rounding leaves nothing of."""
+"""Craft and target count as together below this distance and velocity difference, in the target's units."""
 LONGEST = 400.0
 """Longest duration that is guessed, in units of sqrt(p*^3/fM)."""
 SHORTEST = 2.0
-"""Shortest duration in which one orbit is guessed to be changed into the other."""
+"""Shortest duration guessed for changing one orbit into the other, in units of sqrt(p*^3/fM)."""
 
 
 def gap(scaled: Scaled) -> tuple[float, float]:
-    """How far craft and target are from each other at t0, and the difference of their velocities."""
+    """Distance between craft and target at t0, and the difference of their velocities."""
     craft = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
     between = target_by_kepler(scaled, 0.0) - craft
     return float(np.linalg.norm(between[:3])), float(np.linalg.norm(between[3:]))
 
 
 def require_rendezvous(problem: object) -> None:
-    """Raise TypeError unless it is a rendezvous."""
+    """Raise TypeError unless `problem` is a `Rendezvous`."""
     if not isinstance(problem, Rendezvous):
         raise ArgumentTypeError(f"problem must be of type Rendezvous, got {problem!r}", "problem")
 
 
 def require_solvable(problem: Rendezvous) -> None:
-    """Raise unless it is a rendezvous that has a best duration.
+    """Raise unless `problem` is a `Rendezvous` whose duration is fixed or has an optimum.
 
     Raises
     ------
     TypeError
-        If it is none.
+        If `problem` is not a `Rendezvous`.
     Infeasible
         If the duration is free and costs nothing.
     ValueError
-        If it is free and the craft is with the target at the start.
+        If the duration is free and the craft is with the target at the start.
     """
     require_rendezvous(problem)
     if not problem.free:
@@ -57,7 +57,7 @@ def require_solvable(problem: Rendezvous) -> None:
 
 
 def _require_gap(scaled: Scaled) -> None:
-    """Raise unless there is something to be done before craft and target go on as one.
+    """Raise if craft and target are already together at t0.
 
     Raises
     ------
@@ -88,13 +88,13 @@ def orbit_change_duration(scaled: Scaled, ratio: float) -> float:
 
 
 def gap_duration(scaled: Scaled, ratio: float) -> float:
-    """A duration in which thrust of about sqrt(alpha1/alpha2) closes the gap as if nothing attracted."""
+    """A duration in which thrust of about sqrt(alpha1/alpha2) closes the gap, with gravity neglected."""
     place, velocity = gap(scaled)
     return 2 * math.sqrt(place / math.sqrt(ratio)) + velocity / math.sqrt(ratio)
 
 
 def ballistic_lead(scaled: Scaled, duration: float) -> float:
-    """By how much the target turns farther than the coasting craft would, in radians."""
+    """How much farther the target turns than the coasting craft would, in radians."""
     eccentricity, anomaly = _eccentricity(scaled.start)
     parameter = float(scaled.start[2]) ** 2
     craft = kepler.true_anomaly_after(anomaly, duration, parameter, eccentricity) - anomaly

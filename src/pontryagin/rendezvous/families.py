@@ -1,8 +1,9 @@
-"""The families of extremals that lead from one without a bound to the one that a problem asks for.
+"""Continuation of extremals from a problem without a bound on the thrust to the given problem.
 
-Over the duration: to a fixed one, or until the terminal law holds. Over the bound: from the largest thrust
-down to p_max. Over alpha1/alpha2: up to where the thrust is saturated throughout, then to least time. The
-equations are arguments: those of reduced dimension and those in Sapunkov's elements are led the same ways.
+The duration is changed to a fixed value, or until the terminal law holds. The bound is lowered from the
+largest thrust to p_max. For least time alpha1/alpha2 is raised until the thrust is saturated throughout; then
+alpha2 = 0. The equations are an argument: those of reduced dimension and those in Sapunkov's elements are
+treated in the same way.
 """
 
 import math
@@ -19,34 +20,35 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.root import COSTATES, Conditions, Root
 
 END_SHARES = (2.5, 1.5, 0.7)
-"""Thrust in units of p_max at the end of the unbounded problems from which least time is sought.
+"""Final thrust, in units of p_max, of the unbounded problems from which least time is sought.
 
-From one of them alone the curve may turn back before the thrust is saturated, or lead to a slower extremal.
+There are several, since the curve from a single one may turn back before the thrust is saturated, or lead to
+a slower extremal.
 """
 RUNAWAY = 1e4
-"""Growth of the costates at which a bound is taken to be the least for the duration."""
+"""Factor of growth of the costates at which the bound reached counts as the least for the duration."""
 STEEPEST = 1e12
-"""alpha1/alpha2, in units of p_max^2, at which the thrust must be saturated throughout."""
+"""Largest alpha1/alpha2, in units of p_max^2, up to which the thrust must become saturated throughout."""
 LONGEST = 10.0
-"""Logarithm of the factor by which durations are changed in search of the terminal law."""
+"""Largest logarithm of the factor by which a duration is changed in search of the terminal law."""
 ROOM = 1.001
-"""The bound that a family starts from, in units of the largest thrust without a bound."""
+"""First value of a bound that is lowered, in units of the largest thrust without a bound."""
 
 
 class Flown(Protocol):
-    """A flight, as far as its families look at it."""
+    """The attributes of a flight that this module needs."""
 
     @property
     def duration(self) -> float:
-        """Time at its end."""
+        """Time at the end of the flight."""
 
     @property
     def pieces(self) -> Sequence[Any]:
-        """Its arcs, each with a ``mode``."""
+        """The arcs of the flight, each with a ``mode``."""
 
 
 class Posed(Protocol):
-    """What is solved for, as far as its families look at it."""
+    """The attributes of a setting (a problem and its constants) that this module needs."""
 
     @property
     def scaled(self) -> Scaled:
@@ -62,14 +64,14 @@ class Posed(Protocol):
 
     @property
     def duration(self) -> float | None:
-        """t_k where it is fixed."""
+        """t_k if it is fixed, otherwise None."""
 
     @property
     def end_switching(self) -> float:
         """|n(t_k)| by the terminal law."""
 
     def replace(self, **changes: Any) -> Self:
-        """The same with some of it changed."""
+        """A copy with some attributes changed."""
 
 
 S = TypeVar("S", bound=Posed)
@@ -78,21 +80,21 @@ F = TypeVar("F", bound=Flown)
 
 @dataclass(frozen=True)
 class Shooting(Generic[S, F]):
-    """A set of equations for the meeting, as the families need it.
+    """A formulation of the shooting problem: its equations and how they are solved and followed.
 
     Attributes
     ----------
     meet : function of a setting and unknowns
-        Newton's method.
+        Newton's method from the given unknowns.
     equations : function of a setting and unknowns
-        The conditions.
+        The conditions of the meeting.
     curve : function of a setting, a root, a name and a value
         Points of the family through the root over the logarithm of "peak", "ratio" or "duration", towards
         the value of that logarithm.
     released : function of unknowns of a fixed duration and that duration
-        Unknowns of the free one.
+        Unknowns of the problem with a free duration.
     law : function of a setting and a point of the curve over "duration"
-        By what the terminal law is missed, relative.
+        Relative residual of the terminal law.
     thrust : function of a flight
         |p| on a fine grid.
     """
@@ -106,17 +108,17 @@ class Shooting(Generic[S, F]):
 
 
 def fine_grid(end: float) -> Array:
-    """Values of the independent variable of a flight at which its thrust is looked at."""
+    """Values of a flight's independent variable, from 0 to its end, at which the thrust is evaluated."""
     return np.linspace(0.0, end, 200 + int(40 * end))
 
 
 def stretched(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
-    """The extremal of the fixed duration on the family through one of another duration.
+    """The extremal of the setting's fixed duration, on the family through a root of another duration.
 
     Raises
     ------
     NotConverged
-        Where the family ends before.
+        If the family ends before that duration.
     """
     wanted = float(setting.duration or 0.0)
     if root.flight.duration == wanted:
@@ -128,12 +130,12 @@ def stretched(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
 
 
 def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
-    """The extremal of a free duration on the family through one of a fixed duration: the terminal law holds.
+    """The extremal of free duration (the terminal law holds) on the family through one of fixed duration.
 
     Raises
     ------
     NotConverged
-        Where it does not within the durations looked at.
+        If the terminal law holds for none of the durations tried.
     """
     duration = root.flight.duration
     start = shooting.released(root.unknowns, duration)
@@ -146,25 +148,26 @@ def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
 
 
 def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Root[F]:
-    """The extremal under the bound of a setting, from one without bound; under alpha2 = 0 if that is posed.
+    """The extremal of a setting, under its bound and with alpha2 = 0 if so posed, from one without bound.
 
     Parameters
     ----------
     shooting : Shooting
         The formulation in which extremals are found and followed.
     setting : Setting
-        What is posed.
+        The setting to be solved.
     loose : Setting
-        What the root solves: no bound, and a finite alpha1/alpha2.
+        The setting that the root solves: no bound, and a finite alpha1/alpha2.
     root : Root
-        The extremal.
+        The extremal without bound.
 
     Raises
     ------
     Infeasible
-        Where the costates run away: there the bound is the least with which this family makes its duration.
+        If the costates grow without limit: the bound reached is then the least for which this family has an
+        extremal of its duration.
     NotConverged
-        Where the family turns back, or cannot be followed.
+        If the family turns back, or cannot be followed.
     """
     under = _lowered(shooting, loose, root, setting.peak)
     if setting.ratio < math.inf:
@@ -173,7 +176,7 @@ def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Ro
 
 
 def _lowered(shooting: Shooting[S, F], loose: S, root: Root[F], peak: float) -> Root[F]:
-    """The bound brought down from the largest thrust to p_max."""
+    """The extremal after the bound is lowered from the largest thrust to p_max."""
     if peak == math.inf:
         return root
     wanted, highest = loose.replace(peak=peak), ROOM * float(shooting.thrust(root.flight).max())
@@ -206,9 +209,10 @@ def _largest_costate(unknowns: Array) -> float:
 
 
 def _least_time(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
-    """alpha1/alpha2 raised until everything is saturated, or as far as it goes; then alpha2 = 0.
+    """The extremal of least time: alpha1/alpha2 is raised until the thrust is saturated, then alpha2 = 0.
 
-    Costates are in units of alpha2 before and of alpha1 after, so that |n(t_k)| tells how they change.
+    If the curve ends before, alpha2 = 0 is tried from its last point. Costates are in units of alpha2 before
+    the last step and of alpha1 after it; the ratio of the two values of |n(t_k)| converts them.
     """
     start, end = math.log(setting.ratio), math.log(STEEPEST * setting.peak**2)
     reason = "alpha1/alpha2 could not be raised until the thrust is saturated throughout"
@@ -232,5 +236,5 @@ def _least_time(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
 
 
 def loose_ratios(ratio: float, peak: float) -> list[float]:
-    """alpha1/alpha2 of the unbounded problems that are solved first; several for least time."""
+    """Values of alpha1/alpha2 of the unbounded problems that are solved first; several for least time."""
     return [(share * peak) ** 2 for share in END_SHARES] if ratio == math.inf else [ratio]

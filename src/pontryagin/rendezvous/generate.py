@@ -44,12 +44,12 @@ def kernels() -> str:
 
 
 def in_any_chart(expression: sp.Expr) -> sp.Expr:
-    """An expression of the first chart with the chart a parameter, +1 or -1: |nu| becomes chart |nu|."""
+    """An expression of the first chart with the chart (+1 or -1) as a parameter: |nu| becomes chart |nu|."""
     return expression.subs(repair.length, chart * repair.length)
 
 
 def _named(prefix: str, values: Iterable[sp.Expr]) -> dict[str, sp.Expr]:
-    """Expressions by a common prefix and their number."""
+    """Expressions named by a common prefix and their number."""
     return {f"{prefix}{i}": value for i, value in enumerate(values)}
 
 
@@ -68,7 +68,7 @@ def _rates() -> list[str]:
 
 
 def shortest_turn(nu: sp.Matrix) -> sp.Matrix:
-    """T(nu) in either chart."""
+    """T(nu) with |nu| written out and the chart as a parameter."""
     values = dict(zip(principle.nu, nu, strict=True)) | {repair.length: principle.size(nu)}
     return repair.shortest_turn(chart).subs(values)
 

@@ -1,6 +1,6 @@
-"""Newton's method for the conditions of a rendezvous, and the residual that counts as a meeting.
+"""Newton's method for the conditions of a rendezvous, and the residual accepted for a meeting.
 
-The first six unknowns are costates, in whatever equations; a seventh is where the flight ends.
+The first six unknowns are costates in every formulation; a seventh is the end of the flight.
 """
 
 from collections.abc import Callable
@@ -15,59 +15,62 @@ from pontryagin.numerics.newton import ROUNDING, newton
 from pontryagin.value import value_class
 
 F = TypeVar("F", covariant=True)
-"""The flight of an extremal."""
+"""The type of the flight of an extremal."""
 
 MEETING = 1e-10
-"""Residual of a meeting where the equations are well conditioned."""
+"""Largest residual accepted for a meeting where the equations are well conditioned."""
 WORST_MEETING = 1e-6
-"""Residual above which nothing is a meeting, however badly the equations are conditioned."""
+"""Largest residual accepted for a meeting, however badly the equations are conditioned."""
 COSTATES = 6
-"""How many of the unknowns are costates."""
+"""Number of the unknowns that are costates."""
 
 
 class Conditions(Protocol[F]):
-    """The conditions of a rendezvous at some unknowns."""
+    """The conditions of a rendezvous evaluated at given unknowns."""
 
     @property
     def flight(self) -> F:
-        """The extremal flown."""
+        """The flight of these unknowns."""
 
     @property
     def residual(self) -> Array:
-        """What is zero at a meeting, (n,)."""
+        """Residual of the conditions, zero at a meeting, (n,)."""
 
     @property
     def jacobian(self) -> Array:
-        """Its derivatives in the unknowns, (n, n)."""
+        """Derivatives of the residual in the unknowns, (n, n)."""
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class Root(Generic[F]):
-    """A meeting: the unknowns, and the conditions there."""
+    """A meeting: the unknowns and the conditions evaluated at them."""
 
     unknowns: Array
     equations: Conditions[F]
 
     @property
     def flight(self) -> F:
-        """The extremal."""
+        """The flight of the extremal."""
         return self.equations.flight
 
     @property
     def residual(self) -> float:
-        """Largest residual."""
+        """Largest residual of the conditions."""
         return float(np.abs(self.equations.residual).max())
 
 
 def scales(unknowns: Array) -> Array:
-    """What the unknowns are measured by: costates by the largest of them, the end of the flight by itself."""
+    """Units of the unknowns: the largest costate for all costates, its own size for the end of the flight."""
     largest = float(np.abs(unknowns[:COSTATES]).max()) or 1.0
     return np.append(np.full(COSTATES, largest), np.abs(unknowns[COSTATES:]))
 
 
 def tolerance(jacobian: Array, unknowns: Array) -> float:
-    """The residual of a meeting: 1e-10, or what rounding makes of it in worse equations, up to 1e-6."""
+    """Largest residual accepted for a meeting: `MEETING`, or more if the equations are badly conditioned.
+
+    It is then the effect of rounding as estimated from the condition number, but at most `WORST_MEETING`.
+    """
     rounding = 100 * float(np.finfo(float).eps) * float(np.linalg.cond(jacobian * scales(unknowns)))
     return min(max(MEETING, rounding), WORST_MEETING)
 
@@ -90,7 +93,7 @@ def root(
     evaluate : function of unknowns
         The conditions.
     unknowns : (6,) or (7,) array
-        Where to begin.
+        Initial guess.
     within : float
         A step changes the end of the flight by less than this factor.
     rough : function of unknowns, optional
@@ -98,14 +101,14 @@ def root(
     iterations, halvings : int
         As for `pontryagin.numerics.newton.newton`.
     correction : float
-        Relative correction that is left undone.
+        The iteration ends when the next relative correction is expected to be below this.
     largest : float, optional
-        The residual that is accepted; by default as `tolerance` says.
+        The largest residual that is accepted; by default given by `tolerance`.
 
     Raises
     ------
     NotConverged
-        When the residual stays above that.
+        If the residual stays above the accepted one.
     """
 
     def admissible(before: Array, after: Array) -> bool:

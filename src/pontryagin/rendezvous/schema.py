@@ -1,4 +1,4 @@
-"""A rendezvous as a JSON text. Errors name the key whose value is refused.
+"""Reading and writing a rendezvous as JSON; errors name the key whose value is refused.
 
 ::
 
@@ -49,7 +49,7 @@ def read(text: str) -> Rendezvous:
     Raises
     ------
     ValueError
-        If the text is not JSON, a key is missing, unknown or there twice, or a value is refused; the message
+        If the text is not JSON, a key is missing, unknown or repeated, or a value is refused; the message
         names the key, as in ``target.eccentricity``.
 
     Examples
@@ -72,7 +72,7 @@ def read(text: str) -> Rendezvous:
 
 
 def to_dict(problem: Rendezvous) -> dict[str, Any]:
-    """The JSON object that `read` turns into the problem.
+    """The JSON object from which `read` makes the problem.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def _orbit(name: str, given: Any, why: str = "the target moves on an ellipse") -
 
 
 def _object(name: str, given: Any, required: Keys, optional: Keys = ()) -> Mapping[str, Any]:
-    """A JSON object that has the required keys, and of others only optional ones."""
+    """Check that a value is a JSON object with all required keys and no unknown ones; return it."""
     takes = ", ".join((*required, *optional))
     if not isinstance(given, Mapping):
         place = name or "the text"
@@ -161,7 +161,7 @@ def _excerpt(value: Any) -> str:
 
 @contextmanager
 def _prefixed(place: str) -> Iterator[None]:
-    """Put the name of the enclosing object before the argument that an error of the library names."""
+    """Prefix the argument that an error of the library names with the name of the enclosing object."""
     try:
         yield
     except (ArgumentTypeError, ArgumentValueError) as reason:

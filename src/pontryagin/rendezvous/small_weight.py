@@ -1,7 +1,7 @@
 """``python -m pontryagin.rendezvous.small_weight``: the case ``mixed`` at decreasing weights of time.
 
-With a smaller weight the best flight makes more revolutions, and its costates are worse conditioned. The last
-rows take minutes to compute, so the results are kept in ``small_weight.csv``.
+At a smaller weight the best flight makes more revolutions and the shooting equations are worse conditioned.
+The last rows take minutes to compute, so the results are kept in ``small_weight.csv``.
 """
 
 import csv
@@ -18,7 +18,7 @@ from pontryagin.rendezvous.reduced.solve import solve
 
 FILE = Path(__file__).with_name("small_weight.csv")
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-"""The weights alpha1, with alpha2 = 1."""
+"""The weights alpha1 that are solved for, with alpha2 = 1."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def problem(time_weight: float) -> Rendezvous:
 
 
 def row(best: Extremal) -> Row:
-    """The numbers of an extremal that are kept."""
+    """The row of an extremal."""
     certificate = best.certificate
     weight = best.problem.time_weight
     return Row(
@@ -93,7 +93,7 @@ def write(found: Iterable[Row]) -> None:
 
 
 def main(weights: Iterable[float] = ()) -> None:
-    """Solve for the given weights, or all; the rows of the others are kept."""
+    """Solve for the given weights and keep the rows of the others; with no weights given, solve for all."""
     chosen = list(weights) or list(WEIGHTS)
     found = {one.time_weight: one for one in rows()} if weights else {}
     for weight in chosen:

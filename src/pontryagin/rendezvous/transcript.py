@@ -1,4 +1,4 @@
-"""A solved rendezvous as the command line prints it, as a table or as JSON."""
+"""A solved rendezvous as the command line prints it: a table or JSON."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ from pontryagin.rendezvous import schema
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 Report = dict[str, dict[str, Any]]
-"""Headings, and under each its quantities by name."""
+"""The quantities under each heading, by name."""
 
 CERTIFICATE = (
     "boundary",
@@ -29,7 +29,7 @@ LISTED = 6
 
 
 def transcript(extremal: Extremal) -> Report:
-    """One solution as headings with their quantities, which have the names of the library's attributes.
+    """One solution as headings with quantities, which are named as the attributes of the library's objects.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Problems from the rows of a CSV file, and the columns of their solutions."""
+"""Problems read from the rows of a CSV file, and their solutions as columns."""
 
 from pathlib import Path
 from typing import Any
@@ -9,14 +9,14 @@ from pontryagin.io import rows
 from pontryagin.triple_integrator.transcript import account, certificate_of
 
 START, END = ("x10", "x20", "x30"), ("x1f", "x2f", "x3f")
-"""The columns of both ends."""
+"""The CSV columns with the states at the start and at the end."""
 
 UNSTACKED = ("q", "breakpoints", "multipliers")
-"""Quantities of a single solution that its row leaves out."""
+"""Quantities of a single solution that are not written to CSV."""
 
 
 def read(path: Path, least_time: bool) -> rows.Rows:
-    """Read ``x10, x20, x30, x1f, x2f, x3f`` and, for a given duration, ``tf`` and ``t0`` if it is there.
+    """Read ``x10, x20, x30, x1f, x2f, x3f``; for a given duration also ``tf``, and ``t0`` if there is one.
 
     Raises
     ------

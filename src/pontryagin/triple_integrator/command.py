@@ -12,7 +12,7 @@ from pontryagin.terminal import console
 from pontryagin.triple_integrator import transcript
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
-"""The options of the arguments that the solvers check."""
+"""The command-line option for each argument that the solvers check."""
 
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}
 """The solvers for special exponents q of the norm; `minimum_norm` solves the others."""
@@ -101,7 +101,7 @@ class Goal(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """Both states and, for a given duration, both times, of one problem or a stack."""
+    """Both states and, for a given duration, both times, of one problem or of a stack."""
 
     x0: Any
     xf: Any

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 Report = dict[str, dict[str, Any]]
-"""Quantities by heading and name."""
+"""Quantities by their heading and, below it, by their name."""
 
 
 class Account(NamedTuple):
@@ -17,7 +17,7 @@ class Account(NamedTuple):
 
 
 SWITCHES = ("switch_times", "first_sign", "switch_condition")
-"""The attributes of a bang-bang solution."""
+"""The attributes that only bang-bang solutions have."""
 
 ACCOUNTS = {
     "EnergySolution": Account(
@@ -88,7 +88,7 @@ def certificate_of(solution: Any) -> dict[str, Any]:
 
 
 def conclusion(solution: Any) -> str:
-    """The certificate in a sentence.
+    """A sentence that says what the certificate proves.
 
     Examples
     --------

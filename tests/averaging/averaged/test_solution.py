@@ -1,4 +1,4 @@
-"""What a solution samples: states, phase, anomaly and control, for one problem and for stacks."""
+"""States, phase, anomaly and control of a solution at given times, for one problem and for stacks."""
 
 import numpy as np
 import pytest
@@ -132,7 +132,7 @@ def test_times_outside_are_refused(orbit):
 
 @pytest.mark.slow
 def test_the_exact_spin_down_is_handed_out_in_the_paper_s_variables():
-    """H of the paper's own system vanishes along it, psi leads to the rates, and a falls to rest."""
+    """H of the paper's system vanishes on it, (a, psi) obey the equations of motion, and a falls to 0."""
     solution = spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6)
     best = solution.exact(0.1)[0]
     tau = np.linspace(0, best.duration, 200)

@@ -1,4 +1,4 @@
-"""Averaged extremals against closed forms, quadratures and SciPy's integrator, and what has none."""
+"""Averaged extremals compared with closed forms, quadratures and SciPy; problems without a solution."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ MASS, POTENTIAL = 1 + sp.cos(X) / 3, -sp.cos(X + 1) / 2
 
 
 def flown(solution):
-    """The end of the averaged Hamiltonian's flow by SciPy, from the solution's initial values."""
+    """(xi, eta) at the end, integrated by SciPy from the solution's initial values."""
     n = len(solution.names)
     numbers = solution.numbers
 
@@ -141,7 +141,7 @@ def test_a_rotor_of_constant_speed_is_the_papers_square_root():
 
 @pytest.mark.parametrize("price", [0.3, 5.0])
 def test_the_rotor_paid_by_its_control_is_a_quadrature_too(price):
-    """One degree of freedom: h0 = 0 gives the costate at each energy, and the pace with it."""
+    """With one degree of freedom h0 = 0 gives the costate at each energy, and hence the rate of energy."""
     solution = rotor(1.0, 3.0, mass=MASS, potential=POTENTIAL, force=FORCES["drag"], k=price)
     m, potential = (sp.lambdify(X, e) for e in (MASS, POTENTIAL))
 
@@ -157,7 +157,7 @@ def test_the_rotor_paid_by_its_control_is_a_quadrature_too(price):
     assert solution.duration == pytest.approx(quad(pace, 1, 3, epsabs=1e-12)[0], rel=1e-10)
 
 
-# A carriage with two speeds of its wheel: not in the paper, two slow variables, one of them free at the end.
+# An example that is not in the paper, with two slow variables, one of which is free at the end.
 def carriage(control_set=None, terminal=0, target=None, mixing=0):
     return PhaseSystem(
         f=[
@@ -204,9 +204,9 @@ def test_the_flow_from_the_start_meets_target_transversality_and_level(name, kap
 
 
 def test_no_neighbouring_programme_is_cheaper():
-    """The averaged optimum against mean controls disturbed in a few ways, flown to the target by SciPy.
+    """Perturbed averaged controls, integrated to the target by SciPy, cost more than the averaged optimum.
 
-    For a quadratic cost the averaged problem is itself one of control: the mean cost of eta'(tau).
+    For a quadratic cost the averaged problem is itself a control problem, whose control is eta(tau).
     """
     solution = solve_averaged(CARRIAGES["priced end"], [0.5, 0.3])
     rng = np.random.default_rng(3)
@@ -233,7 +233,7 @@ def test_no_neighbouring_programme_is_cheaper():
 
 
 def test_a_priced_free_end_is_its_closed_form():
-    """v' = u, y' = w at the cost k + u^2 + w^2 and c y at the end: eta_y = -c all the way."""
+    """v' = u, y' = w with the running cost k + u^2 + w^2 and the terminal cost c y: eta_y = -c throughout."""
     c, price = 1.2, 2.0
     system = PhaseSystem(
         f=[u, w],
@@ -256,7 +256,7 @@ def test_a_priced_free_end_is_its_closed_form():
 
 @pytest.mark.parametrize("name", ["free", "priced end", "curved target"])
 def test_the_main_result_holds_along_the_family(name):
-    """dJ0/dkappa = kappa d/dkappa of the phase turned, (2.14), by differences in kappa."""
+    """(2.14), dJ0/dkappa = kappa dPsi/dkappa with Psi the integral of omega, by differences in kappa."""
     system = CARRIAGES[name]
 
     def at(kappa):
@@ -367,7 +367,7 @@ def test_a_cost_that_pays_for_waiting_is_refused():
 
 
 def test_what_cannot_be_found_is_not_handed_out():
-    """Two speeds that must arrive together under independent bounds: the costate of the faster is zero."""
+    """Two variables under independent bounds must arrive together: the costate of the faster one is zero."""
     cylinder = PhaseSystem(
         f=[u * sp.cos(x) + v * sp.sin(x), w],
         omega=b,

@@ -1,4 +1,4 @@
-"""The window of the averaged family, and how many extremals it predicts."""
+"""The window of the averaged family, and the number of extremals that it predicts."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The spin-down flown under the synthesis of the first approximation."""
+"""The spin-down simulated under the feedback control of the first approximation."""
 
 import numpy as np
 import pytest

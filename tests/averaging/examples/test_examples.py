@@ -1,4 +1,4 @@
-"""The four examples: what they refuse, each by the name of its argument."""
+"""The four examples refuse invalid arguments, with messages that name the argument."""
 
 import numpy as np
 import pytest

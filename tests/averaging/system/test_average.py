@@ -1,4 +1,4 @@
-"""The averaged Hamiltonian: closed means, mpmath, and derivatives that belong to the value."""
+"""The averaged Hamiltonian compared with closed forms and mpmath; its derivatives with differences."""
 
 import mpmath as mp
 import numpy as np
@@ -126,7 +126,7 @@ MOVING = {
     )
     for name, control_set in {"moving box": Box([2, 1]), "moving bounded": BoundedQuadratic(1)}.items()
 }
-"""Systems whose switches move with the costates."""
+"""Systems whose switching phases depend on the costates."""
 
 MODELS = {
     **{name: (system.model, (), [0.8, 0.4, 0.9, -1.1]) for name, system in MOVING.items()},
@@ -138,7 +138,7 @@ MODELS = {
 
 @pytest.mark.parametrize("name", MODELS)
 def test_gradients_and_hessians_belong_to_the_values(name):
-    """Against differences of fourth order; a box's Hessian has jumps of the gradient in it."""
+    """They agree with fourth-order differences, also for a box, whose switches contribute to the Hessian."""
     model, numbers, z = MODELS[name]
     numbers = tuple(np.array(float(number)) for number in numbers)
     step = 1e-3

@@ -1,4 +1,4 @@
-"""Support functions against the sets themselves, and what is refused."""
+"""Support functions compared with maxima over the sets, and invalid sets that are refused."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Phase systems: what is derived from them, and what they refuse."""
+"""Phase systems: the derived quantities, and invalid arguments that are refused."""
 
 import numpy as np
 import pytest
@@ -95,7 +95,7 @@ def test_rates_that_only_look_nonlinear_are_taken():
 
 
 def orbit_elements(state):
-    """(E, K, xi) of (r, v_r, v_phi)."""
+    """Elements (E, K, xi) from (r, v_r, v_phi)."""
     r, v_r, v_phi = state
     E = (v_r**2 + v_phi**2) / 2 - 1 / r
     return np.array([E, r * v_phi, np.arctan2(r * v_r * np.sqrt(-2 * E), 1 + 2 * E * r)])
@@ -103,7 +103,7 @@ def orbit_elements(state):
 
 @pytest.mark.parametrize("thrust", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
 def test_keplers_rates_are_those_of_the_elements_along_the_flight(thrust):
-    """The generated system against Newton's equations in polar coordinates, differentiated numerically."""
+    """The generated system agrees with numerical derivatives by Newton's equations in polar coordinates."""
     system = kepler(-0.5, 0.8, -0.35, 0.1).system
     state = np.array([1.3, 0.3, 0.7])
     r, v_r, v_phi = state
@@ -126,7 +126,7 @@ def test_keplers_rates_are_those_of_the_elements_along_the_flight(thrust):
 @pytest.mark.parametrize("w", [(0.6, 0.5, 1.2), (0.6, -0.5, -1.2)])
 @pytest.mark.parametrize("ratio", [0.6, 1.7])
 def test_spin_down_turns_the_phase_forward_whatever_the_sense(w, ratio):
-    """The rates against Euler's equations in the body's axes, the phase counted as the body turns."""
+    """The rates agree with Euler's equations in body axes, the phase measured in the sense of rotation."""
     solution = spin_down(w, [1, 0.7, 0.4], ratio)
     system = solution.system
     controls, sense = np.array([0.3, -0.2, 0.1]), np.sign((ratio - 1) * w[2])
@@ -135,7 +135,7 @@ def test_spin_down_turns_the_phase_forward_whatever_the_sense(w, ratio):
     assert float(solution.initial_phase) == pytest.approx(psi)
 
     def seen(rate):
-        """(a', c', phase') of a rate of (w_x, w_y, w_z)."""
+        """(a', c', phase') from the rate of (w_x, w_y, w_z)."""
         square = np.hypot(w[0], w[1])
         along = (w[0] * rate[0] + w[1] * rate[1]) / square
         return np.array([along, rate[2], sense * (w[0] * rate[1] - w[1] * rate[0]) / square**2])

@@ -1,4 +1,4 @@
-"""Gauges of general systems (Lemma 7, Lemma 9): dimensions, sizes, nearly flat sets, refused arguments."""
+"""Gauges of general systems (Lemma 7, Lemma 9): dimensions, sizes, nearly flat sets, invalid arguments."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Plans of one length: each is least in its measure, by its bound and against independent optimisers."""
+"""Plans of equal length: each is least in its measure, by its bound and against independent optimisers."""
 
 from types import SimpleNamespace
 

@@ -36,7 +36,7 @@ def test_the_satellite_as_a_general_system_of_ellipsoids():
 
 
 def fly(plan):
-    """The state at the end of the linear flow with a jump of the speeds before each interval, by SciPy."""
+    """The state at the end of the linear flow by SciPy, with a jump of the speeds before each interval."""
     z = plan.z0
     for impulse in plan.impulses:
         kicked = z + np.array([0, *impulse])
@@ -84,7 +84,7 @@ def test_intervals_next_to_whole_revolutions_and_beyond_all_measure_are_solved(i
 
 
 def test_the_steps_on_both_sides_of_whole_revolutions_are_those_of_a_short_interval():
-    """Whole revolutions change nothing: 2 pi + d acts like d, and 2 pi - d like d with time reversed."""
+    """Whole revolutions have no effect: 2 pi + d acts like d, and 2 pi - d like d with time reversed."""
     near = [int(correct(Z0, interval=h).steps) for h in (1e-6, 2 * np.pi + 1e-6, 4 * np.pi + 1e-6)]
     assert len(set(near)) == 1 and near[0] > 1000
 

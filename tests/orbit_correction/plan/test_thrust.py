@@ -100,7 +100,7 @@ def test_compiled_and_plain_kernels_agree(name, monkeypatch):
     st.lists(st.tuples(st.integers(0, 6), st.integers(1, 5)), min_size=1, max_size=40), st.integers(-120, 0)
 )
 def test_the_selection_stops_where_the_sorted_slopes_turn(pieces, slope):
-    """With whole numbers there are many ties, and sums are exact in any order."""
+    """Whole numbers give many ties, and their sums are exact in any order."""
     times, rates = (np.array(column, float) for column in zip(*pieces, strict=True))
     order = np.argsort(times, kind="stable")
     stops = np.flatnonzero(slope + 2 * np.cumsum(rates[order]) >= 0)

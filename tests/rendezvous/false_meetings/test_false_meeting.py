@@ -1,4 +1,4 @@
-"""A false meeting satisfies the printed conditions, and its attitude differs by the given angle, (6)."""
+"""A false meeting satisfies the printed conditions and violates (6) by the given angle."""
 
 import math
 

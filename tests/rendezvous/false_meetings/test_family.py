@@ -1,4 +1,4 @@
-"""The printed conditions hold all along the curve of false meetings, and (6) at whole turns alone."""
+"""The printed conditions hold all along the curve of false meetings, but (6) only at whole turns."""
 
 import functools
 import math
@@ -48,7 +48,7 @@ def family(degrees: int):
 
 
 def axis_of(nu: np.ndarray, problem: Rendezvous) -> np.ndarray:
-    """The axis of the rotation: nu*, in the plane the normal of the target's orbit."""
+    """The axis of the rotation: nu*, or the normal of the target's orbit where the orbits are coplanar."""
     normal = Rotation.from_quat(problem.target.attitude, scalar_first=True).apply([0, 0, 1])
     return normal if normal[2] == pytest.approx(1, abs=1e-15) else nu / np.linalg.norm(nu)
 
@@ -63,7 +63,7 @@ class TestFamily:
         assert np.allclose(family(degrees).mismatches, turns, atol=1e-9)
 
     def test_the_rotation_by_the_angle_carries_the_target_to_the_craft(self, degrees):
-        """For the attitudes, and for the states by Newton's law and Kepler's equation."""
+        """This holds for the attitudes, and for the states by Newton's law and Kepler's equation."""
         problem = true_meeting(degrees).problem
         for member in family(degrees).members:
             axis = axis_of(member.flight.costates[3:], problem)
@@ -115,7 +115,7 @@ class TestFamily:
 
 @pytest.mark.parametrize("kept", [ledger.COPLANAR[1], ledger.INCLINED[1]])
 def test_the_ledger_s_false_meetings_solve_the_equations_with_the_target_rotated_by_20_degrees(kept):
-    """20 degrees ahead in the plane, and 20 degrees about nu* in space."""
+    """The coplanar one is 20 degrees ahead; the inclined one is rotated by 20 degrees about nu*."""
     true = true_meeting(kept.inclination)
     scaled = true.problem.scaled
     unknowns = np.append(np.array(kept.costates) / scaled.costate_units, kept.duration / scaled.time)
@@ -124,7 +124,7 @@ def test_the_ledger_s_false_meetings_solve_the_equations_with_the_target_rotated
 
 
 def test_some_false_meetings_cost_less_than_the_true_one():
-    """20 degrees ahead in the plane, and 20 degrees about -nu* in space."""
+    """The coplanar one is 20 degrees ahead; the inclined one is rotated by 20 degrees about -nu*."""
     for degrees, angle in ((0, 20), (20, -20)):
         true = true_meeting(degrees)
         (found,) = false_family(true, [math.radians(angle)]).members

@@ -1,4 +1,4 @@
-"""The turn of a rigid body about a fixed axis: with the gyroscopic torque fed forward, and without."""
+"""The turn of a rigid body about a fixed axis, with and without feedforward of the gyroscopic torque."""
 
 import numpy as np
 import pytest
@@ -150,7 +150,7 @@ def test_about_a_principal_axis_nothing_is_missed():
     assert turn(BODY, frame[:, 1], minimum_peak(QUARTER), feedforward=False).attitude_miss < 1e-10
 
 
-# --- what is refused ---------------------------------------------------------------------------------------
+# --- invalid arguments -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("axis", [[0, 0, 0], [1, 2], [1, np.nan, 0], [[1, 0, 0], [0, 1, 0]]])

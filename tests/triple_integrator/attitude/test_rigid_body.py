@@ -48,7 +48,7 @@ def reduced(entry):
     return sp.simplify(sp.rem(numerator, phi.dot(phi) - 4 * half**2, phi[0]))
 
 
-# --- what is derived ---------------------------------------------------------------------------------------
+# --- the derived equations ---------------------------------------------------------------------------------
 
 
 def test_euler_equations_follow_from_the_momentum_in_the_turning_frame():
@@ -85,7 +85,7 @@ def test_the_closed_forms_are_inverse_to_each_other():
     assert (product - sp.eye(3))[:, 0].applyfunc(reduced).is_zero_matrix
 
 
-# --- numbers -----------------------------------------------------------------------------------------------
+# --- the numeric form --------------------------------------------------------------------------------------
 
 
 @given(unit_quaternions, rotation_vectors)
@@ -172,7 +172,7 @@ def test_commands_jump_at_impulses_and_are_continuous_from_the_right():
     assert motion.commands([0.0, 0.5, 1.0, 1.5, 2.0]).ravel().tolist() == [0.5, 1.5, 3.5, 3.5, 7.5]
 
 
-# --- what is refused ---------------------------------------------------------------------------------------
+# --- invalid arguments -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

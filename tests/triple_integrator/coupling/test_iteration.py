@@ -1,4 +1,4 @@
-"""Coupled channels: the cross-coupling, and the iteration until the full equations reach the target."""
+"""Coupled channels: the cross-coupling, and the iteration by which the full equations reach the target."""
 
 from functools import cache
 from itertools import pairwise
@@ -38,7 +38,7 @@ def skew_turn(angle, tf=2.0):
 
 
 def motion_by_matrices(body, programmes, edges, jumps):
-    """Rotation matrix, momentum and m integrated as nine, three and three numbers: another formulation."""
+    """Rotation matrix, momentum and m integrated as 9 + 3 + 3 numbers, independently."""
 
     def rate(t, y, low, high):
         R, H, m = y[:9].reshape(3, 3), y[9:12], y[12:]
@@ -215,7 +215,7 @@ def test_a_steady_spin_may_be_given():
     assert (target.inv() * reached).magnitude() < 1e-9
 
 
-# --- how fast ----------------------------------------------------------------------------------------------
+# --- the rate of convergence -------------------------------------------------------------------------------
 
 
 def test_a_spherical_body_turned_from_rest_to_rest_needs_no_iteration():
@@ -270,7 +270,7 @@ def test_beyond_the_threshold_the_miss_grows_and_is_told():
     assert failure.value.residual > 1e-2
 
 
-# --- what is refused ---------------------------------------------------------------------------------------
+# --- invalid arguments -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

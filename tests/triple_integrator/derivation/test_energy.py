@@ -1,4 +1,4 @@
-"""The least-energy programme, derived."""
+"""The derivation of the least-energy programme."""
 
 import numpy as np
 import pytest

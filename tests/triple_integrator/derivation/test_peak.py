@@ -112,7 +112,7 @@ def test_the_integral_of_the_modulus(p, q):
     st.fractions(0, 1, max_denominator=40),
 )
 def test_no_real_root_is_larger_than_the_level(level, p, q):
-    """The theorem, by Sturm's exact count: P has no real root beyond +-|v| and one distinct root at v."""
+    """By Sturm's exact count P has no real root beyond +-|v| and one distinct root at v."""
     at = {a: max(p, q), b: min(p, q), v: level}
     k = peak.bang_bang_moments().subs(at)
     values = dict(zip((c1, c2, c3), (k[0] / 6, k[1] / 2, k[2]), strict=True))

@@ -21,7 +21,7 @@ def quartic(level):
 
 
 def flown(level, durations):
-    """State after pieces of constant control level, -level, level under the constant force f."""
+    """State after three pieces of the control, level, -level, level, under the constant force f."""
     x = START
     for sign, tau in zip((1, -1, 1), durations, strict=True):
         k, u = x[2] + time.f, sign * level
@@ -36,7 +36,7 @@ def flown(level, durations):
 
 
 def test_the_moments_are_what_the_free_motion_leaves_to_do():
-    """c = x_f - x(T) for u = 0, and that motion solves x1' = x2, x2' = x3 + f, x3' = 0."""
+    """c = x_f - x(T) for the motion with u = 0, which solves x1' = x2, x2' = x3 + f, x3' = 0."""
     free = END - time.moments()
     assert (free.subs(T, 0) - START).applyfunc(sp.expand).is_zero_matrix
     rates = sp.Matrix([free[1], free[2] + time.f, 0])

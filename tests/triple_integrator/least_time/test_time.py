@@ -1,4 +1,4 @@
-"""Least time: the state arrives, and no earlier, by exact roots, Sturm's count and dense scans."""
+"""Least time: the state arrives, and not earlier, by exact roots, Sturm's count and dense scans."""
 
 import mpmath as mp
 import numpy as np
@@ -18,7 +18,7 @@ CROSSED = 14.0
 
 
 def flown(start, level, durations):
-    """State after pieces of control level, -level, level."""
+    """State after three pieces of the control, level, -level, level."""
     x = np.array(start, dtype=float)
     for u, tau in zip((level, -level, level), durations, strict=True):
         x = np.array(
@@ -32,12 +32,12 @@ def flown(start, level, durations):
 
 
 def least_exact(x0, xf, peak, force=0.0):
-    """The least of the exact candidates that stay within [0, T], to 1e-15."""
+    """The least exact candidate with switches within [0, T], up to 1e-15."""
     return float(min(T for violation, T in exact_bang_bang_times(x0, xf, peak, force) if violation <= 1e-15))
 
 
 def fixed_time_peaks(x0, xf, durations, force=0.0):
-    """The least peaks u0(T)."""
+    """The least peaks u0(T) for given durations."""
     return minimum_peak(Maneuver(x0, xf, durations, disturbance=np.full(np.shape(durations), force))).norm
 
 
@@ -74,7 +74,7 @@ def test_the_same_over_six_decades(x0, xf, decade):
     *[st.integers(-3, 3).map(sp.Integer) for _ in range(6)],
 )
 def test_no_earlier_admissible_root_by_sturm(x10, x20, x30, x1f, x2f, x3f):
-    """Exact: the real roots of both quartics below the answer, isolated by SymPy, all leave [0, T]."""
+    """Each real root of both quartics below the answer, by an exact count, has a switch outside [0, T]."""
     assume((x10, x20, x30) != (x1f, x2f, x3f))
     T = sp.Symbol("T", positive=True)
     found = sp.Rational(float(minimum_time([x10, x20, x30], [x1f, x2f, x3f], 1.0).duration))
@@ -111,7 +111,7 @@ def test_nothing_arrives_before_by_a_dense_scan(x0, xf, peak):
 
 @given(states(), st.tuples(angles), peaks, st.booleans(), st.floats(0.2, 4.0), st.floats(1.01, 3.0))
 def test_the_peak_falls_with_the_time_if_an_end_is_an_equilibrium(x, place, peak, reverse, T, factor):
-    """With x2 = x3 = 0 at one end any arrival can wait: u0 does not rise, and minimum_time inverts it."""
+    """With x2 = x3 = 0 at one end the body can wait there: u0 does not rise, minimum_time is its inverse."""
     rest = np.array([*place, 0.0, 0.0])
     ends = (rest, x) if reverse else (x, rest)
     assume(np.abs(ends[0] - ends[1]).max() > 1e-3)
@@ -132,7 +132,7 @@ def test_three_times_meet_one_bound_when_neither_end_is_an_equilibrium():
 
 @given(signs, places(), states(), st.floats(0.3, 3.0))
 def test_bang_bang_data_of_every_structure_arrive_no_later(level, switches, x0, T):
-    """Narrow flips, one switch, none: the known transfer is an upper bound, up to rounding."""
+    """For narrow flips, one switch or none the known transfer is an upper bound, up to rounding."""
     a, b = switches
     xf = flown(x0, level, (T * (1 - a), T * (a - b), T * b))
     solution = minimum_time(x0, xf, 1.0)
@@ -182,7 +182,7 @@ def test_switches_within_rounding_of_the_ends_and_roots_within_rounding_of_each_
     ],
 )
 def test_a_root_that_misses_by_little_is_no_arrival(x0, xf, miss):
-    """An earlier root whose switch lies this share of T outside the transfer."""
+    """There is an earlier root, but its switch lies `miss`, a share of T, outside the transfer."""
     candidates = exact_bang_bang_times(x0, xf, 1.0)
     least = least_exact(x0, xf, 1.0)
     earlier = [violation for violation, T in candidates if least > T]
@@ -192,7 +192,7 @@ def test_a_root_that_misses_by_little_is_no_arrival(x0, xf, miss):
 
 @given(states(), states(), st.sampled_from([1.0, 1024.0, 2.0**30]))
 def test_a_force_is_an_offset_of_the_third_state(x0, xf, force):
-    """x3 + f drives x2: only that sum matters, however large its parts."""
+    """x3 + f drives x2: only this sum matters, however large its parts are."""
     grid = np.array([1, 1, 1024.0])
     x0, xf = np.round(x0 * grid) / grid, np.round(xf * grid) / grid
     assume(np.abs(xf - x0).max() > 1e-3)
@@ -210,7 +210,7 @@ def test_units_of_angle_and_time(x0, xf, peak, angle, time):
 
 @given(states(), states(), peaks)
 def test_the_way_back_takes_as_long(x0, xf, peak):
-    """Time reversed, the rate changes sign and so does u."""
+    """If time is reversed, the rate and u change sign."""
     assume(np.abs(xf - x0).max() > 1e-3)
     mirror = np.array([1, -1, 1])
     there, back = minimum_time(x0, xf, peak), minimum_time(xf * mirror, x0 * mirror, peak)
@@ -240,7 +240,7 @@ def test_just_before_the_target_is_provably_out_of_reach(x0, xf, peak):
     ("x0", "xf"), [([0, -1, -1], [-3, -2, -1]), ([0, 0, -2], [-3, -3, -2]), ([0, -3, 2], [-3, 0, 2])]
 )
 def test_one_switch_is_proved_by_the_functional_that_falls(x0, xf):
-    """Here (s - aT)(s - bT) itself rises through T; the one whose zero is at the other end falls."""
+    """Here phi rises through T for (s - aT)(s - bT) and falls for a zero at the other end instead."""
     solution = minimum_time(x0, xf, 1.0)
     assert len(solution.breakpoints) == 1
     assert solution.certificate.holds(1e-12)

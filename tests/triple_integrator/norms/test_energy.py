@@ -1,4 +1,4 @@
-"""Least energy: the parabola reaches the target, no other control does with less, and the bound proves it."""
+"""Least energy: the parabola reaches the target, all other controls cost more, and the bound proves it."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ def test_the_control_steers_the_true_state_to_the_target(maneuver):
 
 @given(moments(), multipliers)
 def test_any_other_control_with_the_same_moments_costs_more(c, polynomial):
-    """u + w with w orthogonal to 1, s, s^2 has the energy |u|^2 + |w|^2: by Gauss quadrature, exact here."""
+    """u + w with w orthogonal to 1, s, s^2 has the energy |u|^2 + |w|^2; Gauss quadrature is exact here."""
     solution = minimum_energy(maneuver_with(c))
     nodes, weights = np.polynomial.legendre.leggauss(8)
     t, weights = (nodes + 1) / 2, weights / 2
@@ -44,7 +44,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(maneuvers())
 def test_the_control_is_the_minimal_element_over_its_square(maneuver):
-    """u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless there is nothing to do."""
+    """u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless c = 0."""
     solution = minimum_energy(maneuver)
     t = np.linspace(maneuver.t0, maneuver.tf, 7)
     assert_allclose(solution.multipliers @ maneuver.moments, float(maneuver.moments.any()), rtol=1e-10)

@@ -1,4 +1,4 @@
-"""The control of greatest entropy: its moments, its optimality, its place at the end of the L_q family."""
+"""The control of greatest entropy: its moments, its optimality, and the limit of the L_q family."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ few = settings(max_examples=15, deadline=None)
 
 @st.composite
 def one_signed(draw, narrow=0.05):
-    """Manoeuvres inside the moment cone: mean and second moment of a density on [0, 1], either sign."""
+    """Manoeuvres inside the moment cone, by mean and second moment of a density on [0, 1], of either sign."""
     mean = draw(st.floats(0.1, 0.9))
     square = mean**2 + draw(st.floats(narrow, 1 - narrow)) * (mean - mean**2)
     total = draw(st.sampled_from([-1, 1])) * draw(st.floats(0.1, 10))
@@ -147,7 +147,7 @@ def test_units_do_not_matter(m, amplitude, clock):
 
 
 def test_narrow_and_flat_densities():
-    """Next to one impulse inside; next to two at the ends."""
+    """The moments are next to those of one impulse inside, and of two impulses at the ends."""
     for square in (0.25 + 1e-8, 0.5 - 1e-2):
         m = Maneuver([0, 0, 0], [square / 2, 0.5, 1], tf=1.0)
         s = maximum_entropy(m)

@@ -1,4 +1,4 @@
-"""Least total impulse against linear programmes and SciPy's integrator, in every regime and at borders."""
+"""Least total impulse against linear programmes and SciPy's integrator, in all regimes and at borders."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ sizes = st.floats(0.01, 5.0)
 
 
 def largest_modulus(l):
-    """Largest |l1 s^2/2 + l2 s + l3| on [0, 1]: at the ends or where the slope vanishes."""
+    """Largest |l1 s^2/2 + l2 s + l3| on [0, 1], which is at an end or where the slope vanishes."""
     places = [0.0, 1.0]
     if l[0] != 0 and 0 < -l[1] / l[0] < 1:
         places.append(-l[1] / l[0])
@@ -58,7 +58,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(moments())
 def test_its_own_multipliers_attain_the_norm(c):
-    """R = 1 / max |h0|: touched with the sign of the impulse wherever one acts."""
+    """R = 1 / max |h0|, and h0 has this modulus, with the sign of the impulse, wherever an impulse acts."""
     solution = minimum_impulse(maneuver_with(c))
     if not c.any():
         return
@@ -71,7 +71,7 @@ def test_its_own_multipliers_attain_the_norm(c):
 
 @given(moments())
 def test_impulses_are_ordered_and_add_up_to_the_norm(c):
-    """Impulses in order within the manoeuvre, absent ones last, amplitudes that add up to the norm."""
+    """Impulses are in order within the manoeuvre, absent ones last, and their moduli add up to the norm."""
     solution = minimum_impulse(maneuver_with(c))
     count = len(present(solution))
     assert np.isnan(solution.impulse_times[count:]).all()
@@ -94,7 +94,7 @@ def test_regime_chebyshev(sign, first, second, third):
 
 @given(signs, sizes, sizes, st.floats(0.51, 0.99))
 def test_regime_end_and_its_mirror_start(sign, outer, inner, place):
-    """One impulse at the end and an opposite one before the middle; reversed, at the start and after it."""
+    """One impulse at the end, an opposite one before the middle; reversed, at the start and after it."""
     end = minimum_impulse(maneuver_with(of_impulses([0.0, place], sign * np.array([outer, -inner]))))
     start = minimum_impulse(maneuver_with(of_impulses([1.0, 1 - place], sign * np.array([outer, -inner]))))
     assert (end.regime, start.regime) == ("end", "start")
@@ -137,7 +137,7 @@ def test_equal_signs_at_both_ends_are_unique_too(sign, first, last):
 @pytest.mark.parametrize("excess", [1e-4, 1e-6, 1e-8, 1e-10, 1e-13])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_border_of_chebyshev_the_cost_is_exact(excess, side):
-    """Two opposite impulses, the inner just beside the middle: the bounds of both regimes nearly agree."""
+    """The inner of two opposite impulses is next to the middle: the bounds of both regimes nearly agree."""
     for places in ([0.0, 0.5 + side * excess], [1.0, 0.5 + side * excess]):
         solution = minimum_impulse(maneuver_with(of_impulses(places, [1.0, -2.0])))
         assert_allclose(np.abs(solution.impulses).sum(), solution.certificate.dual_value, rtol=2e-14)
@@ -159,7 +159,7 @@ def test_next_to_the_border_of_chebyshev_the_cost_is_exact(excess, side):
     ],
 )
 def test_corners_of_the_moment_cone(c):
-    """Within rounding of a single impulse: no division by zero, nothing outside [0, 1], nothing left over."""
+    """Moments of one impulse up to rounding: no division by zero, no place outside [0, 1], no residual."""
     for sign in (1, -1):
         solution = minimum_impulse(maneuver_with(sign * np.array(c)))
         assert solution.certificate.holds(1e-14)

@@ -1,4 +1,4 @@
-"""Least L_q norm: moments, motion and bounds by other means, closed forms, limits and symmetries."""
+"""Least L_q norm: moments, motion and bounds by independent methods, closed forms, limits and symmetries."""
 
 import itertools
 
@@ -73,7 +73,7 @@ def propagated(solution):
 
 
 def assert_same_control(found, expected, q):
-    """Equal controls, for q > 2 by their powers q - 1: where it changes sign u is as steep as a root."""
+    """Controls are equal; for q > 2 their powers q - 1, since u is steep as a root where it changes sign."""
     power = max(q - 1, 1)
     size = np.abs(expected).max()
     by_power = [np.sign(u) * np.abs(u / size) ** power for u in (found, expected)]
@@ -228,7 +228,7 @@ def test_a_constant_control_is_best_for_every_q():
 @pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_nearly_double_zeros(q, width, sign):
-    """The moments of |h|^(p-1) sign h lead back to h, whose zeros are 2 `width` apart on or off the axis."""
+    """The moments of |h|^(p-1) sign h give h again, whose zeros are 2 `width` apart, real or complex."""
     h = Quadratic(np.array([0.36 - sign * width**2, -1.2, 1.0]), np.asarray(4 * sign * width**2))
     s, values, weights = h.sample(graded_rule())
     u = np.sign(values) * np.abs(values) ** (1 / (q - 1)) * weights

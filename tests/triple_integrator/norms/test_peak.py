@@ -61,7 +61,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(moments())
 def test_residual_and_gap_in_fifty_digits(c):
-    """The moments of the returned switches, and the bound by their dual function, without rounding."""
+    """The moments of the returned switches and the bound by their dual function, without rounding errors."""
     solution = minimum_peak(maneuver_with(c))
     with mp.workdps(50):
         v, a, b = (mp.mpf(float(x)) for x in (solution.levels, *solution.shares))
@@ -116,7 +116,7 @@ def test_a_constant_control_has_no_switch(level):
 @pytest.mark.parametrize("level", [1.0, -1.0])
 @pytest.mark.parametrize("share", [0.125, 0.5, 0.75])
 def test_one_switch_is_reported_once(level, share):
-    """-level for the first part, then level, over `share` to go."""
+    """The control is -level at first, and level over the last `share` of the time."""
     solution = minimum_peak(maneuver_with(bang_bang(level, 1.0, share)))
     assert_allclose(solution.switch_times, [1 - share, np.nan], rtol=1e-13)
     assert float(solution.first_sign) == -level
@@ -144,7 +144,7 @@ def test_of_two_levels_of_either_sign_the_larger_is_taken(c):
 
 @pytest.mark.parametrize("width", [1e-4, 1e-6, 1e-8, 1e-10, 1e-12])
 def test_a_narrow_flip_keeps_the_digits_of_its_width(width):
-    """The width follows from c3 alone, to its rounding; the place is as uncertain as its condition says."""
+    """The width follows from c3 alone, up to rounding; the place is as uncertain as its condition says."""
     a, b = 0.25 + width, 0.25
     solution = minimum_peak(maneuver_with(bang_bang(1.0, a, b)))
     found = float(solution.shares[0] - solution.shares[1])
@@ -157,7 +157,7 @@ def test_a_narrow_flip_keeps_the_digits_of_its_width(width):
 
 @given(st.floats(0.05, 0.9), st.floats(0.05, 0.9), st.integers(0, 2))
 def test_the_condition_is_the_derivative_of_the_switches(first, second, which):
-    """Against a difference quotient in one of the scaled moments: none is above the condition."""
+    """No difference quotient in one of the scaled moments exceeds the condition."""
     if abs(first - second) < 0.05:
         return
     c = bang_bang(1.0, max(first, second), min(first, second))

@@ -1,4 +1,4 @@
-"""The manoeuvre: its moments are those of every control that performs it; wrong arguments are refused."""
+"""The manoeuvre: its moments are those of every control that performs it; wrong arguments raise errors."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ ORIGIN, AHEAD = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]
 
 @given(maneuvers(), st.tuples(angles, angles, angles))
 def test_the_moments_are_those_of_the_control_that_reaches_the_target(maneuver, polynomial):
-    """A control u(s) = p0 + p1 s + p2 s^2 is flown by SciPy; its moments must be the c of its own target."""
+    """u(s) = p0 + p1 s + p2 s^2 is integrated by SciPy; its moments must be c for the state reached."""
     end = float(maneuver.tf)
     reached, largest = propagate(maneuver, lambda time: np.polynomial.Polynomial(polynomial)(end - time))
     flown = Maneuver(maneuver.x0, reached, maneuver.tf, maneuver.t0, maneuver.disturbance)

@@ -45,7 +45,7 @@ def test_the_area_is_the_integral_of_the_modulus_and_its_slopes_are_its_derivati
 @few
 @given(st.tuples(numbers, numbers, numbers))
 def test_the_curve_passes_through_the_optimum(c):
-    """At lambda~ = -1/v (3.19) gives the certified switches and (3.16) the multiplier l1 = 2 alpha."""
+    """At lambda~ = -1/v (3.19) gives the certified switches, and (3.16) gives the multiplier l1 = 2 alpha."""
     m = Maneuver([0, 0, 0], np.array(c) / SCALE, tf=1.0)
     best = minimum_peak(m)
     if best.norm < 0.1 or not np.isfinite(best.switch_times).all() or np.diff(best.switch_times)[0] < 1e-3:
@@ -103,7 +103,7 @@ def test_what_is_right_is_the_certified_level(found):
 
 
 def test_within_the_domain_no_zeros_give_more_than_the_least_peak(found):
-    """There |F| is the norm of a dual function, so that 1/|F| is always a lower bound."""
+    """Within the domain |F| is the norm of a dual function, so that 1/|F| is always a lower bound."""
     for results in found.results.values():
         for k, result in zip(found.directions, results, strict=True):
             t1, t2 = result.switch_times
@@ -125,7 +125,7 @@ def test_the_global_search_is_always_right_and_the_others_are_not(found):
 
 
 def test_without_the_modulus_the_search_fails_wherever_the_curvature_is_negative_at_first(found):
-    """F is then negative and runs to minus infinity, which happens for one of c and -c."""
+    """F is then negative and tends to minus infinity; this happens for one of c and -c."""
     for k, result in zip(found.directions, found.results["multiplier"], strict=True):
         c0 = (k / SCALE) @ [1, -1 / 2, 3 / 32]
         assert c0 > 0 or not result.right
@@ -144,7 +144,7 @@ def test_opposite_moments_are_searched_alike():
     [((2, 1, -2), "outside", 0.67, 0.69), ((1, 1, 2), "crossed", 1.015, 1.016)],
 )
 def test_the_free_search_leaves_the_domain_and_is_then_no_bound(k, reason, low, high):
-    """With a zero outside or t1 > t2 the level found is too low for some moments and too high for others."""
+    """If a zero is outside or t1 > t2, the level found is too low for some moments, too high for others."""
     m = Maneuver(np.zeros(3), np.array(k) / SCALE, tf=1.0)
     best, result = minimum_peak(m), search(m, "zeros")
     assert best.certificate.holds(1e-12)

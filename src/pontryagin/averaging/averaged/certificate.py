@@ -1,4 +1,4 @@
-"""Certificates of averaged extremals: the maximum principle between the points of collocation."""
+"""Certificates of averaged extremals: residuals of the maximum principle between collocation points."""
 
 from collections.abc import Sequence
 
@@ -23,7 +23,7 @@ from pontryagin.numerics.periodic_means import CHECKING
 def certify(
     problem: Problem, path: Trajectories, names: Sequence[str], members: NDArray[np.intp]
 ) -> MaximumPrinciple:
-    """Residuals of extremals between the points of collocation.
+    """Residuals of extremals between the collocation points.
 
     The derivatives of the series are compared with the means of f under the control u* itself, not with the
     derivatives of h0, and all means are taken by rules with other nodes than the solver's.
@@ -31,7 +31,7 @@ def certify(
     Raises
     ------
     ValueError
-        If the frequency is not positive all the way.
+        If the frequency is not positive along the whole extremal.
     """
     if not path.duration.any():
         return _at_rest(problem, path)

@@ -14,7 +14,7 @@ from pontryagin.numerics.newton_stack import newton_stack
 Selection = NDArray[np.intp] | NDArray[np.bool_] | list[int]
 
 CLOSE = 1e-10
-"""Relative size of Newton's last step; the error after it is its square."""
+"""Largest relative size of Newton's last step; the error after it is of the order of its square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,7 @@ class Trajectories:
 
 
 def scales(z: Array) -> Array:
-    """Sizes (s, 2n) of the variables along a trajectory; of a costate at least action over variable."""
+    """Sizes (s, 2n) of the variables along a trajectory; a costate's is at least action over variable."""
     n = z.shape[-1] // 2
     largest = np.abs(z).max(axis=1)
     xi, eta = largest[:, :n], largest[:, n:]
@@ -124,7 +124,7 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
     Returns
     -------
     Trajectories
-        Where it ended.
+        The last iterates.
     (s) array
         Relative sizes of the last steps: at most `CLOSE` where it converged, inf where it failed.
     """
@@ -151,7 +151,7 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
 
 
 def _step_size(path: Trajectories, step: Array) -> Array:
-    """Sizes of steps relative to the variables; that of the duration relative to the variables' change."""
+    """Relative sizes of steps; the duration's counts less where the slow variables change little."""
     count, n = path.z[0].size, path.z.shape[-1] // 2
     moves = np.abs(step[:, :count].reshape(path.z.shape)).max(axis=1) / scales(path.z)
     travelled = np.ptp(path.z[..., :n], axis=1)

@@ -1,7 +1,8 @@
 """The first correction J1 along an averaged solution; derived and proved in `derivation.correction`.
 
-The averaged extremal suffices: J1 consists of Fourier primitives of k1 = h*/r in the anomaly at both ends,
-and of an integral along the way of the mean of k2 - (dk1/dp less its mean) d(primitive of k1)/da.
+Only the averaged extremal is needed. J1 consists of Fourier primitives of k1 = h*/r in the anomaly at both
+ends, and of the integral along the extremal of the mean of
+k2 - (dk1/dp minus its mean) d(primitive of k1)/da.
 """
 
 from collections.abc import Callable
@@ -26,13 +27,13 @@ POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
 NODES = (12, 24, 48, 96)
 """Numbers of Gauss points along the averaged solution, tried in this order."""
 SETTLED, ROUGH = 1e-11, 1e-6
-"""Relative changes of a term by a finer quadrature: that of a settled value, and the largest accepted one."""
+"""Largest relative changes by a finer quadrature of a settled term, and of one that is still accepted."""
 CANDIDATES = 4
-"""Maxima of the primitive that are polished before the largest is taken."""
+"""Number of maxima of the primitive that are polished before the largest is taken."""
 
 
 def terms(reference: ReferenceExtremal, start: Array, ending: Array | None = None) -> dict[str, Array]:
-    """The terms of J1 in J* = J0 + epsilon J1 + O(epsilon^2): of the start, the end and the way, (...) each.
+    """The terms of J1 in J* = J0 + epsilon J1 + O(epsilon^2), (...) each: at the start, end and on the way.
 
     Parameters
     ----------
@@ -41,13 +42,13 @@ def terms(reference: ReferenceExtremal, start: Array, ending: Array | None = Non
     start : (...) array
         Anomaly at the start.
     ending : (...) array, optional
-        Anomaly at the end; by default the one that makes J1 least, which the optimum finds. Where the
-        control leaves no choice of it (`fixed_ending`) it must be given, and J1 varies with it.
+        Anomaly at the end; by default the one that makes J1 least, as the optimum does. Where the control
+        cannot choose it (`fixed_ending`) it must be given; J1 then depends on it.
 
     Returns
     -------
     dict
-        ``start``, ``end`` and ``way``; ``way`` vanishes for systems that a reversal of the anomaly reverses.
+        ``start``, ``end`` and ``way``, the last zero if reversing the anomaly reverses the system.
 
     Raises
     ------
@@ -104,7 +105,7 @@ def _integral(reference: ReferenceExtremal, equations: Canonical, size: int) -> 
 
 
 def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS) -> Array:
-    """Values at the first of the sizes by which they hardly change any more."""
+    """Values at the first size that changes them by no more than `SETTLED`, else at the last size."""
     before = values(sizes[0])
     for size in sizes[1:]:
         found = values(size)
@@ -149,7 +150,7 @@ def _kernel(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
 
 
 def _series(values: Array) -> Array:
-    """Complex coefficients (..., harmonics) of the primitive of values (..., size) less their mean."""
+    """Complex coefficients (..., harmonics) of the primitive of values (..., size) minus their mean."""
     size = values.shape[-1]
     order = np.arange(1, size // 2)
     return np.asarray(2 * np.fft.rfft(values, axis=-1)[..., 1 : size // 2] / size / (1j * order))
@@ -163,7 +164,7 @@ def _sum(series: Array, x: Array) -> Array:
 
 
 def _primitive(values: Array) -> Array:
-    """The zero-mean primitive of values (..., size) less their mean, at the same points."""
+    """The zero-mean primitive of values (..., size) minus their mean, at the same points."""
     size = values.shape[-1]
     spectrum = np.zeros((*values.shape[:-1], size // 2 + 1), complex)
     spectrum[..., 1 : size // 2] = _series(values) * size / 2

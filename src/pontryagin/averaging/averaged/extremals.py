@@ -1,4 +1,4 @@
-"""Averaged extremals by collocation: Newton's method, other guesses where it fails, refined meshes."""
+"""Averaged extremals by collocation: Newton's method, further guesses where it fails, mesh refinement."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,13 +27,13 @@ from pontryagin.numerics.collocation import Mesh
 COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
 GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
-"""Largest last coefficients on a panel, relative to the variable, at which it is not halved."""
+"""A panel is halved while its last coefficients, relative to the variable, exceed this."""
 LAST_TAIL, MOST_PANELS = 1e-9, 40
-"""Largest last coefficients that are accepted, and the number of panels from which none is halved."""
+"""Largest last coefficients accepted when refinement ends, and number of panels at which it must end."""
 LEAST_SHARE = 1e-3
 """Shortest step of the continuation, as a share of the distance to the target."""
 AT_ONCE = 64
-"""Problems solved side by side; more would take more memory and no less time each."""
+"""Number of problems solved together; more would take more memory and no less time per problem."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +43,9 @@ class AveragedExtremals:
     Attributes
     ----------
     edges : (s, panels + 1) array
-        Of the panels of tau / duration; a stack's members may have panels of no length at the end.
+        Edges of the panels of tau / duration; a stack's members may have panels of zero length at the end.
     series : (s, panels, degree + 1, 2n + 1) array
-        Chebyshev coefficients on each of (xi, eta) and of the integral of omega over tau / duration.
+        Chebyshev coefficients on each panel, of (xi, eta) and of the integral of omega over tau / duration.
     duration, cost : (s) array
     multipliers : (s, r) array
         alpha.
@@ -68,7 +68,7 @@ def extremals(
     Raises
     ------
     ValueError
-        If the frequency is not positive on the way, or the running cost not positive on average.
+        If the frequency is not positive along the way, or the running cost is not positive on average.
     Infeasible, NotConverged
         See `solve_averaged`.
     """
@@ -104,7 +104,7 @@ def _joined(stack: int, groups: list[tuple[NDArray[np.intp], AveragedExtremals]]
 def _stack(
     problem: Problem, names: Sequence[str], first: int
 ) -> list[tuple[NDArray[np.intp], AveragedExtremals]]:
-    """Solve problems side by side; those that end on one mesh make a group."""
+    """Solve problems together; those that end on the same mesh form a group."""
     guess = straight(problem, COARSE)
     there = _already_there(problem)
     _require_sound(problem, guess, names, there, first)
@@ -128,7 +128,7 @@ def _stack(
 
 
 def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
-    """Solve one problem (1) that Newton's method did not solve from the first guess, by better ones."""
+    """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
     for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
         if guess is not None:
             path, closeness = newton(problem, guess)
@@ -140,7 +140,7 @@ def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> 
 def _extremals(
     problem: Problem, path: Trajectories, names: Sequence[str], members: NDArray[np.intp]
 ) -> AveragedExtremals:
-    """The extremals of paths on one mesh, certified."""
+    """The certified extremals of solved trajectories on one mesh."""
     n, mesh = problem.model.slow, path.mesh
     certificate = certify(problem, path, names, members)
     if not certificate.holds():
@@ -166,7 +166,7 @@ def _extremals(
 def _resolved(
     problem: Problem, path: Trajectories, members: NDArray[np.intp]
 ) -> list[tuple[NDArray[np.intp], Trajectories]]:
-    """Refine the mesh of the members that need it until their series end in rounding."""
+    """Refine the mesh of the members that need it until their last coefficients are rounding errors."""
     groups = []
     active = np.arange(len(path.duration))
     while len(active):

@@ -1,4 +1,4 @@
-"""First guesses of averaged extremals: along the straight line to the target, and by integration."""
+"""First guesses of averaged extremals: along the straight line to the target, or by integration."""
 
 from dataclasses import dataclass
 
@@ -19,29 +19,29 @@ from pontryagin.numerics.collocation import (
 GROWTHS = 40
 """Largest number of Newton steps for a costate's length; each may multiply it by eight."""
 NEAR = 1e-3
-"""Relative change of a length at which it is accepted."""
+"""A costate's length is accepted once a Newton step changes it by at most this fraction."""
 
 STEPS = 96
-"""Steps of the method of Runge and Kutta to the target."""
+"""Number of Runge-Kutta steps from the start to the target."""
 IDLE = 1e-9
-"""Factor that makes a costate negligible; at zero itself h* may have no derivatives."""
+"""Factor that makes a costate negligibly small; at a zero costate h* may have no derivatives."""
 
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """Guessed trajectories, and where along them no costate makes the averaged Hamiltonian zero.
+    """Guessed trajectories, and the points on them where no costate makes the averaged Hamiltonian zero.
 
     Attributes
     ----------
     path : Trajectories
     slow : (s, k, n) array
-        Points of the straight line.
+        Points of the straight line to the target.
     frequency : (s, k) array
-        omega there.
+        omega at these points.
     idle : (s) array
-        H0 without costate at the start: minus the mean running cost, plus omega kappa.
+        H0 at the start for a zero costate: minus the mean running cost, plus omega kappa.
     stuck : (s, k) boolean array
-        No control moves the slow variables along the guessed direction there.
+        Whether no control moves the slow variables along the guessed direction at the point.
     """
 
     path: Trajectories
@@ -78,8 +78,8 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
 def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     """The averaged extremal with the initial costate of `straight`, up to the target's level.
 
-    It is integrated by the method of Runge and Kutta, each step nearer to the target by an equal share; None
-    where the extremal does not approach the target.
+    It is integrated by the Runge-Kutta method, each step covering an equal share of the distance to the
+    target. The result is None if an extremal does not approach the target.
     """
     model, n = problem.model, problem.model.slow
     _, direction = _nearest(problem)
@@ -124,7 +124,7 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
 
 
 def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
-    """Values (s, k, 2n) at even times, from values at even shares of the distance."""
+    """Values (s, k, 2n) at the mesh's points of time, from values at its points of distance."""
     edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
     share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
     for _ in range(3):
@@ -136,7 +136,7 @@ def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
 
 
 def _nearest(problem: Problem) -> tuple[Array, Array]:
-    """A point of the target (s, n) near the start, and the covector (s, n) that points at it."""
+    """A point of the target (s, n) near the start, and the covector (s, n) that points towards it."""
     end, direction = problem.start, None
     for _ in range(50):
         target, _ = problem.model.ends(end, problem.numbers)
@@ -160,7 +160,7 @@ def _level(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Lengths (s, k) of the costate along `direction` at which H0 = 0; H0 is convex along it.
 
-    Newton's method, its steps bounded; where there is no root the length grows and the result is 1.
+    Newton's method with bounded steps. Where it does not settle, the length is 1 and marked as stuck, (s, k).
     """
     n = problem.model.slow
     length = np.broadcast_to(length, slow.shape[:-1])
@@ -180,7 +180,7 @@ def _level(
 
 
 def _multipliers(problem: Problem, end: Array) -> Array:
-    """alpha of eta_1 = -(g' + alpha M'), in the sense of least squares."""
+    """alpha from eta_1 = -(g' + alpha M'), by least squares."""
     n = problem.model.slow
     target, terminal = problem.model.ends(end[:, :n], problem.numbers)
     inverse = np.linalg.pinv(np.nan_to_num(np.swapaxes(target.gradient, 1, 2)))

@@ -1,4 +1,4 @@
-"""The averaged extremal as the correction and the exact problem use it: regular at the target."""
+"""What the correction and the exact problem need of an averaged extremal, which is regular at the target."""
 
 from typing import TYPE_CHECKING, Protocol
 

@@ -41,11 +41,11 @@ class AveragedSolution:
     start : (..., n) array
         a_0.
     multipliers : (..., r) array
-        alpha of the target's r conditions.
+        alpha, the multipliers of the target's r conditions.
     kappa : (...) array
         Minus the mean of the phase's costate over epsilon; zero at the optimum.
     certificate : MaximumPrinciple
-        Residuals between the points of collocation, with other quadratures.
+        Residuals of the maximum principle between the collocation points, by other quadratures.
     names : tuple of str
         The slow variables, in the order of `slow` and `costate`. They are the system's own: the cost, which
         the paper counts among them, has the costate -1 and is left out.
@@ -56,14 +56,14 @@ class AveragedSolution:
     model : Model
         The averaged system, compiled.
     edges : array
-        Ends of the pieces of (0, tau_1), as shares of it.
+        Ends of the pieces of (0, tau_1), as fractions of tau_1.
     series : array
-        Chebyshev coefficients of xi and eta on the pieces.
+        Chebyshev coefficients, on the pieces, of xi, eta and the integral of omega over the fraction.
     make_system : callable
         Makes the `PhaseSystem` at the first use of `system`.
     frame : callable or None
-        Where the slow variables are not regular at the target: from this solution to the same one in
-        variables that are.
+        Where the slow variables are not regular at the target: a function from this solution to the same
+        solution in regular variables.
     """
 
     duration: Array
@@ -99,7 +99,7 @@ class AveragedSolution:
         return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
-        """psi_0 + integral of omega d tau / epsilon, right to O(1), as (..., k).
+        """psi_0 + integral of omega d tau / epsilon, with an error of O(1), as (..., k).
 
         Raises
         ------
@@ -140,8 +140,8 @@ class AveragedSolution:
         phase : (...) array, optional
             psi_0; `initial_phase` by default.
         ending : (...) array, optional
-            Anomaly at the end; by default the optimum's. It must be given where the trajectory leaves no
-            choice of it (one slow variable in the least time), and J_1 varies with it.
+            Anomaly at the end; by default the optimum's. It must be given where the control cannot choose it
+            (least time with one slow variable); J_1 then depends on it.
 
         Raises
         ------
@@ -153,10 +153,10 @@ class AveragedSolution:
     def correction_terms(
         self, phase: ArrayLike | None = None, ending: ArrayLike | None = None
     ) -> dict[str, Array]:
-        """The terms whose sum is J_1, (...) each, by name: "start", "end" and "way".
+        """The three terms whose sum is J_1, (...) each, by name: "start", "end" and "way".
 
-        Parameters and errors are those of `correction`. The term of the way vanishes for systems that a
-        reversal of the anomaly reverses.
+        Parameters and errors are those of `correction`. "way" is an integral along the extremal; it vanishes
+        for systems that are reversed when the anomaly is reversed.
         """
         from pontryagin.averaging.averaged.correction import terms
 
@@ -168,7 +168,7 @@ class AveragedSolution:
         return terms(self._regular, start, last)
 
     def exact(self, epsilon: float, phase: float | None = None) -> "Extremals":
-        """All extremals of the unaveraged problem around the optimum, best first; one problem only.
+        """All extremals of the unaveraged problem around the averaged optimum, best first; not for stacks.
 
         Parameters
         ----------

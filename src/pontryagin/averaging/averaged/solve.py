@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike = 0.0) -> AveragedSolution:
     """Solve the averaged boundary value problem (2.11), (2.4), (2.12) for the free end time.
 
-    The extremal found is the normal one (the costate of the cost is -1) that leaves the start towards the
-    target along its straight line, or that continues the extremals to nearer levels of the target. It
-    satisfies the necessary conditions; where a system has several averaged extremals the others are not
-    looked for. At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch in the
-    course of a turn; extremals on which they switch in slow time, or are singular there, are not found.
+    The search starts from a guess along the straight line to the target; where that fails, it continues the
+    extremals to nearer levels of the target. The extremal found is normal (the costate of the cost is -1) and
+    satisfies the necessary conditions; if a system has several averaged extremals, the others are not sought.
+    At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch within a turn;
+    extremals whose controls switch in slow time, or are singular, are not found.
 
     Parameters
     ----------
@@ -36,17 +36,17 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
     start : (..., n) array
         a_0; leading axes, with those of the numbers and of kappa, make a stack of problems.
     kappa : (...) array
-        Member of the family of (2.11); other than zero to explore it.
+        Parameter of the family (2.11): zero for the optimum, other values for its other members.
 
     Raises
     ------
     ValueError
-        If the frequency is not positive all the way, the running cost is not positive on average, or an
-        input is not finite or wrongly shaped.
+        If the frequency is not positive along the whole way, the running cost is not positive on average, or
+        an input is not finite or wrongly shaped.
     Infeasible
         If the target cannot be reached: the mean drift opposes every control and exceeds it.
     NotConverged
-        If no extremal was found, with what was left of the target.
+        If no extremal was found, with the residual of the equations or the distance left to the target.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """The ledger of Akulenko 1977: every formula, number and decidable claim, in the paper's order.
 
-One module per step of the paper. A module transcribes and judges; what is derived comes from
-`pontryagin.averaging.derivation`. `worked` is the rippled smooth example in numbers, `instances` are small
-examples with exact solutions.
+There is one module per step of the paper. It transcribes what is printed and judges it; the derived formulas
+come from `pontryagin.averaging.derivation`. `worked` holds the rippled smooth example in numbers, `instances`
+small examples with exact solutions.
 """
 
 from itertools import chain
@@ -56,4 +56,4 @@ IN_ORDER = (
 )
 
 ENTRIES = tuple(chain.from_iterable(part.claim for part in IN_ORDER))
-"""From the introduction to the third example."""
+"""All entries of the paper, from the introduction to the third example."""

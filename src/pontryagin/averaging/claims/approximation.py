@@ -1,4 +1,4 @@
-"""Section 2, after (2.16), and (2.17): the optimum, the order that is left, and the first approximation."""
+"""Section 2 after (2.16), and (2.17): the optimum, the reduced order, and the first approximation."""
 
 import numpy as np
 import sympy as sp

@@ -26,7 +26,7 @@ PRINTED_RATE = -omega.diff(xi[0]) / omega * h0 - h0.diff(xi[0])
 
 
 def smooth_instance(expression: sp.Expr, at: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """A general expression for the smooth example with k = 1, at a state (v, b) and a costate."""
+    """Value of a general expression in the smooth example with k = 1, at a state (v, b) and a costate."""
     example = smooth.averaged_hamiltonian().subs(smooth.k, 1)
     concrete = expression.replace(h0.func, lambda *z: example.subs(smooth.eta, z[2]))
     return concrete.subs(omega, xi[0]).doit().subs(at)

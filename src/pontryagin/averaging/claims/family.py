@@ -26,7 +26,7 @@ KAPPA = smooth.kappa
 
 
 def smooth_instance(expression: sp.Expr) -> sp.Expr:
-    """A general expression for the smooth example with k = 1, where v = 1 and p = 1."""
+    """Value of a general expression in the smooth example with k = 1, where v = 1 and p = 1."""
     example = smooth.maximum().subs(smooth.k, 1)
     concrete = expression.replace(principle.h_star.func, lambda *z: example.subs(smooth.eta, z[3]))
     return concrete.subs(omega, a[0]).doit().subs({a[0]: 1, p[0]: 1})

@@ -1,8 +1,8 @@
-"""Small examples that can be solved exactly; several entries rest on each.
+"""Two small examples that can be solved exactly, each used by several entries of the ledger.
 
-`Clock`: v' = eps u, s' = eps, b' = eps (k(s) + u^2), v from 0 to 1, omega = 1; a problem without a phase, for
-which kappa = dJ/dtau_1 can be any function that the choice of k makes it. The uneven rotor: mass r(x)^2 with
-r = 1 + cos(x)/2, no potential, least time with |u| <= 1, speeding up.
+`Clock` is v' = eps u, s' = eps, b' = eps (k(s) + u^2), v from 0 to 1, omega = 1: no rate depends on the
+phase, and the choice of k determines kappa = dJ/dtau_1 as a function of tau_1. The uneven rotor has the mass
+r(x)^2 with r = 1 + cos(x)/2 and no potential; it is sped up in least time with |u| <= 1.
 """
 
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Clock:
 
     @property
     def level(self) -> sp.Expr:
-        """h* at the end: (p_v/2)^2 - k with p_v = 2/tau_1, as v = 1 is reached and p_s = 0."""
+        """h* at the end: (p_v/2)^2 - k, where p_v = 2/tau_1 (v = 1 is reached) and p_s = 0."""
         costate = 2 / T
         return sp.expand(costate**2 / 4 - self.rate)
 
@@ -69,7 +69,7 @@ def uneven_frequency() -> sp.Expr:
 
 
 def uneven_end_costates() -> tuple[sp.Expr, sp.Expr]:
-    """p(t1) of the exact problem, by the anomaly it ends at, and eta(tau_1) of the averaged one.
+    """p(t1) of the exact problem, as a function of its final anomaly, and eta(tau_1) of the averaged one.
 
     h* = p x' - 1 with u = 1; it vanishes at the end, and so does its mean p omega - 1.
     """

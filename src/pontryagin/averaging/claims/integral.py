@@ -1,4 +1,4 @@
-"""Section 2, (2.10) to (2.13): the integral, and kappa as the parameter."""
+"""Section 2, (2.10) to (2.13): the first integral, and kappa as the parameter of the family."""
 
 import numpy as np
 import sympy as sp

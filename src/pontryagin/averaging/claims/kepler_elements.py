@@ -83,7 +83,10 @@ def energy_and_momentum() -> Evidence:
 
 
 def radius_rate(pericentre: sp.Expr) -> sp.Expr:
-    """r' less v_r, from the rates of the elements, γ' given: an impulse does not move the body at once."""
+    """r' − v_r by the rates of the elements, for a given γ'.
+
+    It vanishes if γ' is right, since an impulse does not displace the body.
+    """
     rates = kepler.element_rates()
     radius = kepler.conic()[r]
     moved = radius.diff(momentum) * rates[momentum] + radius.diff(e) * rates[e]

@@ -1,4 +1,4 @@
-"""Section 3, example 2, (3.9): the averaged problem solved."""
+"""Section 3, example 2, (3.9): the solution of the averaged problem."""
 
 import sympy as sp
 
@@ -36,7 +36,7 @@ claim = Page("Akulenko 1977")
 R = sp.Rational
 p = parameter()
 DESCENT = {energy0: -1, energy1: -4, price: 2, momentum0: R(1, 2)}
-"""From E0 = -1 to E1 = -4 with l = 2: rho = 1 and tau1 = 1."""
+"""A transfer from E0 = -1 to E1 = -4 with l = 2, for which rho = 1 and tau1 = 1."""
 SPENT = {**DESCENT, rho: 1, duration: 1}
 
 PRINTED_ENERGY = energy0 * (1 + rho * tau / (2 - rho * duration))
@@ -45,7 +45,7 @@ PRINTED_MOMENTUM = momentum0 * (1 - rho * duration / 2) * (1 - rho * (duration -
 
 
 def left_over(variable: sp.Symbol, path: sp.Expr) -> sp.Expr:
-    """The rate of a path less what the averaged equation asks, with the costate of (3.9)."""
+    """Residual of the averaged equation of one variable on a path, with the costate of (3.9) as printed."""
     rates = kepler_optimum.optimal_rates()
     return sp.simplify(
         path.diff(tau) - rates[variable].subs({variable: path, costate_energy: PRINTED_COSTATE})

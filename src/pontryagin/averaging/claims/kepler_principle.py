@@ -45,7 +45,7 @@ claim = Page("Akulenko 1977")
 R = sp.Rational
 p_E, p_K = costate_energy, costate_momentum
 ESCAPE = {energy0: -R(1, 2), momentum0: R(1, 2), price: 4}
-"""A start with e² = 3/4, and the price of time, for the flight to E1 = 0."""
+"""Initial data with e² = 3/4, and the price of time, for the flight to E1 = 0."""
 SAMPLE = {energy: -R(1, 2), momentum: R(1, 2), p_E: 1, p_K: 1, price: 1, kappa: 0}
 
 
@@ -171,7 +171,7 @@ def average_weight() -> Evidence:
 
 
 def hamiltonian_drift(momentum_costate_rate: sp.Expr) -> sp.Expr:
-    """dh0/dtau on the averaged system at kappa = 0 with another rate of p_K: 0 with Hamilton's own."""
+    """dh0/dtau of the averaged system at kappa = 0 for a given rate of p_K; Hamilton's equations give 0."""
     h0 = principle.averaged_hamiltonian()
     rates = dict(principle.averaged_rates()) | {p_K: momentum_costate_rate}
     return sum(h0.diff(variable) * rate for variable, rate in rates.items()).subs(SAMPLE)

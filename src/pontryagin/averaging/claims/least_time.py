@@ -30,13 +30,13 @@ FREE = {"mass": sp.S.One, "potential": sp.S.Zero}
 
 OMEGA, BY_ANGLE = sp.symbols("omega fbar", real=True)
 BY_PHASE = sp.Symbol(r"\langle{f}\rangle", real=True)
-"""Names for omega(xi) and for the means of f over the phase and over the angle."""
+"""Symbol for the mean of f over the phase; `OMEGA` is omega(xi), `BY_ANGLE` the mean over the angle."""
 
 UNEVEN = sp.Function("r", positive=True)(x)
-"""Square root of a mass that is not constant, 1 + cos(x)/2 in the example below."""
+"""Square root of a mass that varies with the angle, 1 + cos(x)/2 in the example below."""
 
 TILTED = sp.cos(x) - R(1, 4)
-"""A force whose mean over the phase is 0 for that mass, and -1/4 over the angle."""
+"""A force whose mean over the phase is 0 for the mass (1 + cos(x)/2)^2, and over the angle -1/4."""
 
 
 def named(quantity: sp.Expr) -> sp.Expr:

@@ -28,13 +28,13 @@ SIGN_P, SIGN_Q = sp.symbols("sigma_p sigma_q", real=True)
 
 
 def without_phase_costate() -> sp.Matrix:
-    """The maximiser on the cylinder at p_psi = 0, with names for the signs."""
+    """The maximiser on the cylinder at p_psi = 0, with the signs of p and q replaced by symbols."""
     best = rigid_body.cylinder_maximiser().subs(p_psi, 0)
     return best.subs({sp.Abs(p_a): p_a / SIGN_P, sp.sign(p_c): SIGN_Q})
 
 
 def exact_rates(control: sp.Matrix) -> sp.Matrix:
-    """(a', c') per epsilon under a control: no averaging."""
+    """(a', c') per epsilon under a control, not averaged."""
     return rigid_body.slow_rates().subs(dict(zip(u, control, strict=True))).applyfunc(sp.simplify)
 
 
@@ -95,7 +95,7 @@ def controls_on_the_cylinder() -> Evidence:
 
 
 def constant_costates() -> Steps:
-    """On the cylinder the exact costates are constants, p_psi is 0, and H is that of the averages."""
+    """On the cylinder the exact costates are constant, p_psi is 0, and H equals the averaged Hamiltonian."""
     whole = rigid_body.cylinder_hamiltonian()
     yield "H does not contain ψ: its costate is constant, and 0 at the end", not whole.has(psi)
     yield "then p' = −∂H/∂a = 0", sp.simplify(whole.diff(a).subs(p_psi, 0)) == 0
@@ -103,10 +103,10 @@ def constant_costates() -> Steps:
 
 
 LEVEL = {a0: 2, a1: 1, c0: 1, c1: 2, l: 1, h: 1}
-"""Both rates have as far to go: a from 2 to 1, c from 1 to 2, l = h = 1."""
+"""Ends at which a and c have equally far to go: a from 2 to 1, c from 1 to 2, with l = h = 1."""
 
 SHORT = {a0: 3, a1: 1, c0: 1, c1: 2, l: 1, h: 1}
-"""a has farther to go: from 3 to 1, where c goes from 1 to 2."""
+"""Ends at which a has farther to go than c: a from 3 to 1, c from 1 to 2, with l = h = 1."""
 
 
 @claim(

@@ -42,11 +42,11 @@ wx, wy, wz = w
 k = 1 - ly**2 / lx**2
 r = sp.sqrt(lx**2 * wx**2 + ly**2 * wy**2)
 BRAKING = sp.Matrix([-lx * wx / r, -ly * wy / r, 0])
-"""The synthesis as printed."""
+"""The braking control as a feedback on w, as printed."""
 
 
 def of_modulus(modulus: sp.Expr) -> sp.Expr:
-    """Complete elliptic integral of the second kind of a modulus, as the paper writes it."""
+    """Complete elliptic integral of the second kind as a function of the modulus, as the paper writes it."""
     return sp.elliptic_e(sp.factor(modulus**2))
 
 

@@ -1,4 +1,4 @@
-"""Section 2, after (2.2): how many roots there are, Figures 1 and 2, and the error of the approach."""
+"""Section 2 after (2.2): the number of roots, Figures 1 and 2, and the error of the method."""
 
 import numpy as np
 import sympy as sp
@@ -109,7 +109,7 @@ def first_figure() -> Evidence:
 
 
 def turns(eps: float) -> list[tuple[int, float, float, float]]:
-    """Mean and amplitude of h* at the end over each whole turn of its phase, and kappa there."""
+    """(turn, mean, amplitude, kappa) of h* at the end, for each whole turn of the phase at the end."""
     scan = worked.in_window(eps)
     found = []
     for turn in range(int(scan.phase.min() // (2 * np.pi)) + 1, int(scan.phase.max() // (2 * np.pi))):

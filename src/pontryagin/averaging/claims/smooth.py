@@ -23,10 +23,10 @@ slope = sp.Symbol("tau_1'", real=True)
 
 XI = kappa / 4 * (tau - T) ** 2 - (tau - T) / T * (gap + kappa * T**2 / 4) + v1
 ETA = -kappa * (tau - T) - 2 / T * (gap + kappa * T**2 / 4)
-"""(3.2) as printed."""
+"""The costate eta(tau) of (3.2) as printed."""
 
 COST = 2 * k * T - kappa**2 * T**3 / 24 - kappa * T * gap / 2 - kappa * v1 * T
-"""J_0 of tau_1 and kappa as printed."""
+"""J_0 as a function of tau_1 and kappa, as printed."""
 
 
 @claim(
@@ -213,7 +213,7 @@ def solution() -> Evidence:
         yield "τ₁(0) is a root of (2.12) at κ = 0, positive for v0 ≠ v1", vanishes(at)
         yield "ξ(0) = v0", printed[3].subs(tau, 0) == v0
         yield "ξ(τ₁) = v1", vanishes(printed[3].subs(tau, length) - (v0 - gap))
-        # Cauchy and Schwarz: the integral of u^2 is at least gap^2/T, whatever the control and epsilon
+        # By Cauchy and Schwarz the integral of u^2 is at least gap^2/T for every control and every epsilon.
         spare = k * T + gap**2 / T - printed[1]
         square = (sp.sqrt(k * T) - sp.Abs(gap) / sp.sqrt(T)) ** 2
         yield "every control costs kτ₁ + (Δv)²/τ₁ ≥ 2√k|Δv| or more", vanishes(sp.expand(spare - square))

@@ -1,4 +1,4 @@
-"""Section 2, (2.6) to (2.9): what the averaged problem says of the roots, and the interval of tau_1."""
+"""Section 2, (2.6) to (2.9): the roots predicted by the averaged problem, and the interval of tau_1."""
 
 import numpy as np
 import sympy as sp
@@ -45,18 +45,18 @@ def approximate_condition() -> Evidence:
 
 
 def approximate_level(member: np.ndarray, eps: float) -> np.ndarray:
-    """h* of (2.6) without the errors, for the averaged members kappa."""
+    """h* of (2.6) without its error terms, for members of the averaged family given by kappa."""
     costate = worked.averaged(2 * ripple.A1, member)
     return worked.level(worked.averaged(ripple.turned(), member) / eps, costate)
 
 
 def swing_off(eps: float) -> np.ndarray:
-    """h* of (2.6) at the exact roots' durations."""
+    """h* of (2.6) without its error terms, at the durations of the exact roots."""
     return approximate_level(worked.kappa_of(worked.roots(eps).duration), eps)
 
 
 def approximate_roots(eps: float) -> np.ndarray:
-    """Durations that solve (2.6) without the errors, by sign changes on a fine grid of kappa."""
+    """Durations that solve (2.6) without its error terms, by sign changes on a fine grid of kappa."""
     low, high = worked.window()
     member = np.linspace(low, high, int(200 / eps))
     value = approximate_level(member, eps)

@@ -1,9 +1,9 @@
-"""The rippled smooth example in numbers: every extremal of the unaveraged problem, seen twice.
+"""The rippled smooth example in numbers: every extremal of the unaveraged problem, found in two ways.
 
-v' = eps (u + cos(x)/2), x' = v, b' = eps (1 + u^2); v rises from 1 to 2, x(0) = 0, b(t1) is to be least. On
-H = 0 with v as the independent variable nothing has to be solved for: a start costate p is one member of
-the family (2.1), and q(t1) = 0 picks the extremals. Those that the solver finds are flown anew with SciPy,
-and counted against the sign changes of h* along the family.
+v' = eps (u + cos(x)/2), x' = v, b' = eps (1 + u^2); v rises from 1 to 2, x(0) = 0, b(t1) is to be least. With
+H = 0 and v as the independent variable the family (2.1) is obtained by integration alone: each initial
+costate p gives one member, and the members with q(t1) = 0 are the extremals. The extremals that the solver
+finds are integrated again with SciPy, and their number is compared with the sign changes of h*.
 """
 
 from dataclasses import dataclass
@@ -22,15 +22,15 @@ START, END, PAY, RIPPLE = 1.0, 2.0, 1.0, 0.5
 EPSILONS = (0.1, 0.05, 0.02)
 NUMBERS = {smooth.v0: 1, smooth.v1: 2, smooth.k: 1, ripple.rise: 1, ripple.c: sp.Rational(1, 2)}
 LOW, HIGH = 1.6, 2.8
-"""Start costates between which v rises all the way and the window of kappa lies."""
+"""Range of initial costates that covers the window of kappa and in which v rises all the way."""
 
 FINE, RESIDUAL = 1e-11, 1e-8
-"""Tolerance of the integration, and of h* at a root."""
+"""Tolerance of the integration, and the largest |h*| at the end that is accepted at a root."""
 
 
 @dataclass(frozen=True)
 class Members:
-    """Members of the family at the end: start costates (n,), and there x, p, b, tau and h* (n,)."""
+    """Members of the family: initial costates (n,), and x, p, b, tau and h* at the end, each (n,)."""
 
     start: Array
     phase: Array
@@ -41,12 +41,12 @@ class Members:
 
     @property
     def phase_costate(self) -> Array:
-        """q(t1) per epsilon: -h*/v on H = 0."""
+        """q(t1) per epsilon, which H = 0 makes -h*/v."""
         return -self.level / END
 
 
 def level(x: Array, p: Array) -> Array:
-    """h* at q = 0: the largest p (u + cos(x)/2) - 1 - u^2."""
+    """h* at q = 0: the maximum over u of p (u + cos(x)/2) - 1 - u^2."""
     return p**2 / 4 + RIPPLE * p * np.cos(x) - PAY
 
 
@@ -71,7 +71,7 @@ def _motion(start: Array, epsilon: float, tolerance: float, at: Array | None = N
 
 
 def members(start: ArrayLike, epsilon: float, tolerance: float = FINE) -> Members:
-    """Members of the family by their start costates (n,)."""
+    """Members of the family with given initial costates (n,)."""
     begin = np.atleast_1d(np.asarray(start, dtype=float))
     x, p, b, tau = _motion(begin, epsilon, tolerance)[..., -1]
     return Members(begin, x, p, b, tau, level(x, p))
@@ -79,16 +79,16 @@ def members(start: ArrayLike, epsilon: float, tolerance: float = FINE) -> Member
 
 @cache
 def family(epsilon: float) -> Members:
-    """Members all over the window, several to each half turn of the end's phase."""
+    """Members across the whole window, several for each half turn of the phase at the end."""
     return members(np.linspace(LOW, HIGH, int(2 / epsilon) + 20), epsilon, 1e-8)
 
 
 @cache
 def roots(epsilon: float) -> Members:
-    """All extremals by the phase they end at, as the solver finds them, flown anew here.
+    """All extremals in the order of their final phase: found by the solver, integrated again here.
 
-    A start costate is let through only with h* = 0 at the end, and all of them only if `family` changes sign
-    as often as there are extremals.
+    Raises ArithmeticError unless h* is 0 at the end of each, and `family` has as many sign changes of h* as
+    there are extremals.
     """
     found = smooth_example(START, END, k=PAY, ripple=RIPPLE).exact(epsilon, 0.0)
     start = np.array([float(one.costate(np.zeros(1))[0, 0]) for one in found])
@@ -101,7 +101,7 @@ def roots(epsilon: float) -> Members:
 
 
 def best(epsilon: float) -> int:
-    """Which of the roots costs least."""
+    """Index of the root that costs least."""
     return int(roots(epsilon).cost.argmin())
 
 
@@ -115,25 +115,25 @@ def optimum(epsilon: float, samples: int = 4001) -> dict[str, Array]:
 
 
 def averaged(form: sp.Expr, kappa: ArrayLike) -> Array:
-    """A closed form of `ripple` (by A0 and A1) at values of kappa."""
+    """Values at kappa of a closed form of `ripple` (a function of A0 and A1)."""
     function = sp.lambdify(smooth.kappa, ripple.of_kappa(form).subs(NUMBERS))
     return np.asarray(function(np.asarray(kappa, dtype=float)))
 
 
 @cache
 def window() -> tuple[float, float]:
-    """kappa' and kappa''."""
+    """The ends kappa' and kappa'' of the window."""
     low, high = (float(end.subs(NUMBERS)) for end in ripple.window())
     return low, high
 
 
 def predicted_roots(epsilon: float) -> float:
-    """(Psi(kappa'') - Psi(kappa'))/(pi epsilon)."""
+    """Predicted number of roots, (Psi(kappa'') - Psi(kappa'))/(pi epsilon)."""
     return float(ripple.roots_in_the_window().subs(NUMBERS)) / epsilon
 
 
 def kappa_of(duration: ArrayLike) -> Array:
-    """The averaged member of a duration: tau_1(kappa) rises, and is inverted by a table."""
+    """kappa of the averaged member with a given duration: tau_1(kappa) increases, and a table inverts it."""
     low, high = window()
     kappa = np.linspace(2 * low, (high + PAY / END) / 2, 20001)
     return np.asarray(np.interp(np.asarray(duration), averaged(ripple.duration(), kappa), kappa))
@@ -148,7 +148,7 @@ def in_window(epsilon: float) -> Members:
 
 
 def deviations(epsilon: float) -> dict[str, float]:
-    """Largest distance at the end of members in the window from the averaged ones of their durations."""
+    """Largest differences at the end between members in the window and averaged members of equal duration."""
     scan = in_window(epsilon)
     kappa = kappa_of(scan.duration)
     expected = {

@@ -1,12 +1,12 @@
 """The averaged system, its integral and its end conditions (Akulenko 1977, (2.3) to (2.12)).
 
-h0(xi, eta) is the mean over the phase of h*(xi, psi, eta) = (eta f0*). As h* is the largest of functions
-linear in eta it is homogeneous of degree one in eta, and so is h0; two components stand for all.
+h0(xi, eta) is the mean over the phase of h*(xi, psi, eta) = (eta f0*). As a maximum of functions linear in
+eta, h* is homogeneous of degree one in eta, and so is h0. Two components stand for any number.
 
 here     meaning
--------  -----------------------------------------------------
+-------  ------------------------------------------------------------
 xi, eta  averaged slow variables and costates
-h0       an undefined function; `homogeneous` says what it is
+h0       an undefined function; `homogeneous` makes it of degree one in eta
 kappa    mean of q per epsilon; H0 = omega kappa + h0
 """
 
@@ -25,7 +25,7 @@ alpha = principle.alpha
 
 
 def homogeneous(expression: sp.Expr) -> sp.Expr:
-    """An expression with h0 of degree one in eta: eta2 times an undefined function of xi and eta1/eta2."""
+    """An expression with h0 made of degree one in eta: eta2 k(xi, eta1/eta2) with an undefined k."""
     shape = sp.Function("k", real=True)
     inserted = expression.replace(h0.func, lambda x1, x2, y1, y2: y2 * shape(x1, x2, y1 / y2))
     return sp.simplify(inserted.doit())
@@ -37,12 +37,12 @@ def homogeneity() -> sp.Expr:
 
 
 def mean_rates() -> sp.Matrix:
-    """f0 = dh0/deta: the mean of f under the maximising control, by the envelope."""
+    """f0 = dh0/deta: the mean of f under the maximising control, by the envelope theorem."""
     return sp.Matrix([h0.diff(y) for y in eta])
 
 
 def mean_and_derivative_commute() -> list[sp.Expr]:
-    """d<h*>/d(xi, eta) less <dh*/d(xi, eta)> at fixed psi, for any h*: vanish."""
+    """d<h*>/d(xi, eta) - <dh*/d(xi, eta)> at fixed psi, for any h*: all vanish."""
     h = sp.Function("h", real=True)(*xi, psi, *eta)
 
     def mean(k: sp.Expr) -> sp.Expr:
@@ -58,38 +58,38 @@ def averaged_hamiltonian() -> sp.Expr:
 
 @cache
 def rates() -> tuple[sp.Matrix, sp.Matrix]:
-    """(dxi/dtau, deta/dtau) of (2.11): Hamilton's equations of H0, kappa a constant."""
+    """(dxi/dtau, deta/dtau) of (2.11): Hamilton's equations of H0 with constant kappa."""
     H = averaged_hamiltonian()
     return sp.Matrix([H.diff(y) for y in eta]), sp.Matrix([-H.diff(x) for x in xi])
 
 
 def integral() -> sp.Expr:
-    """kappa of H0 = 0, (2.10)."""
+    """kappa solved from H0 = 0, (2.10)."""
     return sp.solve(averaged_hamiltonian(), kappa)[0]
 
 
 @cache
 def standard_rates() -> tuple[sp.Matrix, sp.Matrix]:
-    """(dxi/dtau, deta/dtau) of (2.3): those of (2.11) with kappa from (2.10)."""
+    """(dxi/dtau, deta/dtau) of (2.3): the rates of (2.11) with kappa from (2.10)."""
     forward, backward = rates()
     return forward, backward.subs(kappa, integral()).applyfunc(sp.expand)
 
 
 def along(quantity: sp.Expr, motion: tuple[sp.Matrix, sp.Matrix]) -> sp.Expr:
-    """Rate of a quantity of xi and eta along a motion, given as its rates."""
+    """Rate of a function of xi and eta along a motion given by (dxi/dtau, deta/dtau)."""
     pairs = zip((*xi, *eta), (*motion[0], *motion[1]), strict=True)
     return sp.simplify(sum(quantity.diff(x) * rate for x, rate in pairs))
 
 
 @cache
 def end_costates() -> sp.Matrix:
-    """eta at tau_1: the conditions of the maximum principle at epsilon = 0, where they do not change."""
+    """eta at tau_1: the end conditions of the maximum principle for p, which averaging does not change."""
     there = dict(zip(principle.a, xi, strict=True))
     return principle.end_conditions()[0][:2, :].subs(there, simultaneous=True).doit()
 
 
 def cyclic_costate() -> sp.Expr:
-    """eta2' where no rate depends on xi2, as on a cost or a clock: zero."""
+    """Rate of eta2 where no rate depends on xi2, for instance where xi2 is the cost or a clock: zero."""
     speed = sp.Function("h", real=True)(xi[0], eta[0] / eta[1])
     frequency = sp.Function("omega", positive=True)(xi[0])
     return -(frequency * kappa + eta[1] * speed).diff(xi[1])

@@ -1,7 +1,7 @@
 """From Newton's equations to osculating elements (Akulenko 1977, section 3, example 2), in SymPy.
 
-Units in which the attracting centre has the parameter 1. The state is (r, phi, v_r, v_phi), the control the
-radial and transverse thrust (u_r, u_phi), multiplied by epsilon.
+In the units used the gravitational parameter is 1. The state is (r, phi, v_r, v_phi); the control is the
+radial and transverse thrust (u_r, u_phi), which enters multiplied by epsilon.
 
     paper       here                  meaning
     E, K        energy, momentum      energy < 0 and angular momentum > 0
@@ -48,13 +48,13 @@ def equations_of_motion() -> sp.ImmutableMatrix:
 
 
 def along_the_motion(quantity: sp.Expr) -> sp.Expr:
-    """Rate of a function of the state."""
+    """Rate of a function of the state along the motion under thrust."""
     gradient = sp.Matrix([quantity]).jacobian(STATE)
     return sp.simplify((gradient * equations_of_motion())[0])
 
 
 def energy_of_state() -> sp.Expr:
-    """E of (3.4): kinetic energy less 1/r."""
+    """E of (3.4): the kinetic energy minus 1/r."""
     return (v_radial**2 + v_transverse**2) / 2 - 1 / r
 
 
@@ -70,15 +70,15 @@ def laplace_in_the_orbit() -> sp.Matrix:
 
 
 def laplace() -> sp.Matrix:
-    """Laplace's vector in the fixed plane; constant without thrust, it points at the pericentre."""
+    """Laplace's vector in fixed axes; it points to the pericentre and is constant without thrust."""
     return sp.rot_ccw_axis3(phi)[:2, :2] * laplace_in_the_orbit()
 
 
 @functools.cache
 def conic() -> sp.Dict:
-    """Place and velocity as functions of K, e and x: the orbit of (3.4).
+    """r, v_r and v_phi as functions of K, e and x: the orbit of (3.4).
 
-    Laplace's vector has the length e and makes the angle -x with the radius: solved for r, v_r, v_phi.
+    Laplace's vector, of length e and at the angle -x to the radius, is solved for r, v_r and v_phi.
     """
     vector = laplace_in_the_orbit()
     conditions = [
@@ -113,7 +113,7 @@ def in_slow_variables(expression: sp.Expr) -> sp.Expr:
 
 
 def affine(rate: sp.Expr) -> sp.Expr:
-    """A rate under thrust, its coefficients of the control factored, with cos^2 x for 1 - sin^2 x."""
+    """A rate under thrust, with factored coefficients of the control and cos^2 x in place of 1 - sin^2 x."""
     coefficients = [sp.expand_trig(sp.expand(rate).coeff(u)) for u in CONTROL]
     square = {sp.sin(anomaly) ** 2: 1 - sp.cos(anomaly) ** 2}
     return sum(
@@ -126,7 +126,7 @@ def affine(rate: sp.Expr) -> sp.Expr:
 def element_rates() -> sp.Dict:
     """E', K', e', gamma' under thrust, (3.6) and below it; p' is 2 K K'. Keys: E, K, e, gamma.
 
-    The rate of Laplace's vector along itself is e', across itself e gamma'.
+    Of the rate of Laplace's vector the component along the vector is e', the component across it e gamma'.
     """
     vector = laplace().applyfunc(on_the_orbit)
     rate = laplace().applyfunc(along_the_motion).applyfunc(on_the_orbit)
@@ -157,7 +157,7 @@ def eccentric_anomaly() -> sp.Expr:
 
 @functools.cache
 def ellipse_radius() -> sp.Expr:
-    """r as a function of E, e and xi, (3.4): between the two radii at which v_r = 0, at cos xi = 1 and -1."""
+    """r as a function of E, e and xi, (3.4): linear in cos xi, with v_r = 0 at cos xi = 1 and at -1."""
     turning = sp.solve((energy_of_state() - energy).subs({v_radial: 0, v_transverse: momentum / r}), r)
     ends = [sp.simplify(root.subs(momentum, sp.sqrt((e**2 - 1) / (2 * energy)))) for root in turning]
     near, far = sorted(ends, key=lambda end: end.subs({energy: -1, e: sp.Rational(1, 2)}))
@@ -166,7 +166,7 @@ def ellipse_radius() -> sp.Expr:
 
 @functools.cache
 def time_of_flight() -> sp.Expr:
-    """t + delta as a function of E, e and xi, (3.4): dt = dr/v_r from the pericentre on."""
+    """t + delta as a function of E, e and xi, (3.4): the integral of dr/v_r from the pericentre."""
     square = 2 * (energy + 1 / r) - (momentum / r) ** 2
     square = square.subs(momentum, sp.sqrt((e**2 - 1) / (2 * energy))).subs(r, ellipse_radius())
     slope_squared = sp.simplify(ellipse_radius().diff(eccentric) ** 2 / sp.factor(sp.simplify(square)))
@@ -177,7 +177,7 @@ def time_of_flight() -> sp.Expr:
 
 
 def period() -> sp.Expr:
-    """T(E): the time in which xi, and with it x, grows by 2 pi."""
+    """The period T(E), in which xi and x grow by 2 pi."""
     return sp.simplify(time_of_flight().subs(eccentric, 2 * sp.pi))
 
 
@@ -188,7 +188,7 @@ def mean_motion() -> sp.Expr:
 
 @functools.cache
 def weight() -> sp.Expr:
-    """dpsi/dx at fixed elements, as a function of e and x: the mean motion over x'."""
+    """dpsi/dx at fixed elements, the mean motion divided by x', as a function of e and x."""
     motion = mean_motion().subs(energy, (e**2 - 1) / (2 * momentum**2))
     return sp.powsimp(sp.simplify(motion / anomaly_rate()))
 
@@ -213,8 +213,7 @@ def model() -> OrbitModel:
     The symbols are `slow` = (E < 0, K > 0), `control` = (u_r, u_phi) and `anomaly` = x, real, the true
     anomaly; psi, the mean anomaly, has dpsi/dx = `weight`. `rates` (2, 1) and `phase_rate` = -gamma'/eps
     are affine in the control; `anomaly_rate` is x' without thrust, the same as mean_motion/weight. The
-    eccentricity is written out as sqrt(1 + 2 E K^2); on the circle, where it vanishes, `phase_rate` has no
-    value.
+    eccentricity is written as sqrt(1 + 2 E K^2); where it vanishes, on the circle, `phase_rate` is undefined.
     """
     rates = element_rates()
     slow = sp.Matrix([affine(rates[energy] / epsilon), affine(rates[momentum] / epsilon)])

@@ -1,8 +1,8 @@
-"""The averaged problem of example 2 solved in closed form (Akulenko 1977, (3.9)), and what follows from it.
+"""The closed solution of the averaged problem of example 2 (Akulenko 1977, (3.9)), and its consequences.
 
 paper       here                              meaning
-E0, K0, E1  energy0, momentum0, energy1       where it starts, where it ends
-tau, tau1   tau, duration                     slow time epsilon t and its last value
+E0, K0, E1  energy0, momentum0, energy1       E and K at the start, E at the end
+tau, tau1   tau, duration                     slow time epsilon t, and its value at the end
 rho         rho                               -p_E(tau1)
 """
 
@@ -40,11 +40,11 @@ momentum0 = sp.Symbol("K_0", positive=True)
 direction = sp.Symbol("sigma", real=True, nonzero=True)
 
 OPTIMUM = {costate_momentum: 0, kappa: 0}
-"""p_K is 0 at the end, where K is free, and dp_K/dtau has the factor p_K; kappa = 0 is the best ending."""
+"""p_K = 0 at the end, where K is free, hence always, as its rate has the factor p_K; kappa = 0 is optimal."""
 
 
 def optimal_rates() -> dict[sp.Symbol, sp.Expr]:
-    """dE, dK, dp_E over dtau on the optimum."""
+    """dE/dtau, dK/dtau and dp_E/dtau on the optimum."""
     rates = averaged_rates()
     return {s: rates[s].subs(OPTIMUM) for s in (energy, momentum, costate_energy)}
 
@@ -68,7 +68,7 @@ def solution() -> sp.Dict:
 def shrinkage() -> sp.Expr:
     """1 - rho tau1/2 in terms of E0 and E1, from E(tau1) = E1.
 
-    The denominator of p_E runs from it to 1 and must not vanish on the way: it is positive.
+    It is positive, since the denominator of p_E runs from this value to 1 and must not vanish in between.
     """
     left = sp.Symbol("z", positive=True)
     end = solution()[energy].subs(tau, duration).subs(rho, 2 * (1 - left) / duration)
@@ -83,18 +83,18 @@ def costate_size() -> sp.Expr:
 
 
 def terminal_costate() -> sp.Expr:
-    """rho: it has the sign of rho tau1/2 = 1 - (E0/E1)^(1/2)."""
+    """rho, whose sign is that of rho tau1/2 = 1 - (E0/E1)^(1/2)."""
     return costate_size() * sp.sign(1 - shrinkage())
 
 
 def optimal_duration() -> sp.Expr:
-    """tau1 = 2 |1 - (E0/E1)^(1/2)|/|rho|, the factor |E1|^(1/2) taken into the modulus."""
+    """tau1 = 2 |1 - (E0/E1)^(1/2)|/|rho|, with the factor |E1|^(1/2) moved into the modulus."""
     root = sp.sqrt(-energy1)
     return sp.simplify(2 / (costate_size() * root)) * sp.Abs(sp.expand(root * (1 - shrinkage())))
 
 
 def optimal_cost() -> sp.Expr:
-    """J0: the mean of l + u^2 over a turn is constant on the optimum, where h0 = 0."""
+    """J0: tau1 times the mean of l + u^2 over a turn, which is constant on the optimum, where h0 = 0."""
     squared = {costate_energy**2: sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0]}
     mean = over_a_turn(running_cost().subs(maximiser()).subs(OPTIMUM).subs(conic()))
     return sp.simplify(mean.subs(squared)) * optimal_duration()
@@ -102,7 +102,7 @@ def optimal_cost() -> sp.Expr:
 
 @functools.cache
 def thrust_on_the_way() -> sp.ImmutableMatrix:
-    """(u_r, u_phi) on the optimum in l, e, x and sigma = sign(E1 - E0): its size does not change with tau."""
+    """(u_r, u_phi) on the optimum in terms of l, e, x and sigma = sign(E1 - E0); tau does not enter."""
     costate = direction * sp.sqrt(sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0])
     control = [maximiser()[u].subs(OPTIMUM).subs(conic()).subs(costate_energy, costate) for u in CONTROL]
     level = {energy: (e**2 - 1) / (2 * momentum**2)}
@@ -110,11 +110,10 @@ def thrust_on_the_way() -> sp.ImmutableMatrix:
 
 
 def ending_slope() -> sp.Expr:
-    """d/dkappa at 0 of the angle that the phase covers, per unit of |E|^(1/2), (2.15).
+    """Derivative in kappa, at kappa = 0, of the phase passed per unit of |E|^(1/2), (2.15).
 
-    It is positive, so that kappa = 0 is a minimum.
-
-    With s = |E|^(1/2), h0 + omega kappa = 0 and p_K = 0: the phase turned is the integral of omega ds/|s'|.
+    It is positive, so that kappa = 0 is a minimum. With s = |E|^(1/2), h0 + omega kappa = 0 and p_K = 0 the
+    phase passed is the integral of omega ds/|s'|.
     """
     root = sp.Symbol("s", positive=True)
     motion = mean_motion().subs(energy, -(root**2))
@@ -127,7 +126,7 @@ def ending_slope() -> sp.Expr:
 
 @functools.cache
 def ripple() -> sp.Expr:
-    """The primitive in psi of h* - h0, of mean zero, on the optimum, as a function of l, e and xi."""
+    """The zero-mean primitive in psi of h* - h0 on the optimum, as a function of l, e and xi."""
     squared = sp.solve(averaged_hamiltonian().subs(OPTIMUM), costate_energy**2)[0]
     level = {energy: (e**2 - 1) / (2 * momentum**2)}
     excess = (maximised() - averaged_hamiltonian()).subs(OPTIMUM).subs(costate_energy**2, squared).subs(level)
@@ -140,8 +139,9 @@ def ripple() -> sp.Expr:
 def first_correction(kind: int = 1) -> sp.Expr:
     """J1 with J = J0 + epsilon J1 + O(epsilon^2), for a start at the eccentric anomaly xi.
 
-    J1 is the ripple over omega at the start less that at the end, where the phase is free: there it is
-    largest for the minima (`kind` 1) and least for the maxima (-1), both at an end of the minor axis.
+    J1 is ripple/omega at the start minus ripple/omega at the end. The phase at the end is free: there the
+    ripple is largest for the minima of the cost (`kind` 1) and least for the maxima (-1), both at an end of
+    the minor axis.
     """
     at_the_end = ripple().subs(eccentric, kind * sp.pi / 2) / mean_motion().subs(energy, energy1)
     at_the_start = ripple() / mean_motion().subs(energy, energy0)

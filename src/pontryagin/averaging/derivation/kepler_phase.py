@@ -27,7 +27,7 @@ def mean_anomaly() -> sp.Expr:
 
 @functools.cache
 def eccentric_sine() -> sp.Expr:
-    """sin xi as a function of e and x; it has the sign of sin x: xi and x pass 0 and pi together."""
+    """sin xi as a function of e and x; its sign is that of sin x, as xi and x pass 0 and pi together."""
     positive = sp.sin(anomaly) / (1 + e * sp.cos(anomaly))
     square = sp.simplify((1 - eccentric_anomaly() ** 2) / positive**2)
     return sp.sqrt(square) * positive
@@ -56,14 +56,14 @@ def from_eccentric(expression: sp.Expr) -> sp.Expr:
 
 @functools.cache
 def eccentricity_slope() -> sp.Expr:
-    """dpsi/de at fixed x: cos xi is differentiated for dxi/de, then psi = xi - e sin xi."""
+    """dpsi/de at fixed x: dxi/de follows from cos xi, then dpsi/de from psi = xi - e sin xi."""
     turn = -eccentric_anomaly().diff(e) / eccentric_sine()
     slope = mean_anomaly().diff(e) + mean_anomaly().diff(eccentric) * turn
     return sp.sqrt(1 - e**2) * sp.factor(sp.simplify(from_eccentric(slope) / sp.sqrt(1 - e**2)))
 
 
 def mean_anomaly_rate() -> sp.Expr:
-    """psi' under thrust, (3.6), with e' and gamma' for their rates: x' = phi' - gamma' and the chain rule."""
+    """psi' under thrust, (3.6), in terms of e' and gamma', by x' = phi' - gamma' and the chain rule."""
     return mean_motion() - weight() * pericentre_rate + eccentricity_slope() * eccentricity_rate
 
 
@@ -80,7 +80,7 @@ def true_from_eccentric() -> sp.Dict:
 def average(quantity: sp.Expr) -> sp.Expr:
     """Mean over psi of a function of e and x, integrated in xi, where dpsi = (1 - e cos xi) dxi.
 
-    It takes what becomes a polynomial in cos xi and sin xi; anything else is refused.
+    The integrand must become a polynomial in cos xi and sin xi; any other is refused.
 
     Examples
     --------

@@ -5,7 +5,7 @@
     p_E, p_K            costate_energy, costate_momentum
     p_gamma, p_psi      costate_pericentre, costate_phase
 
-The costate of the cost is -1, H is maximised.
+The costate of the cost is -1, so that H is maximised.
 """
 
 import functools
@@ -51,7 +51,7 @@ def running_cost() -> sp.Expr:
 
 @functools.cache
 def control_hamiltonian() -> sp.Expr:
-    """The function that is maximised over the control at p_gamma = p_psi = 0, in terms of the state."""
+    """The function that the control maximises, at p_gamma = p_psi = 0, in terms of the state."""
     rates = [along_the_motion(element()) / epsilon for element in (energy_of_state, momentum_of_state)]
     return sp.expand(sum(p * rate for p, rate in zip(costates, rates, strict=True)) - running_cost())
 
@@ -64,13 +64,13 @@ def maximiser() -> sp.Dict:
 
 @functools.cache
 def maximised() -> sp.Expr:
-    """h* = max over u, on the orbit of K and e at the anomaly x."""
+    """h*, the maximum over u, as a function of K, e and the anomaly x."""
     return sp.expand(sp.expand(control_hamiltonian().subs(maximiser())).subs(conic()))
 
 
 @functools.cache
 def hamiltonian() -> sp.Expr:
-    """The Hamiltonian of (3.7) in E, K, gamma and psi before the maximum, written in K, e and x."""
+    """The Hamiltonian of (3.7) for E, K, gamma and psi before maximisation, expressed by K, e and x."""
     rates = element_rates()
     phase = mean_anomaly_rate().subs({eccentricity_rate: rates[e], pericentre_rate: rates[gamma]})
     slow = costate_energy * rates[energy] + costate_momentum * rates[momentum]
@@ -79,7 +79,7 @@ def hamiltonian() -> sp.Expr:
 
 @functools.cache
 def averages() -> sp.Dict:
-    """Means over a turn of v^2, v_phi r and r^2 in terms of E and K; keys: text as printed."""
+    """Means over a turn of v^2, v_phi r and r^2 in terms of E and K; the keys are as printed."""
     means = {"v^2": v_radial**2 + v_transverse**2, "v_phi r": v_transverse * r, "r^2": r**2}
     return sp.Dict({sp.Symbol(name): over_a_turn(q.subs(conic())) for name, q in means.items()})
 
@@ -103,7 +103,7 @@ def averaged_hamiltonian() -> sp.Expr:
 
 @functools.cache
 def averaged_rates() -> sp.Dict:
-    """dE, dK, dp_E, dp_K over dtau: Hamilton's equations of omega kappa + h0, (2.11)."""
+    """dE/dtau, dK/dtau, dp_E/dtau and dp_K/dtau: Hamilton's equations of omega kappa + h0, (2.11)."""
     whole = mean_motion() * kappa + averaged_hamiltonian()
     rates = {slow: whole.diff(p) for slow, p in zip(SLOW, costates, strict=True)}
     rates |= {p: -whole.diff(slow) for slow, p in zip(SLOW, costates, strict=True)}

@@ -1,12 +1,12 @@
 """The main result: the cost along the averaged family (Akulenko 1977, (2.14) to (2.16)).
 
-A member of the family has H0 = omega kappa + h0 = 0, a fixed start and the target's condition. D is the
-derivative along the family at fixed tau; written with bars, xi, eta, D xi, D eta and kappa are independent.
+Every member of the family has H0 = omega kappa + h0 = 0, the same start, and ends on the target. D is the
+derivative along the family at fixed tau; xi, eta, D xi, D eta and kappa are independent symbols here.
 
 here     meaning
 -------  ----------------------------------------------------------------------
 D xi     `varied` (two components), D eta `varied_costate`
-Psi      integral of omega over (0, tau_1): epsilon times the phase that is passed
+Psi      integral of omega over (0, tau_1): epsilon times the phase passed
 """
 
 from functools import cache
@@ -23,7 +23,7 @@ J = sp.Function("J", real=True)(kappa)
 
 
 def varied_by(quantity: sp.Expr) -> sp.Expr:
-    """D of a function of xi and eta."""
+    """The derivative D of a function of xi and eta."""
     pairs = zip((*xi, *eta), (*varied, *varied_costate), strict=True)
     return sum(quantity.diff(x) * change for x, change in pairs)
 
@@ -38,14 +38,14 @@ def lagrange_identity() -> sp.Expr:
 
 
 def end_work() -> sp.Expr:
-    """eta dxi/dtau on H0 = 0: it is h0, and so -kappa omega."""
+    """eta dxi/dtau on H0 = 0: it equals h0, hence -kappa omega."""
     paired = sp.Matrix(eta).dot(averaged.rates()[0])
     level = sp.solve(averaged.averaged_hamiltonian(), kappa)[0]
     return averaged.homogeneous(paired + omega * level) - kappa * omega
 
 
 def cost_by_the_end() -> sp.Expr:
-    """dJ0 as a product with dxi_1: g' dxi_1 + (eta_1 dxi_1), where M' dxi_1 = 0: vanishes."""
+    """g' dxi_1 + (eta_1 dxi_1) where M' dxi_1 = 0: vanishes, so that dJ0 = -(eta_1 dxi_1)."""
     gradient = sp.Matrix([averaged.g.diff(x) for x in xi])
     normal = sp.Matrix([averaged.M.diff(x) for x in xi])
     off = gradient.dot(varied) + averaged.end_costates().dot(varied)
@@ -55,9 +55,9 @@ def cost_by_the_end() -> sp.Expr:
 def exact_identity() -> sp.Expr:
     """d(p Da + q Dpsi)/dt along the unaveraged canonical equations: vanishes.
 
-    H* is of degree one in (p, q), and D is the derivative along any family of extremals with one start. On
-    H* = 0 the displacements of the end then have p da_1 + q dpsi_1 = H* dt_1 = 0, and with dJ = -p da_1 the
-    cost obeys dJ = q_1 dpsi_1: (2.14) before averaging.
+    H* is of degree one in (p, q), and D is the derivative along any family of extremals with a common start.
+    With H* = 0 the displacements of the end then satisfy p da_1 + q dpsi_1 = H* dt_1 = 0, and as dJ = -p da_1
+    the cost obeys dJ = q_1 dpsi_1: (2.14) before averaging.
     """
     states, costates = (principle.a[0], principle.psi), (principle.p[0], principle.q)
     steps = sp.symbols("Da Dpsi Dp Dq", real=True)
@@ -78,8 +78,9 @@ def exact_identity() -> sp.Expr:
 def cost_slope() -> sp.Expr:
     """dJ0/dkappa in terms of Psi, (2.14).
 
-    dJ0 = -eta_1 dxi_1 and dxi_1 = xi' dtau_1 + D xi: the first product is `end_work`, the second the integral
-    of `lagrange_identity`. What multiplies kappa is Leibniz's derivative of Psi.
+    dJ0 = -eta_1 dxi_1 and dxi_1 = xi' dtau_1 + D xi: `end_work` gives the product of eta_1 with the first
+    term, the integral of `lagrange_identity` that with the second. The factor of kappa is the derivative of
+    Psi by Leibniz's rule.
     """
     if any((lagrange_identity(), averaged.homogeneity(), cost_by_the_end())):
         raise ArithmeticError("the variation along the family does not reduce")
@@ -90,7 +91,7 @@ def cost_slope() -> sp.Expr:
 
 
 def leibniz() -> sp.Expr:
-    """d/dkappa of the integral of w(tau, kappa) over (0, T(kappa)): end and inside."""
+    """d/dkappa of the integral of w(tau, kappa) over (0, T(kappa)), by Leibniz's rule."""
     w, T = sp.Function("w")(tau, kappa), sp.Function("T")(kappa)
     return sp.Integral(w, (tau, 0, T)).diff(kappa)
 

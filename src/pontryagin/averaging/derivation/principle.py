@@ -1,12 +1,12 @@
-"""The maximum principle of a general standard system and its standard form (Akulenko 1977, 1 and (2.1)).
+"""The maximum principle of a general system, and its reduction to (2.1) (Akulenko 1977, section 1 and (2.1)).
 
 here           meaning
 -------------  --------------------------------------------------------------------------
-a, p           slow variables and costates, two of each: no formula couples more of them
+a, p           slow variables and costates, two of each; no formula couples more than two
 psi, q         rotating phase and its costate
 u              control; one component stands for all of them
 f, F, omega    undefined functions: rates of a and psi per epsilon, frequency
-M, g, alpha    one target condition, terminal cost, multiplier; more conditions only add
+M, g, alpha    one target condition, terminal cost, multiplier; more conditions add like terms
 h_star         h after the maximum over u, at given q and epsilon
 
 The costate of the cost is -1, so that H is maximised.
@@ -48,8 +48,8 @@ def small_part() -> sp.Expr:
 def costate_rates() -> sp.Matrix:
     """(p', q'), (1.6): where the first variation of the integral of p a' + q psi' - H vanishes.
 
-    The motion is moved by s delta(t); what is left of the integrand after the integration by parts is the
-    displacement times a factor, and that factor has to be zero.
+    The motion is displaced by s delta(t). After integration by parts the integrand of the variation is the
+    displacement times a factor, which has to be zero.
     """
     place, costate, moved = ([sp.Function(f"{name}{i}")(t) for i in range(3)] for name in "xyd")
     s = sp.Symbol("s")
@@ -66,9 +66,10 @@ def costate_rates() -> sp.Matrix:
 
 @cache
 def end_conditions() -> tuple[sp.Matrix, sp.Expr]:
-    """(p, q) at t1 and what vanishes there, from the variation of g + alpha M and of the free end.
+    """(p, q) at t1 and the expression that vanishes there, by variation of g + alpha M and of the end time.
 
-    The end is displaced by (A1, A2, Psi) in the time T, the motion by that less its own speed times T.
+    The end is displaced by (A1, A2, Psi) and the end time by T; the motion at fixed time is then displaced by
+    (A1, A2, Psi) minus its rate times T.
     """
     displaced, speeds = sp.Matrix(sp.symbols("A1 A2 Psi")), sp.Matrix(sp.symbols("v1:4"))
     time = sp.Symbol("T")
@@ -84,7 +85,7 @@ def end_conditions() -> tuple[sp.Matrix, sp.Expr]:
 
 
 def envelope() -> list[sp.Expr]:
-    """d h(u*)/d(a, psi, p, q) less the derivative at u held less (dh/du) du*: vanish.
+    """dh(u*)/d(a, psi, p, q) minus the derivative of h at constant u and minus (dh/du) du*: all vanish.
 
     At an inner maximum dh/du = 0; on the boundary of U the maximiser moves along it, and (dh/du) du* = 0.
     """
@@ -99,7 +100,7 @@ def envelope() -> list[sp.Expr]:
 
 
 def _partials(expression: sp.Expr) -> sp.Expr:
-    """Partial derivatives of f and F at u*, by name: SymPy writes the same one in two ways."""
+    """An expression with symbols for the partials of f and F at u*, which SymPy writes in two ways."""
     named = {}
     for atom in expression.atoms(sp.Subs):
         function, variable = atom.expr.expr, atom.expr.variables[0]
@@ -121,7 +122,7 @@ def along(quantity: sp.Expr) -> sp.Expr:
 
 
 def leading(expression: sp.Expr) -> sp.Expr:
-    """An expression at q = 0 and epsilon = 0: what the first approximation keeps."""
+    """An expression at q = 0 and epsilon = 0, which is the part that the first approximation keeps."""
     return expression.subs({q: 0, epsilon: 0}).doit()
 
 

@@ -33,7 +33,7 @@ NEARLY_SYMMETRIC = {
     moments[0]: moments[2] / d * (1 + epsilon * alpha),
     moments[1]: moments[2] / d * (1 + epsilon * beta),
 }
-"""Equatorial moments that differ from I_z / d by shares epsilon alpha and epsilon beta."""
+"""Equatorial moments whose relative differences from I_z / d are epsilon alpha and epsilon beta."""
 
 
 @cache
@@ -69,7 +69,7 @@ def slow_rates() -> sp.Matrix:
 
 
 def anomaly_rate() -> sp.Expr:
-    """psi' at epsilon = 0: the frequency, of the sign of (d - 1) c."""
+    """psi' at epsilon = 0, (d - 1) c: the frequency, of either sign."""
     return sp.factor(polar_rates()[2].subs(epsilon, 0))
 
 
@@ -80,7 +80,7 @@ def phase_rate() -> sp.Expr:
 
 @cache
 def asymmetry() -> sp.ImmutableMatrix:
-    """What a nearly symmetric body adds to (a', c', psi') per epsilon at epsilon -> 0, without control."""
+    """Terms that asymmetry adds to (a', c', psi'), per epsilon as epsilon -> 0, without control."""
     free = in_polar(euler_rates().subs(NEARLY_SYMMETRIC).subs(dict.fromkeys(u, 0)))
     return sp.ImmutableMatrix(free.diff(epsilon).subs(epsilon, 0).applyfunc(sp.simplify))
 
@@ -92,24 +92,24 @@ def switching() -> sp.Matrix:
 
 
 def ellipsoid_maximiser(s: sp.Matrix) -> sp.Matrix:
-    """u = L w, |w| = 1 along L s: the point of the ellipsoid that maximises s.u, by Cauchy and Schwarz."""
+    """The u that maximises s.u on the ellipsoid: L L s/|L s|, L = diag(lx, ly, lz), by Cauchy and Schwarz."""
     stretched = sp.diag(*semiaxes) * s
     return sp.diag(*semiaxes) * stretched / sp.sqrt(stretched.dot(stretched))
 
 
 def ellipsoid_support(s: sp.Matrix) -> sp.Expr:
-    """max s.u over the ellipsoid."""
+    """The maximum of s.u over the ellipsoid."""
     stretched = sp.diag(*semiaxes) * s
     return sp.sqrt(stretched.dot(stretched))
 
 
 def in_ellipsoid(control: sp.Matrix) -> sp.Expr:
-    """u_x^2/l_x^2 + u_y^2/l_y^2 + u_z^2/l_z^2: at most 1 for what is allowed."""
+    """u_x^2/l_x^2 + u_y^2/l_y^2 + u_z^2/l_z^2, at most 1 for an admissible control."""
     return sum(((part / axis) ** 2 for part, axis in zip(control, semiaxes, strict=True)), sp.S.Zero)
 
 
 def braking() -> sp.Matrix:
-    """The control that lowers a fastest, p_a < 0 and p_c = p_psi = 0, as a function of w: a synthesis."""
+    """The feedback control that lowers a fastest (p_a < 0, p_c = p_psi = 0), as a function of w."""
     s = switching().subs({p_a: -1, p_c: 0, p_psi: 0})
     feedback = {sp.cos(psi): w[0] / a, sp.sin(psi): w[1] / a}
     control = ellipsoid_maximiser(s).subs(feedback).subs(a, sp.Symbol("A", positive=True))
@@ -122,7 +122,7 @@ def deceleration() -> sp.Expr:
 
 
 def mean_of_root(square: sp.Expr) -> sp.Expr:
-    """Mean over a turn of sqrt(A (1 - k sin^2 psi)): E of the parameter k, by quarters."""
+    """Mean over a turn of sqrt(A (1 - k sin^2 psi)) by the complete elliptic integral E of parameter k."""
     first = square.subs(psi, 0)
     parameter = sp.factor(1 - square.subs(psi, sp.pi / 2) / first)
     if sp.simplify(square - first * (1 - parameter * sp.sin(psi) ** 2)) != 0:
@@ -131,12 +131,12 @@ def mean_of_root(square: sp.Expr) -> sp.Expr:
 
 
 def mean_deceleration() -> sp.Expr:
-    """<R>, real for every l_y: parameter 1 - l_y^2/l_x^2, between 0 and 1 where l_y <= l_x."""
+    """<R>, real for every l_y; the parameter 1 - l_y^2/l_x^2 is between 0 and 1 where l_y <= l_x."""
     return mean_of_root(deceleration() ** 2)
 
 
 def mean_deceleration_turned() -> sp.Expr:
-    """<R> with psi counted from the y axis: parameter 1 - l_x^2/l_y^2, between 0 and 1 where l_x <= l_y."""
+    """<R> with psi from the y axis; the parameter 1 - l_x^2/l_y^2 is between 0 and 1 where l_x <= l_y."""
     return mean_of_root((deceleration() ** 2).subs(psi, sp.pi / 2 - psi))
 
 
@@ -160,7 +160,7 @@ def cylinder_maximiser() -> sp.Matrix:
 
 
 def cylinder_hamiltonian() -> sp.Expr:
-    """H of the exact problem on the cylinder after the maximum, the cost being epsilon t."""
+    """H of the exact problem maximised over the cylinder, with the cost epsilon t."""
     s = switching()
     support = l * sp.sqrt(sp.simplify(s[0] ** 2 + s[1] ** 2)) + h * sp.Abs(s[2])
     return p_psi * anomaly_rate() + epsilon * (support - 1)

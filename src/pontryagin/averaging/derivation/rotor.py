@@ -8,8 +8,8 @@ m(x), V(x)      mass and potential; undefined functions unless the caller names 
 u, f(x, v)      control and perturbing force, per epsilon
 psi             rotating phase: psi' = omega(a) at epsilon = 0
 
-Rates are per epsilon unless they are of x or psi. With x as the anomaly x' = speed(a, x) exactly: no
-perturbation of its rate. Averages over psi are taken over x with the weight dpsi/dx = omega/speed.
+Rates are per epsilon except those of x and psi. The rate of the anomaly, x' = speed(a, x), is exact: it is
+not perturbed. Averages over psi are taken over x with the weight dpsi/dx = omega/speed.
 """
 
 import sympy as sp
@@ -51,7 +51,7 @@ def energy(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
 
 
 def speed(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
-    """x' in terms of a and x: the anomaly's rate, positive while the rotor turns."""
+    """x', the rate of the anomaly, in terms of a and x; positive while the rotor turns."""
     square = sp.Symbol("w", positive=True)
     return sp.sqrt(sp.solve(energy(mass, potential).subs(v, sp.sqrt(square)) - a, square)[0])
 
@@ -78,21 +78,21 @@ def frequency(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
 
 
 def phase_weight(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
-    """dpsi/dx at a fixed energy, psi being 2 pi times the share of the turn's time that has passed."""
+    """dpsi/dx at a fixed energy, where psi is 2 pi times the elapsed fraction of the time of a turn."""
     return frequency(mass, potential) / speed(mass, potential)
 
 
 def phase_rate(
     mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
 ) -> sp.Expr:
-    """F = psi' - omega per epsilon: the phase at a fixed place changes with the energy."""
+    """F, which is psi' - omega per epsilon: at fixed x the phase changes with the energy."""
     share = sp.Symbol("y", real=True)
     phase = sp.Integral(phase_weight(mass, potential).subs(x, share), (share, x0, x))
     return phase.diff(a) * slow_rate(mass, potential, force, control)
 
 
 def over_a_turn(integrand: sp.Expr) -> sp.Expr:
-    """Integral over x from 0 to 2 pi, left as it stands where x is in radicals or undefined functions."""
+    """Integral over x from 0 to 2 pi, left unevaluated where x is in radicals or undefined functions."""
     turn = sp.Integral(integrand, (x, 0, 2 * sp.pi))
     radicals = [part for part in integrand.atoms(sp.Pow) if not part.exp.is_nonnegative and part.has(x)]
     radicals += [part for part in integrand.atoms(sp.Pow) if not part.exp.is_integer and part.has(x)]
@@ -111,7 +111,7 @@ def mean_over_angle(quantity: sp.Expr, mass: sp.Expr = MASS, potential: sp.Expr 
 
 
 def period_slope(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
-    """-d/da of the time of a turn 2 pi/omega: the integral of 1/(m x'^3), positive for every rotor."""
+    """-d/da of the time of a turn 2 pi/omega, the integral of 1/(m x'^3): positive for every rotor."""
     return over_a_turn(-(1 / speed(mass, potential)).diff(a))
 
 
@@ -123,12 +123,15 @@ def averaged_rate(
 
 
 def rate_by_angle(force: sp.Expr = FORCE, control: sp.Expr = u) -> sp.Expr:
-    """da/dx = epsilon (u + f) of the exact motion: what the comparison of controls rests on."""
+    """da/dx = epsilon (u + f) of the exact motion, on which the comparison of controls rests."""
     return sp.simplify(energy_rate(force=force, control=control) / v)
 
 
 def costate_rate(force: sp.Expr = FORCE) -> sp.Expr:
-    """p' on an exact least-time extremal (cost epsilon t), p_x removed by H = 0; in x and v, linear in p."""
+    """p' on a least-time extremal of the exact problem, in terms of x and v, linear in p.
+
+    The cost is epsilon t; p_x is eliminated by H = 0.
+    """
     hamiltonian = epsilon * p * slow_rate(force=force) + p_x * speed() - epsilon
     along = sp.solve(hamiltonian, p_x)[0]
     rate = -hamiltonian.diff(a).subs(p_x, along)

@@ -1,4 +1,4 @@
-"""The smooth example of section 3, (3.2): a rotor of unit mass paid by k + u^2 (Akulenko 1977).
+"""The smooth example of section 3, (3.2): a rotor of unit mass with the running cost k + u^2 (Akulenko 1977).
 
 here            meaning
 --------------  ----------------------------------------------------------------------------
@@ -36,7 +36,7 @@ def anomaly_rate() -> sp.Expr:
 
 
 def maximiser() -> sp.Expr:
-    """u that maximises eta v' - b': the Hamiltonian is strictly concave in u."""
+    """The u that maximises eta v' - b', which is strictly concave in u."""
     hamiltonian = sp.Matrix([[eta, -1]]).dot(slow_rates())
     if not hamiltonian.diff(u, 2).is_negative:
         raise ArithmeticError("the Hamiltonian is not concave in the control")
@@ -44,7 +44,7 @@ def maximiser() -> sp.Expr:
 
 
 def maximum(force: sp.Expr = sp.S.Zero) -> sp.Expr:
-    """h* = eta v' - b' after the maximum."""
+    """h*, the maximum of eta v' - b' over u."""
     return sp.expand(sp.Matrix([[eta, -1]]).dot(slow_rates(force)).subs(u, maximiser()))
 
 
@@ -55,7 +55,7 @@ def averaged_hamiltonian() -> sp.Expr:
 
 @cache
 def averaged_solution() -> tuple[sp.Expr, sp.Expr]:
-    """(xi, eta) of tau: (2.11) with omega = xi, xi(0) = v0 and xi(T) = v1; in terms of gap and v1."""
+    """xi(tau) and eta(tau) of (2.11) with omega = xi, xi(0) = v0 and xi(T) = v1, in terms of gap and v1."""
     speed = sp.Symbol("xi", real=True)
     whole = anomaly_rate().subs(v, speed) * kappa + averaged_hamiltonian()
     end = sp.Symbol("eta_1", real=True)
@@ -67,7 +67,7 @@ def averaged_solution() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def cost() -> sp.Expr:
-    """b(T) of T and kappa, before (2.12) ties them together."""
+    """b(T) as a function of independent T and kappa, before (2.12) relates them."""
     control = maximiser().subs(eta, averaged_solution()[1])
     return sp.expand(sp.integrate(sp.expand(slow_rates()[1].subs(u, control)), (tau, 0, T)))
 
@@ -79,7 +79,7 @@ def transversality() -> sp.Expr:
 
 
 def turned() -> sp.Expr:
-    """Integral of omega = xi over slow time: epsilon times the phase that is passed."""
+    """Integral of omega = xi over slow time: epsilon times the phase passed."""
     return sp.expand(sp.integrate(averaged_solution()[0], (tau, 0, T)))
 
 
@@ -94,16 +94,16 @@ def duration_slope() -> sp.Expr:
 
 
 def along(quantity: sp.Expr) -> sp.Expr:
-    """Total derivative by kappa of a quantity of T and kappa, T following (2.12)."""
+    """Total derivative in kappa of a function of T and kappa, with T(kappa) from (2.12)."""
     return quantity.diff(kappa) + quantity.diff(T) * duration_slope()
 
 
 def at_optimum(quantity: sp.Expr) -> sp.Expr:
-    """A quantity at kappa = 0 in terms of tau_1 and gap: there (2.12) reads k = gap^2/tau_1^2."""
+    """A quantity at kappa = 0 in terms of tau_1 and gap; (2.12) is k = gap^2/tau_1^2 there."""
     return sp.simplify(quantity.subs(kappa, 0).subs(k, gap**2 / T**2))
 
 
 def optimal_slope() -> sp.Expr:
-    """d tau_1 / d kappa at kappa = 0 in terms of k: in its denominator gap^2 is k tau_1^2."""
+    """d tau_1 / d kappa at kappa = 0 in terms of k, with gap^2 = k tau_1^2 in its denominator."""
     by_kappa, by_duration = (transversality().diff(part).subs(kappa, 0) for part in (kappa, T))
     return sp.factor(-by_kappa / by_duration.subs(gap**2, k * T**2))

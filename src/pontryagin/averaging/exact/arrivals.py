@@ -1,10 +1,10 @@
-"""Exact extremals that only the sign of the costate controls: one slow variable, a control without cost.
+"""Exact extremals whose control follows the sign of one costate: one slow variable, a costless control.
 
-The control depends on the sign of p alone, so that a(x) is one trajectory for each sign, and its ends are its
-arrivals at the target. Each arrival that a costate of that sign supports is an extremal: p1 follows from
-h* = 0 at the end, the rest backwards from there. Nearby controls cost more to first order, the switching
-function having no zero: every one is a local minimum, and there is no family over the ending anomaly to
-differentiate along, (2.13) and (2.15) being zero.
+The control depends on the sign of p alone. So there is one trajectory a(x) for each sign, which can end only
+where it arrives at the target. An arrival is an extremal if there is a costate that keeps this sign: p1
+follows from h* = 0 at the end, and p from p1 by integration backwards. As the switching function has no zero,
+nearby controls cost more to first order, so that each extremal is a local minimum. There is no family over
+the ending anomaly along which to differentiate: (2.13) and (2.15) are zero.
 """
 
 from collections.abc import Callable
@@ -33,11 +33,11 @@ from pontryagin.numerics.flow import (
 
 SIGN = sp.Symbol("sign_p", real=True)
 FINE = 64
-"""Points of a turn between which arrivals are sought."""
+"""Number of points of a turn between which arrivals are sought."""
 STRETCHES = 10_000
 """Largest number of pieces in which the trajectory is followed."""
 CLOSE = 1e-9
-"""Relative distance from the start at which a trajectory backwards counts as arrived there."""
+"""Largest relative distance from the start at which a backward trajectory counts as arrived there."""
 
 
 def fixed_ending(equations: Canonical) -> bool:
@@ -46,7 +46,7 @@ def fixed_ending(equations: Canonical) -> bool:
 
 
 def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
-    """The extremals whose costate has the sign given, by rising duration.
+    """The extremals whose costate has the given sign, by rising duration.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
     sign : float
         1 or -1, that of the averaged costate.
     turns : float
-        Turns of the averaged solution, a first guess of how far to go.
+        Turns of the averaged solution, a first guess of those of the extremals.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
 
 
 def _crossings(problem: Shooting, sign: float, turns: float) -> list[tuple[float, float]]:
-    """Anomalies at which the trajectory meets the target, with a there, up to a turn after the last."""
+    """Anomalies where the trajectory meets the target, with a there, sought until a turn has none."""
     follow = _trajectory(problem.equations, sign)
     state, begin = np.append(problem.start, [0.0, 0.0]), problem.anomaly
     found: list[tuple[float, float]] = []
@@ -113,7 +113,7 @@ def _refined(problem: Shooting, sign: float, state: Array, low: float, high: flo
 
 
 def _extremal(problem: Shooting, sign: float, anomaly: float, energy: float) -> Shot | None:
-    """The extremal that ends in an arrival, if its costate keeps its sign all the way."""
+    """The extremal that ends in an arrival, if its costate keeps the sign all along."""
     price, rate = _end(problem.equations)(energy, anomaly, sign, *problem.parameters)
     last = float(price / rate)
     if last * sign <= 0:
@@ -129,7 +129,7 @@ def _extremal(problem: Shooting, sign: float, anomaly: float, energy: float) -> 
 
 @lru_cache(maxsize=16)
 def _trajectory(equations: Canonical, sign: float) -> Flow:
-    """(a, tau, J) over the anomaly, under the control for a sign of p."""
+    """The flow of (a, tau, J) over the anomaly, under the control for a sign of p."""
     known = {equations.costates[0]: sp.Integer(int(sign)), y: sp.Integer(0)}
     modes = []
     for mode, switching in equations.modes:

@@ -41,7 +41,7 @@ class Canonical:
     hamiltonian : expression
         h* + y r, which vanishes on extremals.
     gap : expression
-        h* less p f + p_x F - L - (cost of u) at u*: no less than zero, and zero where u* maximises.
+        h* minus p f + p_x F - L - (cost of u) at u*: never negative, and zero where u* maximises.
     rate : expression
         r.
     motion : tuple of n + 1 expressions
@@ -49,7 +49,7 @@ class Canonical:
     free : bool
         Whether the control costs nothing and does not move the anomaly.
     boundary : tuple of r expressions
-        M.
+        M, the target.
     terminal_cost : expression
         g.
     """
@@ -84,7 +84,7 @@ class Canonical:
 
 
 def canonical(system: StandardForm) -> Canonical:
-    """The exact equations of a `PhaseSystem`; they are derived once for equal expressions.
+    """The exact equations of a `PhaseSystem`; systems with equal expressions share them.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Certificates of exact extremals: propagated anew in slow time by DOP853, all at once.
+"""Certificates of exact extremals, which are propagated again, all together, in slow time by DOP853.
 
 The search integrates over the anomaly by Taylor series. Here the independent variable, the integrator and its
-error control are others, and h* comes from the support function, not from the control that attains it.
+error control are different, and h* comes from the support function, not from the control that attains it.
 """
 
 from collections.abc import Callable
@@ -34,22 +34,22 @@ SAMPLES = 200
 class ExactCertificates:
     """Residuals of k extremals of one problem, computed together at the first use.
 
-    Units: target and costates those of `Shooting`, the Hamiltonian and p_x/epsilon times the rate those of
-    the mean running cost, the cost itself.
+    Target and costates are in the units of `Shooting`, the Hamiltonian and p_x/epsilon times the rate are
+    relative to the mean running cost, and the error of the cost is relative to the cost.
     """
 
     problem: Shooting
     shot: Shot
 
     def one(self, index: int) -> MaximumPrinciple:
-        """The certificate of one of them."""
+        """The certificate of one extremal."""
         of = self.all
         parts = (of.boundary, of.transversality, of.hamiltonian, of.maximality)
         return MaximumPrinciple(*(np.asarray(part[index]) for part in parts))
 
     @cached_property
     def all(self) -> MaximumPrinciple:
-        """All of them, (k,)."""
+        """The certificates of all extremals, with residuals (k,)."""
         problem, shot = self.problem, self.shot
         n = len(problem.start)
         path = self._path()

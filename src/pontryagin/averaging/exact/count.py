@@ -2,8 +2,9 @@
 
 A member kappa of the averaged family ends with <h*> = -omega kappa. The exact extremals near it are where h*
 vanishes on the turn at its end: at two phases if h* rises and falls once a turn, at four for the rigid body.
-Over the members between kappa' < 0 < kappa'', beyond which h* keeps one sign, or Psi turns back, or there is
-no averaged solution, the phase at the end runs through |Psi(kappa'') - Psi(kappa')|/epsilon.
+The members counted lie between kappa' < 0 < kappa'', beyond which h* keeps one sign, or Psi turns back, or
+there is no averaged solution. Over them the phase at the end runs through
+|Psi(kappa'') - Psi(kappa')|/epsilon.
 """
 
 from collections.abc import Callable
@@ -27,11 +28,11 @@ from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive
 
 POINTS = 2048
-"""Anomalies over a turn at which h* is compared with zero."""
+"""Number of anomalies over a turn at which h* is compared with zero."""
 FIRST = 1 / 16
 """First step of kappa, relative to the mean running cost over the frequency."""
 EXACT, NEAR = 1e-7, 1e-3
-"""Tolerances of an end of the window, and of one beyond which there is no solution; relative as `FIRST`."""
+"""Tolerances of kappa at a window's end, and at one without solutions beyond; in the unit of `FIRST`."""
 CELLS = 48
 """The roots on a turn are counted in this many parts of the window."""
 LEVEL = 1e-12
@@ -40,14 +41,14 @@ LEVEL = 1e-12
 
 @dataclass(frozen=True)
 class Window:
-    """The averaged solutions at whose ends h* vanishes somewhere on the turn.
+    """The range of kappa for which h* vanishes somewhere on the turn at the averaged solution's end.
 
     Attributes
     ----------
     kappa : (2,) array
         kappa' and kappa''.
     turned : (2,) array
-        Psi there: the integral of omega over the slow time, an angle.
+        Psi at these: the integral of omega over the slow time, an angle.
     roots : float
         Roots of h* at the end on a turn, on average over Psi.
     authority : float
@@ -65,19 +66,19 @@ class Window:
     limits: tuple[str, str]
 
     def count(self, epsilon: float) -> float:
-        """Extremals to expect: roots |Psi(kappa'') - Psi(kappa')| / (2 pi epsilon)."""
+        """Expected number of extremals: roots |Psi(kappa'') - Psi(kappa')| / (2 pi epsilon)."""
         small = float(positive("epsilon", epsilon))
         return float(self.roots * abs(self.turned[1] - self.turned[0]) / (2 * np.pi * small))
 
 
 def window(solution: AveragedSolution) -> Window:
-    """Where the averaged family about the solution, at kappa = 0, has roots of h* at its end.
+    """The range of kappa, about a solution at kappa = 0, for which h* has roots at the end.
 
     Raises
     ------
     ValueError
-        If the solution is a stack, its kappa is not zero, its trajectory leaves no choice of the end (the
-        least time of one slow variable), or h* does not depend on the phase there.
+        If the solution is a stack, its kappa is not zero, its anomaly at the end cannot be chosen (least time
+        with one slow variable), or h* does not depend on the phase at the end.
 
     Examples
     --------
@@ -109,7 +110,7 @@ def window(solution: AveragedSolution) -> Window:
 
 
 def _members(solution: AveragedSolution, kappa: float | Array) -> AveragedSolution:
-    """The same problem for other kappas."""
+    """The averaged solutions of the same problem at other kappas."""
     return solved(
         solution.model,
         solution.names,

@@ -41,21 +41,21 @@ class Extremal:
         "minimum" or "maximum" of J among the solutions that end at neighbouring anomalies.
     epsilon : float
     starting_anomaly, ending_anomaly : float
-        x at the start, in its first turn, and at the end; of `spin_down`, the angle chi of `rotating_frame`.
+        x at the start, in its first turn, and at the end; for `spin_down`, the angle chi of `rotating_frame`.
     curvature : float
         d^2 J / dtheta^2 along the family, epsilon dy/dtheta: the sign decides `kind`.
     initial : (2n + 3,) array
         (a, p, p_x/epsilon, tau, J) at the start, in the variables of the exact equations.
     equations : Canonical
-        What it solves.
+        The exact equations that it solves.
     parameters : array
         epsilon, then the system's numbers.
     certify : callable
         Makes the certificate at its first use.
     turn_to_phase : callable
-        psi of the slow variables (k, n) and the anomalies (k,).
+        Gives psi from slow variables (k, n) and anomalies (k,).
     view : callable or None
-        From the equations' variables and controls to the problem's own, where they differ.
+        Converts states and controls of the equations to the problem's own variables, where these differ.
     """
 
     cost: float
@@ -74,7 +74,7 @@ class Extremal:
 
     @cached_property
     def certificate(self) -> MaximumPrinciple:
-        """Residuals of the maximum principle, from a second propagation that shares no integrator."""
+        """Residuals of the maximum principle, from a second propagation by another integrator."""
         return self.certify()
 
     @property
@@ -142,10 +142,10 @@ class Extremals(Sequence[Extremal]):
     ----------
     items : tuple of Extremal
     epsilon, phase : float
-        psi_0 is the phase.
+        epsilon and psi_0.
     family : Family or None
-        The solutions over their ending anomaly among which the extremals are the stationary ones; None where
-        the trajectory leaves no choice of it. Its ``limits`` say why the search ended on either side.
+        The solutions over the ending anomaly, of which the extremals are those with a stationary cost; None
+        where that anomaly cannot be chosen. Its ``limits`` say why the search ended on either side.
     """
 
     items: tuple[Extremal, ...]
@@ -155,12 +155,12 @@ class Extremals(Sequence[Extremal]):
 
     @property
     def traced(self) -> Family:
-        """The family.
+        """The family, which must exist.
 
         Raises
         ------
         ValueError
-            If there is none, as where the least time of one slow variable leaves no choice of the end.
+            If there is no family, as for the least time with one slow variable.
         """
         if self.family is None:
             raise ValueError("these extremals have no family over the ending anomaly")

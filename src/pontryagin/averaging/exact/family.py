@@ -31,7 +31,10 @@ RESOLVED = 0.02
 FLAT = 1e-6
 """A range of y1 below this share of its size counts as zero."""
 BETWEEN = 0.06
-"""Excess of y1 between members over its values there, relative to its range; (1 - cos(pi/8))/2 is 0.04."""
+"""Assumed excess of y1 between members over its values at them, relative to its range.
+
+For a sine wave with eight members in a turn it is (1 - cos(pi/8))/2 = 0.04.
+"""
 BROKEN = 0.25
 """Neighbours whose dJ differs from p_x dtheta by more than this share of y1's range are not of one family."""
 QUIET_TURNS = 2
@@ -59,7 +62,7 @@ class Family:
     centre : float
         Where the search began.
     limits : tuple of two str
-        Why the search ended below and above: "no further root" (y1 keeps off zero for whole turns), "turning
+        Why the search ended below and above: "no further root" (y1 stays off zero for whole turns), "turning
         point" (the mean of y1 moves back towards zero), "start" (the duration would vanish) or
         "no solution" (Newton's method found no member).
     """
@@ -74,7 +77,7 @@ class Family:
     limits: tuple[str, str]
 
     def cut(self, low: float, high: float) -> "Family":
-        """The part between two anomalies; where it loses members, no solution was found beyond."""
+        """The part between two anomalies; a side that loses members gets the limit "no solution"."""
         keep = (self.theta >= low) & (self.theta <= high)
         lower, upper = self.limits
         limits = (lower if keep[0] else "no solution", upper if keep[-1] else "no solution")
@@ -84,7 +87,7 @@ class Family:
 
 @dataclass(frozen=True)
 class _Turn:
-    """Members of one turn, with their Jacobians; `ends` says why it breaks off below or above."""
+    """Members of one turn, with their Jacobians; `ends` says why the family breaks off below or above."""
 
     theta: Array
     unknowns: Array
@@ -103,7 +106,7 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     Raises
     ------
     NotConverged
-        If the guess leads to no member.
+        If Newton's method finds no member from the guess.
     """
     first, size = _first_turn(problem, theta, unknowns)
     below, lower = _outwards(problem, first, theta, size, -1)
@@ -137,7 +140,7 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[_Turn
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
-    """Anomalies of the members of a turn, counted from the one about theta; those after the start."""
+    """Anomalies after the start for the members of a turn; turn 0 is the one about theta."""
     step = 2 * np.pi / size
     angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
     return angles[angles > problem.anomaly + step / 2]
@@ -214,7 +217,7 @@ def _complete(marched: Sequence[Member], angles: Array) -> bool:
 
 
 def _reason(problem: Shooting, marched: Sequence[Member], sense: int) -> str:
-    """What stopped a march: h* far from zero, less than half a turn left to the start, or something else."""
+    """Why a march stopped: h* far from zero, less than half a turn left to the start, or something else."""
     if marched and abs(float(marched[-1][2].hamiltonian[0])) > FAR * problem.price:
         return "no further root"
     if sense < 0 and marched and float(marched[-1][0][0]) - problem.anomaly < np.pi:
@@ -238,7 +241,7 @@ def _joined(parts: Sequence[Member], ends: tuple[str, str]) -> _Turn:
 
 
 def local_range(theta: Array, y: Array) -> Array:
-    """Range of y within a turn of each member."""
+    """Range of y within a turn on either side of each member."""
     low, high = np.searchsorted(theta, theta - 2 * np.pi), np.searchsorted(theta, theta + 2 * np.pi)
     return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
 

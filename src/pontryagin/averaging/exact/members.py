@@ -1,4 +1,4 @@
-"""Members of the family of exact solutions: those that end at given anomalies, by Newton's method."""
+"""Exact solutions that end at given anomalies, the members of a family, by Newton's method."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from pontryagin.numerics.newton_stack import Evaluated, LinearisedStack, newton_
 CLOSE = 1e-7
 """Largest residual of a member; extremals are polished further."""
 ITERATIONS, FEW_ITERATIONS = 20, 6
-"""Newton steps allowed from a rough guess, and from a neighbour."""
+"""Largest numbers of Newton steps from a rough guess, and from a close one."""
 SHORTEST = 1e-4
 """The family counts as ended where a step must be shorter than this share of the distance between members."""
 FAR = 10.0
@@ -23,7 +23,7 @@ FAR = 10.0
 
 @dataclass(frozen=True, eq=False)
 class _Conditions:
-    """Conditions of k members at some unknowns (k, m), with Jacobians only where they are needed."""
+    """Conditions of k members at some unknowns (k, m), with Jacobians made only when needed."""
 
     unknowns: Array
     residual: Array
@@ -68,7 +68,8 @@ def members(
 def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[float, Array]:
     """Anomaly at the end and unknowns of an extremal near a guess, by damped Newton for both.
 
-    Where the control hardly changes the anomaly at the end, no member may end at the guessed one.
+    Where the control hardly changes the anomaly at the end, there may be no member that ends at the guessed
+    anomaly, so that the anomaly has to be sought too.
 
     Raises
     ------
@@ -102,7 +103,7 @@ def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[f
 
 
 def _residuals(evaluate: Callable[[], Array], shape: tuple[int, ...]) -> Array:
-    """Residuals, or nan where a trajectory cannot be followed, which shortens Newton's steps."""
+    """Residuals, or nan where a trajectory cannot be followed: Newton's method then shortens its step."""
     try:
         return evaluate()
     except (NotConverged, FloatingPointError):
@@ -114,7 +115,7 @@ def _largest(_: NDArray[np.intp], __: Array, residuals: Array) -> Array:
 
 
 def chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[Array, Shot, Array]:
-    """Members by Broyden's method from the Jacobians of the turn before; by Newton's where that is slow."""
+    """Members by Broyden's method from the previous turn's Jacobians, or by Newton's where that is slow."""
     shot = problem.shoot(theta, w)
     jacobians = jacobians.copy()
     for _ in range(6):
@@ -134,10 +135,10 @@ def chord(problem: Shooting, theta: Array, w: Array, jacobians: Array) -> tuple[
 def march(
     problem: Shooting, theta: float, edge: tuple[Array, Shot, Array], angles: Iterable[float]
 ) -> Iterable[tuple[Array, Array, Shot, Array]]:
-    """Members one after the other from the edge to each of the angles, each guessed from those before.
+    """Members one after the other from the edge to each of the angles, each guessed by extrapolation.
 
-    Steps are shortened, with a member at each, where Newton's method fails. The march ends where it fails for
-    the shortest step, or where h* is far from its value zero on extremals.
+    Where Newton's method fails, steps are shortened, with a member after each. The march ends where it fails
+    for the shortest step, or where |h*| exceeds `FAR` times the mean running cost (extremals have h* = 0).
     """
     w, _, jacobians = edge
     _, slopes = problem.slopes(np.array([theta]), w)

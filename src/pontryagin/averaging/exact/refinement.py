@@ -1,4 +1,4 @@
-"""Members added to a family near extrema of y1 that may touch zero."""
+"""Refinement of a family: members are added near extrema of y1 that may touch zero."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ ROUNDS = 6
 
 
 def turns_resolved(problem: Shooting, traced: Family) -> Family:
-    """Members added at extrema of y1 near zero, until it is clear whether it reaches zero there."""
+    """Add members at extrema of y1 near zero, until it is clear whether y1 reaches zero there."""
     current = traced
     for _ in range(ROUNDS):
         theta, y = current.theta, current.y
@@ -48,7 +48,7 @@ def turns_resolved(problem: Shooting, traced: Family) -> Family:
 
 
 def _as_far_as_found(problem: Shooting, current: Family, theta: Array) -> Family:
-    """Members added outwards from the centre; where one is not found the family ends."""
+    """Add members outwards from the centre; the family is cut off where one is not found."""
     for angle in theta[np.argsort(np.abs(theta - current.centre))]:
         if not current.theta[0] < angle < current.theta[-1]:
             continue
@@ -61,7 +61,7 @@ def _as_far_as_found(problem: Shooting, current: Family, theta: Array) -> Family
 
 
 def crossings(current: Family, at: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Where y1, as a cubic through neighbours, vanishes after members `at`, and the unknowns there."""
+    """Zeros of y1, interpolated by cubics, just after the members `at`, and the unknowns there."""
     low, high = current.theta[at], current.theta[at + 1]
     rising = np.sign(current.y[at + 1] - current.y[at])
     for _ in range(40):

@@ -37,9 +37,9 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
 
 POLISHED = 1e-11
-"""Residual of an extremal in the problem's own units."""
+"""Largest residual of an extremal, in the problem's own units."""
 SLACK = 1e-6
-"""How far beyond its bracket a root may lie: members, and their signs, are not polished."""
+"""Distance by which a root may lie outside its bracket, since members, and so signs of y1, are inexact."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def extremals(
     reference : ReferenceExtremal
         The averaged extremal of one problem.
     epsilon, phase : float
-        Positive; psi_0.
+        epsilon > 0, and psi_0.
     start, end : float
         Anomaly at the start, and at the end of the averaged extremal.
     to_phase : callable
@@ -82,7 +82,7 @@ def extremals(
     Raises
     ------
     NotConverged
-        If no extremal is found; at a large epsilon the averaged one may be too far from any.
+        If no extremal is found; at a large epsilon the averaged one may be too far from all of them.
     """
     problem = shooting(reference, epsilon, start)
     guess = np.concatenate([reference.costate([0.0])[0], np.atleast_1d(reference.multipliers)])
@@ -150,7 +150,7 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
 
 
 def _sign_changes(current: Family) -> NDArray[np.intp]:
-    """Members after which y1 changes sign; a root at a member lies before it."""
+    """Members after which y1 changes sign; zero counts as positive."""
     positive = current.y >= 0
     return np.asarray(np.nonzero(positive[:-1] != positive[1:])[0], dtype=np.intp)
 
@@ -160,7 +160,7 @@ def _polished(
 ) -> tuple[Roots, NDArray[np.bool_]]:
     """Newton's method for w and theta together from k guesses, each Jacobian used up to four times.
 
-    Returns the roots found, and which of the guesses led to one.
+    Returns the roots found, and which of the guesses (k,) converged.
     """
     n, size = w.shape[1], float(np.ptp(y))
     theta, w = theta.copy(), w.copy()

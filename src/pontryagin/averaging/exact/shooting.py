@@ -36,18 +36,18 @@ Selection = int | slice | NDArray[np.intp] | NDArray[np.bool_] | list[int]
 
 @dataclass(frozen=True)
 class Shot:
-    """Where k guesses lead.
+    """The extremals that start from k guesses, at their ends.
 
     Attributes
     ----------
     theta, unknowns, initial : (k,), (k, n + r), (k,) array
         Anomaly at the end, (p0, alpha), and y0.
     residual : (k, n + r) array
-        What is missing, scaled.
+        Scaled errors of the conditions at the end.
     y, hamiltonian, duration, cost : (k,) array
         p_x/epsilon, h* = -y r, slow time and J at the end.
     ends : (k, 2n + 3) array
-        States there.
+        States at the end.
     """
 
     theta: Array
@@ -125,13 +125,13 @@ class Shooting:
     price: float
 
     def shoot(self, theta: Array, w: Array) -> Shot:
-        """Follow the extremals that leave with p0 to the anomalies theta."""
+        """Follow the extremals with the initial costates p0 to the anomalies theta."""
         starts = self.starts(w)
         reached, _ = _carry(self.equations, False)(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> tuple[Shot, Slopes]:
-        """The same with derivatives, by the variational equations."""
+        """The results of `shoot` with their derivatives, by the variational equations."""
         n = len(self.start)
         starts = self.starts(w)
         reached, through = _carry(self.equations, True)(starts, self.anomaly, theta, self.parameters)
@@ -157,7 +157,7 @@ class Shooting:
         )
 
     def starts(self, w: Array) -> Array:
-        """Initial states (k, 2n + 3): y0 from H = 0 by Newton, starting where F is left out."""
+        """Initial states (k, 2n + 3): y0 from H = 0 by Newton's method from y0 = 0."""
         n, count = len(self.start), len(w)
         p = w[:, :n]
         y0 = np.zeros(count)
@@ -173,7 +173,7 @@ class Shooting:
         return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
 
     def carry(self, starts: Array, begin: float, end: float) -> Array:
-        """States (k, 2n + 3) carried from one anomaly to another, backwards too."""
+        """States (k, 2n + 3) carried from one anomaly to another, forwards or backwards."""
         return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
 
     def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
@@ -200,7 +200,7 @@ class Shooting:
 
 
 def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Shooting:
-    """The exact problem whose first approximation is given, from an anomaly on."""
+    """The exact problem that starts at an anomaly and has a given first approximation."""
     equations = canonical(reference.system)
     numbers = [float(number) for number in reference.numbers]
     grid = np.linspace(0.0, 1.0, 33) * reference.duration

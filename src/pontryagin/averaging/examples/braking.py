@@ -16,14 +16,14 @@ from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive, vectors
 
 STOPPED = 1e-6
-"""Share of the first transverse rate at which the body counts as stopped; at 0 the synthesis is undefined."""
+"""The body counts as stopped at this share of its first transverse rate; at 0 no synthesis is defined."""
 PER_TURN, FEWEST = 96, 400
-"""Samples of a turn, and least number of samples."""
+"""Number of samples per turn, and least number of samples in all."""
 
 
 @dataclass(frozen=True)
 class Braking:
-    """A flight at slow times (k,).
+    """The motion of a body under the synthesis, at slow times (k,).
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Braking:
     rates : (k, 3) array
         Angular velocity in the principal axes.
     control : (k, 3) array
-        u, torques over moments of inertia.
+        u, the torques divided by the moments of inertia.
     """
 
     tau: Array
@@ -45,20 +45,20 @@ class Braking:
 
 
 def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) -> Braking:
-    """Fly Euler's equations (3.10) under the synthesis until the precession has stopped.
+    """Integrate Euler's equations (3.10) under the synthesis until the precession has stopped.
 
     Parameters
     ----------
     omega0, semiaxes, ratio
-        As in `spin_down`, of one problem.
+        As in `spin_down`, for one problem.
     epsilon : float
         Positive.
 
     Raises
     ------
     ValueError
-        If an argument is not finite, wrongly shaped, or not positive where it has to be, or there is nothing
-        to brake.
+        If an argument is not finite, wrongly shaped, or not positive where it has to be, or the body has no
+        precession at the start.
     NotConverged
         If the body does not stop.
 
@@ -84,7 +84,7 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
 
 
 def fly(start: Array, semiaxes: Array, ratio: float, epsilon: float) -> tuple[OdeSolution, float]:
-    """omega under the synthesis as a function of time, (k,) to (3, k), and the time at which it stops.
+    """omega under the synthesis as a function of time, (k,) to (3, k), and the time when the body stops.
 
     Raises
     ------

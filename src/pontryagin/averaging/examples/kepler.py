@@ -1,4 +1,4 @@
-"""Example 2, (3.3) to (3.9): the energy of an orbit is changed by small thrust."""
+"""Example 2, (3.3) to (3.9): the energy of a Kepler orbit is changed by small thrust."""
 
 from functools import partial
 
@@ -12,24 +12,24 @@ from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, positive
 
 ROUND = 1e-6
-"""Orbits with this or a smaller eccentricity count as round: the phase has no pericentre to start from."""
+"""Orbits with at most this eccentricity count as round, without a pericentre as the phase's origin."""
 
 
 def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> AveragedSolution:
     """Bring the energy of a Kepler orbit from E0 to E1 at the least cost l tau_1 + integral of u^2, (3.7).
 
-    Units in which the attracting centre has the parameter 1. The phase is the mean anomaly, the anomaly x the
-    eccentric one.
+    The gravitational parameter of the attracting centre is 1. The phase is the mean anomaly, and the anomaly
+    x is the eccentric one.
 
     Parameters
     ----------
     E0, E1 : (...) array
         Energies, negative.
     K0 : (...) array
-        Angular momentum at the start, with 0 < e0 = sqrt(1 + 2 E0 K0^2) < 1. The approximation asks for
-        epsilon small beside e0, too: on nearly round orbits the pericentre is not slow.
+        Angular momentum at the start, with 0 < e0 = sqrt(1 + 2 E0 K0^2) < 1. The approximation also
+        requires epsilon to be small compared with e0: a nearly round orbit's pericentre does not move slowly.
     l : (...) array
-        Positive price of slow time.
+        Price of a unit of slow time, positive.
 
     Returns
     -------

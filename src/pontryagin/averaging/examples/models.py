@@ -1,4 +1,4 @@
-"""The generated examples: compiled averages without SymPy, and their phase systems with it."""
+"""The generated examples: averages that load without SymPy, and phase systems that need it."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import fields

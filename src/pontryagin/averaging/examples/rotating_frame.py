@@ -22,7 +22,7 @@ from pontryagin.value import value_class
 
 SENSE = sp.Symbol("sense", real=True)
 AT_REST = 1e-9
-"""Share of the first transverse rate below which the body counts as at rest."""
+"""The body counts as at rest below this share of its first transverse rate."""
 
 
 @value_class
@@ -36,12 +36,12 @@ class RotatingFrame:
 
     @property
     def duration(self) -> Array:
-        """The solution's own tau_1."""
+        """tau_1 of the averaged solution."""
         return self.averaged.duration
 
     @property
     def cost(self) -> Array:
-        """J_0."""
+        """J_0 of the averaged solution."""
         return self.averaged.cost
 
     @property
@@ -65,7 +65,7 @@ class RotatingFrame:
     def to_slow_variables(self, states: Array, control: Array) -> Array:
         """States (z, c, p, y, tau, J, chi) (k, 10) as (a, c, p_a, p_c, y, tau, J, psi) (k, 8).
 
-        At rest, psi is the direction that (w_x, w_y) comes from, opposite to the control.
+        At rest, psi is the direction from which (w_x, w_y) arrives, opposite to the control.
         """
         z, zeta, chi = states[:, :2], states[:, 3:5], states[:, -1]
         sense, a = float(self.averaged.numbers[-1]), np.hypot(*z.T)

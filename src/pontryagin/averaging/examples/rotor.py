@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
 POINTS = 1440
-"""Points of a turn at which the potential's maximum and the mass's minimum are sought."""
+"""Number of points of a turn at which the potential's maximum and the mass's minimum are sought."""
 
 
 def rotor(
@@ -36,12 +36,12 @@ def rotor(
     mass, potential : sympy.Expr or number
         m > 0 and V, 2 pi-periodic in the symbol ``x``.
     force : sympy.Expr or number
-        f, 2 pi-periodic in ``x``; it may hold the rate x' > 0 as the symbol ``v``. Symbols are taken by
-        name, whatever they are assumed to be.
+        f, 2 pi-periodic in ``x``; it may hold the rate x' > 0 as the symbol ``v``. Symbols are identified
+        by their names, whatever their assumptions.
     peak : (...) array
-        Least time with |u| <= peak; or
+        Bound on |u|, for the least time. Exactly one of peak and k must be given.
     k : (...) array
-        least k tau_1 + integral of u^2. Exactly one of the two.
+        Price of slow time, for the least k tau_1 + integral of u^2.
 
     Returns
     -------

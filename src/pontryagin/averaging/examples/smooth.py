@@ -20,9 +20,9 @@ def smooth_example(
     v0, v1 : (...) array
         Positive speeds.
     k : (...) array
-        Positive price of slow time.
+        Price of a unit of slow time, positive.
     ripple : (...) array
-        Amplitude of a force of mean zero; the paper has none. It does not change the first approximation.
+        Amplitude of a force of mean zero, 0 in the paper. It does not change the first approximation.
 
     Returns
     -------

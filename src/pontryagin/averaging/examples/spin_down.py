@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> AveragedSolution:
-    """Bring w_x and w_y to rest in the least time, the control within an ellipsoid, w_z being left as it may.
+    """Bring w_x and w_y to zero in the least time, with the control in an ellipsoid and w_z free at the end.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
         In the slow variables (a, c), a = |(w_x, w_y)| and c = w_z: duration and cost a_0 / <R>. The phase is
         the angle of (w_x, w_y), counted in the sense in which it turns, that of (d - 1) c; `initial_phase`
         is that of omega0. The exact extremals of `exact` are found in a frame that turns with the free body,
-        where the target is regular (`rotating_frame`), and handed out in a, c and psi.
+        where the target is regular (`rotating_frame`), and given in a, c and psi.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""The flight in the plane along an extremal of example 2: place, thrust and osculating ellipse.
+"""Motion in the plane along an extremal of example 2: position, thrust and osculating ellipse.
 
-Energy, angular momentum and the anomaly give the place on the osculating ellipse. The ellipse's orientation,
-the angle gamma of its pericentre, is integrated here. Fixed axes through the attracting centre, the
-first through the pericentre at the start.
+Energy, angular momentum and the anomaly give the position on the osculating ellipse. The ellipse's
+orientation, the angle gamma of its pericentre, is integrated here. The fixed axes pass through the attracting
+centre, the first of them through the pericentre at the start.
 """
 
 from collections.abc import Callable
@@ -19,9 +19,9 @@ from pontryagin.averaging.exact.extremal import Extremal
 from pontryagin.numerics import compile as compiler
 
 PER_TURN = 80
-"""Samples of a turn."""
+"""Number of samples per turn."""
 FINER = 4
-"""Steps of the quadrature for gamma between two samples."""
+"""Number of steps of the quadrature for gamma between two samples."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +36,11 @@ class SpiralFlight:
     pericentre : (k,) array
         gamma, rad; 0 at the start.
     anomaly : (k,) array
-        True anomaly in a turn.
+        True anomaly within a turn.
     control : (k, 2) array
         u_r, u_phi.
     place, thrust : (k, 2) array
-        In fixed axes; `thrust` is the control turned into them.
+        Position, and the control turned into the same fixed axes.
     """
 
     tau: Array

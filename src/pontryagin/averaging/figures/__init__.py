@@ -1,4 +1,4 @@
-"""Figures and tables of Akulenko 1977: from a solution to a picture."""
+"""Figures and tables of Akulenko 1977, made from solutions."""
 
 from pontryagin.averaging.figures import tables
 from pontryagin.averaging.figures.drift import drift

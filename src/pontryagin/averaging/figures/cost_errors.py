@@ -1,4 +1,4 @@
-"""How fast the errors of the cost fall with epsilon: averaged, with the end terms, with all of J1."""
+"""Errors of the cost against epsilon: averaged, corrected by the end terms of J1, and by all of J1."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -32,13 +32,13 @@ class CostErrors:
     exact : (k,) array
         Least cost of the exact extremals.
     between : (k,) array
-        The least cost of the parabola through the best minimum and its neighbours over the ending anomaly:
-        what the best would cost if the phase at the end did not come in whole turns.
+        Least value of the parabola through the best minimum and its neighbours over the ending anomaly: the
+        best cost if the phase at the end were not restricted to whole turns.
     first : float
         J0.
     terms : dict
-        The terms of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 varies with
-        the anomaly that the exact optimum ends at.
+        The terms of J1, by `AveragedSolution.correction_terms`: numbers, or (k,) arrays where J1 depends on
+        the anomaly at which the exact optimum ends.
     """
 
     name: str
@@ -60,7 +60,7 @@ class CostErrors:
 
     @property
     def ends(self) -> Array:
-        """What is left when J1 is taken for its end terms alone, (k,)."""
+        """The error that is left when only the end terms of J1 are used, (k,)."""
         return np.abs(self.between - self.first - self.epsilon * (self.terms["start"] + self.terms["end"]))
 
     @property
@@ -74,7 +74,7 @@ class CostErrors:
 
 
 def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]:
-    """The problems compared, each with its phase at the start; None for its own."""
+    """The problems compared, each with its phase at the start, or None for the solution's own."""
     uneven = 1 + sp.cos(X) / 5
     return {
         "rippled flywheel": (lambda: smooth_example(1, 2, k=1.0, ripple=0.5), 0.0),
@@ -87,7 +87,7 @@ def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]
 
 @cache
 def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
-    """Solve one of `problems` exactly at each epsilon and compare.
+    """Solve one of `problems` exactly at each epsilon, and find the errors of its approximate costs.
 
     Raises
     ------
@@ -106,12 +106,12 @@ def measured(
     phase: float | None = None,
     name: str = "",
 ) -> CostErrors:
-    """Solve a problem exactly at each epsilon and compare.
+    """Solve a problem exactly at each epsilon, and find the errors of its approximate costs.
 
     Parameters
     ----------
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     epsilons : sequence of float
         Positive; at least two for slopes.
     phase : float, optional
@@ -140,7 +140,7 @@ def measured(
 def least_between(found: Sequence[Extremal]) -> float:
     """Vertex of the parabola through the best minimum and the minima a turn before and after it.
 
-    The best minimum itself where it has no such neighbours.
+    It is the cost of the best minimum itself where one of these neighbours is missing.
     """
     minima = sorted((one for one in found if one.kind == "minimum"), key=lambda one: one.ending_anomaly)
     costs = [one.cost for one in minima]

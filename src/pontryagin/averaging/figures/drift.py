@@ -1,4 +1,4 @@
-"""Averaged and exact extremal of one problem against slow time."""
+"""Averaged and exact extremals of one problem against slow time."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,14 +22,14 @@ TURN = np.linspace(0.0, 2 * np.pi, 121)
 
 @styled
 def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
-    """Slow variables and control: averaged, with what the control takes in a turn, and exact if given.
+    """Slow variables and control: averaged, with the control's range over a turn, and exact if given.
 
     Parameters
     ----------
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     exact : Extremal, optional
-        One of those that its `exact` found.
+        One of the extremals that its `exact` found.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""One extremal beside the averaged solution: slow variables, costates, control."""
+"""One exact extremal beside the averaged solution: slow variables, costates, control."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -20,9 +20,9 @@ def extremal_figure(solution: AveragedSolution, extremal: Extremal) -> Figure:
     Parameters
     ----------
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     extremal : Extremal
-        Of the same problem.
+        An exact extremal of the same problem.
     """
     names = solution.names
     figure, axes = subplots(2 * len(names) + 1, sharex=True, height=0.6 + 1.15 * (2 * len(names) + 1))

@@ -1,4 +1,4 @@
-"""Words and colours that the figures of this paper share."""
+"""Labels and colours that the figures of this paper share."""
 
 from pontryagin.display.plotting import (
     BLUE,

@@ -27,9 +27,9 @@ def landscape(solution: AveragedSolution, epsilons: Sequence[float]) -> Figure:
     Parameters
     ----------
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     epsilons : sequence of float
-        A panel each.
+        Values of epsilon; each has its own panel.
     """
     figure, axes = subplots(len(epsilons), sharex=True, height=1.0 + 1.7 * len(epsilons))
     for ax, epsilon in zip(np.atleast_1d(axes), epsilons, strict=True):
@@ -85,7 +85,7 @@ def averaged_family(solution: AveragedSolution, low: float, high: float) -> tupl
 
 
 def _reached(solution: AveragedSolution, kappa: float, halvings: int = 20) -> float:
-    """kappa, or how far from zero towards it the averaged family exists."""
+    """kappa, or the last value on the way to it from zero at which the averaged family exists."""
     inside, outside = 0.0, kappa
     if _member(solution, kappa) is not None:
         return kappa
@@ -96,7 +96,7 @@ def _reached(solution: AveragedSolution, kappa: float, halvings: int = 20) -> fl
 
 
 def _member(solution: AveragedSolution, kappa: float) -> AveragedSolution | None:
-    """One of the family; None beyond the kappa at which the frequency's price exceeds the cost's rate."""
+    """A member of the family; None where kappa omega exceeds the mean running cost."""
     try:
         return solve_averaged(solution.system, solution.start, kappa=kappa)
     except (ValueError, NotConverged, Infeasible):

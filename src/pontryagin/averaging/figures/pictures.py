@@ -1,7 +1,7 @@
 """Figures 1 and 2 of the paper: the end condition and the cost against the end time.
 
-The paper gives no system for its two figures. Here they are those of the smooth example with a ripple,
-whose phase and speed are one: h* at the end is -y v1, and the averaged family has a closed end.
+The paper gives no system for its two figures. Here they are those of the smooth example with a ripple, whose
+frequency is its speed: h* at the end is -y v1, and its mean over the phase is known in closed form.
 """
 
 from collections.abc import Sequence
@@ -34,9 +34,9 @@ def end_condition(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25
     Parameters
     ----------
     epsilons : sequence of float
-        A panel each.
+        Values of epsilon; each has its own panel.
     around : float
-        How far the end time reaches on either side of the averaged optimum, in slow time.
+        Range of the end time on either side of the averaged optimum, in slow time.
     """
     figure, axes = subplots(len(epsilons), sharex=True, height=4.4)
     for ax, epsilon in zip(axes, epsilons, strict=True):

@@ -54,7 +54,7 @@ def cost_convergence(
     name: str = "rippled flywheel",
     epsilons: tuple[float, ...] = (0.1, 0.07, 0.05, 0.035, 0.02, 0.014, 0.01, 0.005, 0.002),
 ) -> Figure:
-    """The least exact cost of one of `cost_errors.problems` against epsilon, over the averaged and corrected.
+    """Least exact cost of one of `cost_errors.problems` against epsilon, with averaged and corrected costs.
 
     Parameters
     ----------

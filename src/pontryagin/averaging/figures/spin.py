@@ -1,4 +1,4 @@
-"""Example 3: the precession dies away, and where the control runs in its ellipse."""
+"""Example 3: the decay of the precession, and the path of the control in its ellipse."""
 
 from typing import Any
 

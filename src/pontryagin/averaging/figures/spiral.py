@@ -1,4 +1,4 @@
-"""Example 2: the spiral of small thrust, and how its elements oscillate about their means."""
+"""Example 2: the spiral of small thrust, and the oscillation of its elements about their means."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -24,7 +24,7 @@ def spiral(solution: AveragedSolution, extremal: Extremal) -> Figure:
     Parameters
     ----------
     solution : AveragedSolution
-        Of `kepler`.
+        A solution of `kepler`.
     extremal : Extremal
         One of its exact extremals.
     """

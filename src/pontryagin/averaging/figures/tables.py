@@ -1,4 +1,4 @@
-"""Tables of this paper: columns for `plotting.show_table`."""
+"""Tables of this paper, as columns for `plotting.show_table`."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -50,7 +50,7 @@ def rotors(a0: float = 3.0, a1: float = 6.0) -> Columns:
 
 
 def closed_forms() -> Columns:
-    """Durations by the engine beside those of the closed forms."""
+    """Durations computed numerically, beside those of the closed forms."""
     rows: list[tuple[str, AveragedSolution, float]] = [
         ("smooth, from 1 to 2", smooth_example(1, 2, k=1), 1.0),
         ("smooth, from 3 to 1, $k = \\frac14$", smooth_example(3, 1, k=0.25), 4.0),
@@ -94,7 +94,7 @@ def root_counts(epsilons: Sequence[float]) -> Columns:
 
 
 def extremals(found: Extremals, count: int) -> Columns:
-    """The cheapest extremals of one problem, and how many there are in all."""
+    """The cheapest extremals of one problem, numbered among all that were found."""
     some = found[:count]
     return {
         "": [f"{i + 1} of {len(found)}" for i in range(len(some))],
@@ -107,7 +107,7 @@ def extremals(found: Extremals, count: int) -> Columns:
 
 
 def slopes() -> Columns:
-    """J0, the parts of J1, and the slopes of the errors of the problems of `slopes.problems`."""
+    """J0, the parts of J1, and the slopes of the errors for the problems of `cost_errors.problems`."""
     rows = [cost_errors.errors(name) for name in cost_errors.problems()]
     return {
         "problem": [row.name for row in rows],
@@ -124,7 +124,7 @@ def slopes() -> Columns:
 
 
 def answers(solution: AveragedSolution, epsilon: float, phase: float = 0.0) -> Columns:
-    """One problem averaged, corrected and exact."""
+    """Costs, durations and residuals of one problem: averaged, corrected and exact."""
     found = solution.exact(epsilon, phase)
     corrected = float(solution.cost) + epsilon * float(solution.correction(phase))
     return {
@@ -140,7 +140,7 @@ def answers(solution: AveragedSolution, epsilon: float, phase: float = 0.0) -> C
 
 
 def _fall(a0: float, a1: float) -> float:
-    """Least time of the pendulum: the integral of da/omega, omega by an elliptic integral's quadrature."""
+    """Least time of the pendulum: the integral of da/omega, 1/omega being an elliptic integral."""
 
     def turn(a: float) -> float:
         return quad(lambda x: 1 / np.sqrt(2 * (a - np.cos(x))), 0, 2 * np.pi, epsabs=1e-13)[0] / (2 * np.pi)

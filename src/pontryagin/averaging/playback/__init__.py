@@ -1,4 +1,4 @@
-"""Recordings of Akulenko 1977 that play back: an averaged extremal beside an exact one."""
+"""Animated recordings of Akulenko 1977: an averaged extremal beside an exact one."""
 
 from pontryagin.averaging.playback.catalogue import (
     low_thrust_spiral,

@@ -2,7 +2,7 @@
 
 Rates and controls are in the principal axes of the body; attitudes are unit quaternions, scalar first, that
 turn body axes into inertial ones, of which the third is along the angular momentum at the start. Moments of
-inertia are over I_x: (1, 1, d).
+inertia are relative to I_x: (1, 1, d).
 """
 
 from collections.abc import Callable
@@ -26,7 +26,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 
 PER_TURN, FEWEST = 70, 400
-"""Samples of a turn of the body, and least number of samples."""
+"""Number of samples per turn of the body, and least number of samples in all."""
 GAUSS = np.array([-1.0, 1.0]) / (2 * 3**0.5) + 0.5
 """Nodes of Gauss's rule with two points on the interval from 0 to 1."""
 
@@ -46,7 +46,7 @@ class BodyMotion:
     moments : (3,) array
         (1, 1, d).
     semiaxes : (3,) array
-        Of the control's ellipsoid.
+        Semiaxes of the control's ellipsoid.
     """
 
     t: Array
@@ -62,7 +62,7 @@ class BodyMotion:
 
     @property
     def angular_momentum(self) -> Array:
-        """In inertial axes, (k, 3)."""
+        """The angular momentum in inertial axes, (k, 3)."""
         return self.in_space(self.moments * self.rate)
 
     @property
@@ -72,7 +72,7 @@ class BodyMotion:
 
 
 def synthesised_motion(pair: Pair) -> BodyMotion:
-    """The motion under the averaged optimum as a synthesis, the control a function of omega alone.
+    """The motion under the averaged optimum as a synthesis, in which the control is a function of omega.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def _times(last: float, rate: Array) -> Array:
 
 
 def _first_rate(pair: Pair) -> Array:
-    """omega at the start, from a, c and psi, the latter in the sense in which it turns."""
+    """omega at the start, from a, c and psi, which is counted in the sense in which it turns."""
     (a, c), psi, sense = pair.averaged.start, pair.averaged.initial_phase, pair.averaged.numbers[-1]
     return np.array([a * np.cos(psi), sense * a * np.sin(psi), c])
 
@@ -125,7 +125,7 @@ def _motion(t: Array, dense: OdeSolution, control: Array, semiaxes: Array, d: fl
 
 
 def _attitudes(t: Array, dense: OdeSolution, first: Rotation) -> Array:
-    """Attitudes (k, 4) at times (k,) by Magnus' method of fourth order, two rates a step."""
+    """Attitudes (k, 4) at times (k,) by Magnus' method of fourth order, with two rates per step."""
     step = np.diff(t)
     w = dense((t[:-1, None] + step[:, None] * GAUSS).ravel()).T.reshape(-1, 2, 3)
     mean = step[:, None] * w.sum(axis=1) / 2

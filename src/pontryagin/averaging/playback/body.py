@@ -1,4 +1,4 @@
-"""Example 3 as a recording: two bodies in space, the averaged optimum as a synthesis beside the exact one."""
+"""Example 3 as a recording: a body under the averaged synthesis beside one under the exact optimum."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from pontryagin.display.recording import (
 )
 
 LONG = 1.5
-"""Length of the axis and of the angular momentum as drawn; the body is scaled to it."""
+"""Length at which the axis and the angular momentum are drawn."""
 COMPONENTS = ("x", "y", "z")
 
 

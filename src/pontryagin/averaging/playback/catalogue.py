@@ -1,6 +1,6 @@
-"""The recordings by name: a low-thrust spiral, a body freed of its precession, or any one problem.
+"""The recordings of this paper: a low-thrust spiral, a body freed of its precession, any single problem.
 
-`recordings` names them, each with the function that writes it; `record_solution` records any one problem.
+`recordings` names them, each with the function that writes it; `record_solution` records one problem.
 Times are t = tau/epsilon, dimensionless, shown as seconds.
 """
 
@@ -27,9 +27,9 @@ def low_thrust_spiral(path: Path) -> None:
 
     A spacecraft raises the energy E of its orbit by weak thrust, at the least price of time and thrust.
     Blue: the exact optimum, on the ellipse it would keep if the thrust stopped; black: its path. Orange: the
-    averaged optimum, which does not know where on its ellipse the spacecraft is. Grey: first and last
-    ellipse. The costate of the anomaly swings about zero and vanishes at the end: no neighbouring place of
-    arrival costs less.
+    averaged optimum, which does not depend on where on its ellipse the spacecraft is. Grey: first and last
+    ellipse. The costate of the anomaly oscillates about zero and vanishes at the end: no neighbouring place
+    of arrival costs less.
     """
     solution = kepler(E0=-0.5, K0=0.95, E1=-0.2, l=0.1)
     record_solution(solution, solution.exact(0.01)[0], path)
@@ -40,7 +40,7 @@ def precession_removed(path: Path) -> None:
 
     Two equal bodies in inertial space. A weak torque takes away the angular velocity across the body's axis
     in the least time; without it the axis would circle the angular momentum for ever. Left, above: the
-    averaged optimum as a law of control; below: the exact optimum. Middle: both controls in body axes, on the
+    averaged optimum as a feedback law; below: the exact optimum. Middle: both controls in body axes, on the
     ellipsoid that bounds them.
     """
     solution = spin_down(omega0=[1.0, 0.2, 2.0], semiaxes=[1.0, 0.5, 0.7], ratio=0.5)
@@ -53,9 +53,9 @@ def record_solution(solution: AveragedSolution, exact: Extremal, path: Path) -> 
     Parameters
     ----------
     solution : AveragedSolution
-        Of one problem.
+        The averaged solution of one problem.
     exact : Extremal
-        One of those that its `exact` found.
+        One of the extremals that its `exact` found.
     path : Path
         File to write, ending in ``.rrd``.
 

@@ -1,4 +1,4 @@
-"""Example 2 as a recording: the spacecraft on its osculating ellipse, its thrust, what it has spent."""
+"""Example 2 as a recording: the spacecraft on its osculating ellipse, its thrust, its cost so far."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from pontryagin.display.recording import (
 )
 
 POINTS = 97
-"""Points of an ellipse as drawn."""
+"""Number of points with which an ellipse is drawn."""
 WORDS = {"E": "energy E", "K": "angular momentum K"}
 
 

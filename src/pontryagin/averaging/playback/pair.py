@@ -1,4 +1,4 @@
-"""An averaged extremal and an exact one, and the plots of both against time that all recordings share.
+"""An averaged and an exact extremal, with the plots of both against time that all recordings share.
 
 Time is t = tau/epsilon. The averaged extremal is orange, the exact one blue.
 """
@@ -28,7 +28,7 @@ from pontryagin.errors import ArgumentValueError
 
 AVERAGED, EXACT = ORANGE, BLUE
 SECONDS = 40.0
-"""Duration of a replay."""
+"""Duration of a replay in seconds."""
 AVERAGED_SAMPLES = 201
 """Number of samples of the averaged extremal."""
 
@@ -60,12 +60,12 @@ class Pair:
 
     @property
     def last(self) -> float:
-        """The later of both arrivals, in t."""
+        """Time t of the later of the two arrivals."""
         return max(self.exact.duration, float(self.averaged.duration)) / self.epsilon
 
     @property
     def speed(self) -> float:
-        """Units of t a second, for a replay of `SECONDS`."""
+        """Units of t per second, so that a replay lasts `SECONDS`."""
         return self.last / SECONDS
 
     @cached_property
@@ -74,7 +74,7 @@ class Pair:
         return np.linspace(0.0, float(self.averaged.duration), AVERAGED_SAMPLES)
 
     def averaged_cost(self) -> Array:
-        """Integral of the mean running cost over `grid`: its rate is eta d xi/d tau, for h0 vanishes."""
+        """Integral of the mean running cost over `grid`: its rate is eta d xi/d tau, since h0 = 0."""
         solution = self.averaged
         rate = (solution.costate(self.grid) * solution.mean_rate(self.grid)).sum(axis=-1)
         return CubicSpline(self.grid, rate).antiderivative()(self.grid)
@@ -86,7 +86,7 @@ def panel(title: str, entity: str, legend: str = "LeftTop") -> Plot:
 
 
 def slow_plots(pair: Pair, words: Mapping[str, str]) -> tuple[list[View], list[View]]:
-    """Two columns: the slow variables and their differences; the cost and the anomaly's costate."""
+    """Two columns of plots: slow variables and their differences; the cost and the anomaly's costate."""
     slow = [panel(words[name], f"slow-{name}") for name in pair.averaged.names]
     return [*slow, panel("exact less averaged, over epsilon", "difference")], [
         panel("cost so far", "cost"),
@@ -95,7 +95,7 @@ def slow_plots(pair: Pair, words: Mapping[str, str]) -> tuple[list[View], list[V
 
 
 def slow_curves(recording: Recording, pair: Pair, tau: Array) -> None:
-    """The curves of `slow_plots`, the exact ones at slow times (k,)."""
+    """Record the curves of `slow_plots`, the exact ones at slow times (k,)."""
     averaged, exact = pair.averaged.slow(pair.grid), pair.exact.slow(tau)
     both = tau[tau <= float(pair.averaged.duration)]
     differences = (exact[: len(both)] - pair.averaged.slow(both)) / pair.epsilon
@@ -110,7 +110,7 @@ def slow_curves(recording: Recording, pair: Pair, tau: Array) -> None:
 
 
 def arrivals(recording: Recording, pair: Pair) -> None:
-    """When the averaged and the exact extremal arrive, and at what cost, as events."""
+    """Record the arrivals of the averaged and the exact extremal, with their costs, as events."""
     arrived = {
         "averaged": (float(pair.averaged.duration), float(pair.averaged.cost)),
         f"exact {pair.exact.kind}": (pair.exact.duration, pair.exact.cost),

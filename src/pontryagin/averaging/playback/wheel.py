@@ -14,7 +14,7 @@ from pontryagin.display.recording import (
 )
 
 PER_TURN = 60
-"""Samples of a turn."""
+"""Number of samples per turn."""
 EYE = ((0.6, -1.4, 2.2), (0.0, 0.0, 0.0))
 WORDS = {"v": "speed v", "a": "energy a"}
 

@@ -1,1 +1,1 @@
-"""Phase systems: equations of motion, control sets, and the averaged Hamiltonian h0 made from them."""
+"""Phase systems: equations of motion, control sets, and the averaged Hamiltonian h0 computed from them."""

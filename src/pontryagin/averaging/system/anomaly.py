@@ -1,4 +1,4 @@
-"""Phase and anomaly from each other: psi(x) is the integral of the weight dpsi/dx from zero."""
+"""Conversion between phase and anomaly: psi(x) is the integral of the weight dpsi/dx from zero to x."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from pontryagin.averaging.system.model import Model
 from pontryagin.errors import NotConverged
 
 FIRST, LAST = 64, 2**14
-"""Numbers of points of a turn at which the weight is sampled, at first and at most."""
+"""First and largest number of points on a turn at which the weight is sampled."""
 
 
 def phase_at(model: Model, slow: Array, anomaly: Array, numbers: tuple[Array, ...]) -> Array:
@@ -19,7 +19,7 @@ def phase_at(model: Model, slow: Array, anomaly: Array, numbers: tuple[Array, ..
 
 
 def anomaly_at(model: Model, slow: Array, phase: Array, numbers: tuple[Array, ...]) -> Array:
-    """x (...) of the phase (...) at slow variables (..., n): Newton's method on a rising function."""
+    """x (...) of the phase (...) at slow variables (..., n): Newton's method with bisection."""
     series = _weight_series(model, slow, numbers)
     phase = np.broadcast_to(phase, series.shape[:-1])
     half_turn = np.abs(_phase(series, np.full(phase.shape, np.pi)) - np.pi) + np.pi
@@ -37,7 +37,7 @@ def anomaly_at(model: Model, slow: Array, phase: Array, numbers: tuple[Array, ..
 
 
 def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> NDArray[np.complex128]:
-    """Complex Fourier coefficients (..., 1 + harmonics) of dpsi/dx, the mean being one."""
+    """Complex Fourier coefficients (..., 1 + harmonics) of dpsi/dx, scaled to mean one."""
     a = np.moveaxis(slow[..., None, :], -1, 0)
     values = tuple(number[..., None] for number in numbers)
     size = FIRST

@@ -47,7 +47,7 @@ def _moment(i: int, j: int) -> sp.Rational:
 
 
 def averages(system: StandardForm) -> tuple[sp.Expr, sp.Expr] | None:
-    """h0 and omega in closed form, (2.3); None where none is found, and quadrature takes its place."""
+    """h0 and omega in closed form, (2.3), or None where none is found and quadrature has to be used."""
     h = system.hamiltonian.subs(system.phase_costate, 0)
     if system.omega is not None:
         mean = closed_mean(sp.expand_mul(h * system.weight), system.phase)

@@ -15,7 +15,7 @@ from pontryagin.validation import common_shape, finite
 
 
 def checked(system: StandardForm) -> dict[str, object]:
-    """The fields of a system as SymPy expressions and arrays, or the error that names one of them."""
+    """The fields of a system as SymPy expressions and arrays; an invalid field raises an error naming it."""
     slow = _symbols("slow", system.slow)
     control = _symbols("control", system.control)
     (phase,) = _symbols("phase", [system.phase])
@@ -177,7 +177,7 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
 def require_periodic(name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Numbers) -> None:
     """Raise ValueError unless an expression is 2 pi-periodic in the anomaly `phase`.
 
-    SymPy decides by the expression's form where it can; else values at random points are compared.
+    SymPy decides by the expression's form where it can; otherwise values at random points are compared.
     """
     change = expression.subs(phase, phase + 2 * sp.pi) - expression
     if change == 0:

@@ -14,7 +14,7 @@ Numbers = Mapping[sp.Symbol, Array]
 
 
 def refusal(message: str) -> ArgumentValueError:
-    """The error that refuses a control set."""
+    """The error to raise for an invalid control set."""
     return ArgumentValueError(message, "control_set")
 
 

@@ -1,4 +1,4 @@
-"""Convex sets of controls, each by sigma(s), the maximum over its controls u of s'u less the cost of u."""
+"""Convex sets of controls, each given by sigma(s) = max over its controls u of (s'u - cost of u)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class ControlSet(Protocol):
         """sigma(s), convex in s."""
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
-        """The control (m, 1) that attains it: the gradient of sigma."""
+        """The control (m, 1) that attains sigma(s): the gradient of sigma."""
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """The cost of the control per unit of slow time."""
@@ -213,7 +213,7 @@ class BoundedQuadratic:
     weight: Number = 1
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
-        """|s|^2 / (4 weight) while the free maximum lies inside, radius |s| - weight radius^2 beyond."""
+        """|s|^2 / (4 weight) if the unbounded maximum is in the ball, else radius |s| - weight radius^2."""
         radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
         squares = sp.Add(*(part**2 for part in s))
         return sp.Piecewise(
@@ -222,7 +222,7 @@ class BoundedQuadratic:
         )
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
-        """s / (2 weight), cut to the radius."""
+        """s / (2 weight), shortened to the radius where it is longer."""
         radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
         inside = norm <= 2 * weight * radius
         return sp.Matrix(
@@ -244,7 +244,7 @@ class BoundedQuadratic:
 
 @dataclass(frozen=True)
 class Custom:
-    """Any compact convex set, by its support function.
+    """Any compact convex set, given by its support function.
 
     Parameters
     ----------
@@ -265,11 +265,11 @@ class Custom:
     of: Callable[[Sequence[sp.Expr]], sp.Expr]
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
-        """The function given."""
+        """The given support function."""
         return sp.sympify(self.of([*s]))
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
-        """Its gradient, by the envelope theorem."""
+        """The gradient of the support function, by the envelope theorem."""
         free = [sp.Dummy(f"s{i}", real=True) for i in range(len(s))]
         value = self.support(free)
         at = dict(zip(free, s, strict=True))
@@ -280,7 +280,7 @@ class Custom:
         return sp.Integer(0)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
-        """Sigma must be homogeneous and subadditive, and so convex: both are tried on random directions."""
+        """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""
         free = [sp.Dummy(f"s{i}", real=True) for i in range(dimension)]
         value = self.support(free)
         unknown = value.free_symbols - set(free) - set(numbers)

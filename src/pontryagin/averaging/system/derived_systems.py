@@ -1,4 +1,4 @@
-"""The paper's examples as phase systems, their rates and averages from the derivations."""
+"""The paper's examples as phase systems, with the rates and averages that `derivation` finds."""
 
 import functools
 from collections.abc import Callable
@@ -26,7 +26,7 @@ PRICE, PEAK = sp.symbols("k peak", positive=True)
 
 
 class DerivedSystem(NamedTuple):
-    """A phase system with some values of its numbers, and h0 where a derivation has averaged it."""
+    """A phase system with example values of its numbers, and h0 if a derivation gives it in closed form."""
 
     system: PhaseSystem
     averaged: sp.Expr | None = None
@@ -38,7 +38,10 @@ def final_value(name: str) -> sp.Symbol:
 
 
 def smooth() -> DerivedSystem:
-    """Section 3's smooth example with a zero-mean force: v' = eps (u + ripple cos x), x' = v, at k + u^2."""
+    """Smooth example of section 3, with a force of mean zero, at the cost rate k + u^2.
+
+    v' = epsilon (u + ripple cos x), x' = v.
+    """
     v, x, u = smooth_case.v, smooth_case.x, smooth_case.u
     acceleration, cost_rate = smooth_case.slow_rates(RIPPLE * sp.cos(x))
     system = PhaseSystem(
@@ -56,7 +59,7 @@ def smooth() -> DerivedSystem:
 
 
 def kepler() -> DerivedSystem:
-    """(3.6), (3.7) in energy, angular momentum and the eccentric anomaly.
+    """Example 2, (3.6) and (3.7), in energy, angular momentum and the eccentric anomaly.
 
     The true anomaly of (3.6) is replaced by the eccentric one xi, whose rate follows from that of the mean
     anomaly psi = xi - e sin xi.
@@ -103,9 +106,9 @@ def _substituted(expression: sp.Expr) -> sp.Expr:
 
 
 def spin_down() -> DerivedSystem:
-    """(3.10) in a = |(w_x, w_y)|, c = w_z, to a = 0 with the control on an ellipsoid.
+    """Example 3, (3.10), in a = |(w_x, w_y)| and c = w_z: to a = 0, with the control in an ellipsoid.
 
-    The phase is psi in the sense in which it turns: `sense` = sign((d - 1) c).
+    The phase is psi, counted in the sense in which it turns: `sense` = sign((d - 1) c).
     """
     mirrored = {sp.sin(body.psi): SENSE * sp.sin(body.psi)}
     a, c = body.a, body.c
@@ -133,7 +136,7 @@ EXAMPLES: dict[str, Callable[[], DerivedSystem]] = {
 def rotor(
     mass: sp.Expr, potential: sp.Expr, force: sp.Expr, a1: Array, peak: Array | None, k: Array | None
 ) -> PhaseSystem:
-    """(3.1) in the energy a and the angle x: |u| <= peak in the least time, or at the cost k + u^2."""
+    """Example 1, (3.1), in energy a and angle x: least time with |u| <= peak, or the cost rate k + u^2."""
     a = sp.Symbol("a", real=True)
     slow_rate, speed = (rate.subs(rotor_case.a, a) for rate in _rotor_rates(mass, potential, force))
     least_time = peak is not None

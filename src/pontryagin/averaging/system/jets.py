@@ -1,4 +1,4 @@
-"""A function with its gradient and Hessian, as columns that a kernel returns and as arrays."""
+"""Jets: a function with its gradient and Hessian, as columns of a compiled kernel and as arrays."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
 Kernel = Callable[..., tuple[Any, ...]]
-"""A function of numbers or arrays to a tuple of them, in arithmetic and NumPy's elementary functions."""
+"""A function from numbers or arrays to a tuple of them, by arithmetic and NumPy's elementary functions."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Jet:
         return Jet(self.value[members], self.gradient[members], self.hessian[members])
 
     def padded(self, size: int) -> "Jet":
-        """The same function among `size` variables, independent of the further ones."""
+        """The same function with the variables extended to `size`; it does not depend on the added ones."""
         count, shape = self.gradient.shape[-1], self.value.shape
         gradient, hessian = np.zeros((*shape, size)), np.zeros((*shape, size, size))
         gradient[..., :count], hessian[..., :count, :count] = self.gradient, self.hessian
@@ -70,7 +70,7 @@ def expressions(function: "sp.Expr", variables: Sequence["sp.Symbol"]) -> list["
 
 
 def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr", "sp.Dummy"]]:
-    """The function with |g| written as g times a constant, and the constants, by g, that stand for signs."""
+    """Replace every sign(g) by a constant and |g| by g times it; returns the function and constants by g."""
     import sympy as sp
 
     signs: dict[sp.Expr, sp.Dummy] = {}
@@ -83,7 +83,7 @@ def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr",
 
 
 def restored(expression: "sp.Expr", signs: dict["sp.Expr", "sp.Dummy"]) -> "sp.Expr":
-    """The expression with signs in the place of their constants, outer ones before those inside them."""
+    """The expression with the constants replaced by their signs, outer ones before those inside them."""
     from sympy import sign
 
     for g, constant in reversed(signs.items()):
@@ -100,7 +100,7 @@ def _triangle(variables: int) -> NDArray[np.intp]:
 
 
 def jet(columns: Array, variables: int) -> Jet:
-    """The jet of columns (..., width)."""
+    """The `Jet` that columns (..., width) hold."""
     return Jet(columns[..., 0], columns[..., 1 : 1 + variables], columns[..., _triangle(variables)])
 
 

@@ -30,19 +30,19 @@ BESIDE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Kernels of a `PhaseSystem`; each takes the system's numbers as its last arguments.
+    """The compiled kernels of a `PhaseSystem`; each takes the system's numbers as its last arguments.
 
     Attributes
     ----------
     slow, target : int
-        n and r.
+        n and r, the numbers of slow variables and of target conditions.
     mean : kernel of (a, p), or None
         Columns of the jet of h0 in (a, p), where the average is known in closed form.
     density : kernel of (a, p, x), or None
         Columns of the jet of h* dpsi/dx at p_x = 0, and its derivative in x. Where the frequency is an
-        integral, the same of h* / r, and the jet of 1 / r in a. None where `mean` is given.
+        integral, the same columns for h* / r, then the jet of 1 / r in a. None where `mean` is given.
     frequency : kernel of a, or None
-        Columns of the jet of omega in a, None where it is an integral.
+        Columns of the jet of omega in a, None where omega is an integral.
     switching : kernel of (a, p, x), or None
         Functions at whose zeros the density is not smooth, and their derivatives in x.
     boundary : kernel of a
@@ -54,7 +54,7 @@ class Model:
     pace : kernel of (a, x)
         1 / r, proportional to dpsi/dx.
     origin : functools.partial
-        Makes the same model; pickles hold this instead of the kernels.
+        Call that makes the same model again; pickles hold it instead of the kernels.
     """
 
     slow: int
@@ -108,7 +108,7 @@ class Model:
         return h, turn
 
     def controlled(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule) -> tuple[Array, Array]:
-        """Means under u* at z (points, 2n): of f (points, n) and of the running cost (points)."""
+        """Means over the phase, under u* at z (points, 2n): f (points, n) and the running cost (points)."""
         a = tuple(z[:, : self.slow].T)
         control = _over(self.control, tuple(z.T), numbers)
 
@@ -123,13 +123,13 @@ class Model:
         return means[:, :-1], means[:, -1]
 
     def switches(self, z: Array, numbers: tuple[Array, ...]) -> Array:
-        """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), filled up by nan."""
+        """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), padded with nan."""
         if self.switching is None:
             return np.full((len(z), 0), np.nan)
         return find_switches(_over(self.switching, tuple(z.T), numbers), len(z))
 
     def _jumps(self, density: Density, switches: Array) -> Array:
-        """The Hessian from switches that move: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
+        """The Hessian's part from moving switches: sum of J J' / (2 pi [dh*/dx]), J the gradient's jump."""
         count = 2 * self.slow
         point, which = np.nonzero(~np.isnan(switches))
         at = switches[point, which][:, None]
@@ -148,7 +148,7 @@ class Model:
 
 
 def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]) -> Density:
-    """The kernel as a density in x, at points given by their coordinates, with the numbers of each."""
+    """The kernel as a density in x, at points given by their coordinates and each point's numbers."""
 
     def density(x: Array, index: NDArray[np.intp]) -> Array:
         return evaluate(kernel, *(c[index, None] for c in point), x, *(v[index, None] for v in numbers))

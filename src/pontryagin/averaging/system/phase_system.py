@@ -1,4 +1,4 @@
-"""A system with a rotating phase as users state it: checked, with its Hamiltonian, and compiled."""
+"""`PhaseSystem`: a system with a rotating phase as the user states it, checked and compiled."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -30,7 +30,7 @@ class PhaseSystem(StandardForm):
     slow, control : sequence of real sympy.Symbol
         a (n) and u (m).
     phase : real sympy.Symbol
-        The anomaly x; the phase is zero where it is.
+        The anomaly x; the phase psi is zero at x = 0.
     target : sequence of r expressions in the slow variables
         M, 1 <= r <= n.
     running_cost : expression in the slow variables and the anomaly
@@ -42,8 +42,8 @@ class PhaseSystem(StandardForm):
     weight : expression
         dpsi/dx, positive, of mean one over a turn of x.
     anomaly_rate : expression, optional
-        r(a, x), in the place of omega and weight where the frequency is known as the integral
-        omega = 2 pi / oint dx / r only.
+        r(a, x), instead of omega and weight where the frequency is known only as the integral
+        omega = 2 pi / oint dx / r.
     numbers : mapping of real sympy.Symbol to number or (...) array, optional
         Values of the other symbols; arrays make a stack of problems.
 
@@ -55,8 +55,8 @@ class PhaseSystem(StandardForm):
 
     Examples
     --------
-    A pendulum that rotates through a resisting medium is sped up: the energy a = x'^2/2 - cos x against the
-    drag -x'/5, at the cost 1 + u^2. It is not in the paper.
+    A pendulum that rotates in a resisting medium is sped up: its energy a = x'^2/2 - cos x is raised against
+    the drag -x'/5, at the cost rate 1 + u^2. This problem is not in the paper.
 
     >>> import sympy as sp
     >>> from pontryagin.averaging import PhaseSystem, Quadratic

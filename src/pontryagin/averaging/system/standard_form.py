@@ -51,7 +51,7 @@ class StandardForm:
 
     @cached_property
     def drift(self) -> sp.Matrix:
-        """f without control (n, 1)."""
+        """f at zero control (n, 1)."""
         return sp.Matrix(self.f).subs(dict.fromkeys(self.control, 0))
 
     @cached_property
@@ -61,7 +61,7 @@ class StandardForm:
 
     @cached_property
     def phase_drift(self) -> sp.Expr:
-        """F without control."""
+        """F at zero control."""
         return self.phase_rate.subs(dict.fromkeys(self.control, 0))
 
     @cached_property
@@ -71,7 +71,7 @@ class StandardForm:
 
     @cached_property
     def switching(self) -> sp.Matrix:
-        """s = B'p + F_u'p_x (m, 1): the control maximises s'u less its cost."""
+        """s = B'p + F_u'p_x (m, 1): the control maximises s'u minus its cost."""
         return self.gain.T * sp.Matrix(self.costates) + self.phase_gain.T * self.phase_costate
 
     @cached_property
@@ -92,5 +92,5 @@ class StandardForm:
 
 
 def _without_control(control: Sequence[sp.Symbol]) -> Callable[[sp.Expr], sp.Expr]:
-    """A function that simplifies derivatives in which the control still stands and cancels."""
+    """A function that simplifies derivatives which contain the control although it cancels."""
     return lambda entry: sp.simplify(entry) if entry.has(*control) else entry

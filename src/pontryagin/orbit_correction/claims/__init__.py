@@ -1,8 +1,8 @@
 """The ledger of Ibragimov 2017: every formula, number and decidable claim, in the paper's order.
 
-One module for each step of the paper. A module transcribes and judges; what is derived comes from
-`pontryagin.orbit_correction.derivation`. The numbers of the worked example are those of `printed`, its plans
-come from the solver, and their certificates from `worked`.
+There is one module for each step of the paper. It holds the printed statements and the verdicts on them.
+Derived quantities come from `pontryagin.orbit_correction.derivation`, the numbers of the worked example from
+`printed`, its plans from the solver, and their certificates from `worked`.
 """
 
 from itertools import chain

@@ -77,7 +77,7 @@ def normals_along_the_trajectory() -> Proof:
 
 
 def only_controls() -> Steps:
-    """Any other control of a step gives less, and all that these give is needed."""
+    """Any other control of a step gives less of (psi, u), and the sum that these controls give is needed."""
     for system in family():
         _, controls = optimal(system)
         for k, (U, q) in enumerate(zip(system.U, system.costates[1:], strict=True)):

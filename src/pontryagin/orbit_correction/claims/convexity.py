@@ -179,7 +179,7 @@ def moved_midpoint() -> Equality:
     p = sp.Matrix(sp.symbols("p1:4", real=True))
 
     def derived() -> dict[str, Any]:
-        # (p, x') = (p, x'') = s settles the last coordinates.
+        # (p, x') = (p, x'') = s determines the last coordinates.
         levels = [p.dot(point) - s for point in (first, second)]
         known = sp.solve(levels, [first[2], second[2]], dict=True)[0]
         moved = (first + second) / 2 + size * p

@@ -153,7 +153,7 @@ def parts_by_multipliers() -> Equality:
     key = "x^k"
 
     def derived() -> dict[str, Any]:
-        # -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
+        # Lagrange's condition: -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
         multiplier = sp.Symbol("m", positive=True)
         stationary = -inverse * psi / (2 * multiplier)
         found = sp.solve(sp.Eq(sp.expand(X.level(stationary) * multiplier**2), multiplier**2), multiplier)

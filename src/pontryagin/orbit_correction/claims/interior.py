@@ -1,4 +1,4 @@
-"""Section 5, (5) and (6): interior points, and what Lemma 6 says of them."""
+"""Section 5, (5) and (6): interior points, and Lemma 6 about them."""
 
 import functools
 

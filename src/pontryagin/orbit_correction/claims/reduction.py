@@ -1,4 +1,4 @@
-"""Section 7, (12): the ball for the cube, and what the reduced system answers."""
+"""Section 7, (12): the ball in place of the cube, and what follows from the reduced system."""
 
 from typing import Any
 

@@ -17,7 +17,7 @@ from pontryagin.orbit_correction.printed import CONTROLS
 claim = Page("Ibragimov 2017")
 
 once, radial, transverse, start = sp.symbols("A b1 b2 y0", commutative=False)
-"""A~, the columns of B~ and y(0), of any size."""
+"""Noncommuting symbols of any size for A~, the columns of B~, and y(0)."""
 
 
 def w(component: int, j: int) -> sp.Symbol:
@@ -63,7 +63,7 @@ def regrouped_states() -> Equality:
     halfway = once * state_after(1) + radial * w(0, 1)
 
     def derived() -> dict[str, Any]:
-        # The impulses of u~(0), then those of u~(1), each carried on to the end of its step.
+        # The impulses of u~(0) and then those of u~(1), each carried to the end of its step.
         after = once**2 * start + once * radial * w(0, 0) + once * transverse * w(1, 0) + radial * w(0, 1)
         end = once * after + once * transverse * w(1, 1) + radial * w(0, 2) + transverse * w(1, 2)
         return {"x(1)": sp.expand(after), "x(2)": sp.expand(end)}

@@ -145,7 +145,7 @@ def summand() -> Misprint:
     back = summands.backward_product([A(0), A(1)])
 
     def derived() -> dict[str, Any]:
-        # How the last control enters the state that two steps bring to 0; the sign is lost by symmetry.
+        # The part of the state that the last of two controls brings to 0; its sign is immaterial by symmetry.
         state = summands.state_brought_to_zero(2)
         return {key: -(state - state.subs(summands.u(1), 0))}
 

@@ -54,7 +54,7 @@ def parts_on_the_boundary() -> Proof:
 
 
 def lens_and_disc() -> Steps:
-    """The lens plus the unit disc: a corner of one summand, smooth in the sum."""
+    """The lens plus the unit disc: a corner of one summand is smoothed in the sum."""
     p = sp.Matrix([1, 4]) / sp.sqrt(17)
     edges = exact.lens_corner_normals()
     yield (

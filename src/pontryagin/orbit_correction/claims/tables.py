@@ -15,8 +15,7 @@ claim = Page("Ibragimov 2017")
 NUMBERS = [number for table in (STATES[:4], COSTATES, CONTROLS) for row in table for number in row]
 
 ROUNDED = np.array([0.0672568, -0.4136316, -0.4168327])
-"""What is added to z0, in units of its last printed digit, so that every printed number is correctly rounded.
-"""
+"""A change of z0, in units of its last printed digit, for which all printed numbers are correctly rounded."""
 
 
 def example(
@@ -37,7 +36,7 @@ def example(
 
 
 def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked.Z0) -> Array:
-    """How far the 36 numbers other than 0 are from the printed ones, in units of their last digits."""
+    """Distances of the 36 computed nonzero numbers from the printed ones, in units of their last digits."""
     states, costates, controls = example(inputs, z0)
     computed = np.concatenate([states[:4].ravel(), costates.ravel(), controls.ravel()])
     scales = np.array([unit(number) for number in NUMBERS])
@@ -144,7 +143,7 @@ def controls_of_the_example() -> Conditional:
 
 
 def row(table: int, k: int, columns: dict[str, tuple[str, str, str]], remark: str = "") -> Entry:
-    """The entry of one row of a table, with its numbers by the symbol that they belong to."""
+    """The ledger's entry for one row of a table; its numbers are given by symbol."""
     keys = [f"{name}_{i}({k})" for name in columns for i in (1, 2, 3)]
     printed = dict(zip(keys, (number for numbers in columns.values() for number in numbers), strict=True))
 

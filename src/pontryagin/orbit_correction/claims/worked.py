@@ -1,4 +1,4 @@
-"""The paper's worked example, and certificates of its plans, with matrices from the derivation."""
+"""The paper's worked example and certificates of its plans, computed with the derived matrices."""
 
 import functools
 from collections.abc import Callable
@@ -17,34 +17,34 @@ from pontryagin.orbit_correction.plan.correction import Plan, correct
 Z0, INTERVAL, PEAK = np.array(printed.Z0), float(printed.INTERVAL), float(printed.PEAK)
 EXACT = {derivation.interval: sp.Rational(printed.INTERVAL)}
 SPARSE = (0, 2, 3, 5)
-"""Intervals with an impulse at the start, of six: these four impulses suffice."""
+"""Four of the first six intervals: impulses at their starts alone suffice."""
 
 ROUNDING = 1e-12
-"""Largest difference between values of alpha that is due to rounding."""
+"""Values of alpha that differ by at most this differ by rounding only."""
 
 Inputs = Callable[[int], sp.Matrix]
 """B(k) as a function of k."""
 
 
 def numbers(matrix: sp.Matrix) -> Array:
-    """A derived matrix at the example's interval."""
+    """A derived matrix with the numbers of the example's interval."""
     return np.array(sp.Matrix(matrix).subs(EXACT).evalf(20).tolist(), dtype=float)
 
 
 @functools.cache
 def step_matrix(k: int) -> Array:
-    """A(k)."""
+    """A(k) in numbers."""
     return numbers(derivation.step_matrix(k % 2))
 
 
 @functools.cache
 def step_inputs(k: int) -> Array:
-    """B(k)."""
+    """B(k) in numbers."""
     return numbers(derivation.step_inputs(k % 2))
 
 
 def interval_matrix() -> Array:
-    """A~."""
+    """A~ in numbers."""
     return step_matrix(1)
 
 
@@ -55,12 +55,12 @@ def columns(j: int) -> Array:
 
 
 def ball_plan() -> Plan:
-    """Theorem 4 for the worked example."""
+    """The plan of Theorem 4 for the worked example."""
     return correct(Z0, INTERVAL, PEAK, "ball")
 
 
 def box_plan() -> Plan:
-    """The fewest impulses in the paper's own square."""
+    """The plan with the fewest impulses in the square, the paper's own constraint."""
     return correct(Z0, INTERVAL, PEAK, "box")
 
 
@@ -102,7 +102,7 @@ def ball_certificate() -> Steps:
 
 
 def impulses_to_rest(impulses: dict[int, Array]) -> float:
-    """The largest deviation left of z0 when the impulses are fired at the starts of their intervals."""
+    """The largest component left of z0 after the impulses at the starts of their intervals."""
     state = Z0
     for j in range(max(impulses) + 1):
         state = interval_matrix() @ (state + np.array([0.0, *impulses.get(j, np.zeros(2))]))
@@ -124,7 +124,7 @@ def box_certificate() -> Steps:
 
 
 def shortest_box_costate(columns: Array) -> Array:
-    """The psi with the largest bound for the square: least sum |g.psi| with (-z0, psi) = 1, by HiGHS."""
+    """The psi with the largest bound for the square, by HiGHS: least sum |g.psi| with (-z0, psi) = 1."""
     g = np.moveaxis(columns, 1, 2).reshape(-1, 3)
     cost = np.concatenate([np.zeros(3), np.ones(len(g))])
     above = np.block([[g, -np.eye(len(g))], [-g, -np.eye(len(g))]])

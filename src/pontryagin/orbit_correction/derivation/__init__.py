@@ -1,8 +1,8 @@
 """Derivation of the fewest impulses (Ibragimov 2017) in SymPy, from first principles.
 
-`satellite` leads from the equations of motion to the regrouped steps of section 7, whose names this package
-hands on. `summands` has Lemma 1 and what follows from it for matrices of any size. `exact` builds systems on
-which sections 2 to 6 are followed without rounding.
+`satellite` derives the regrouped steps of section 7 from the equations of motion; this package exports its
+names. `summands` has Lemma 1 and its consequences for matrices of any size. `exact` builds systems on which
+sections 2 to 6 are checked without rounding.
 """
 
 from pontryagin.orbit_correction.derivation.satellite import (

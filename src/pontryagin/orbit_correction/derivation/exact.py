@@ -1,8 +1,8 @@
 """Ellipsoids, and rational systems on which sections 2 to 6 are checked without rounding.
 
-An ellipsoid is L B, B the unit ball, with the support function sqrt(p'LL'p). A system can be built so that
-this root is rational for one initial costate psi_0 and the costates that follow from it. Then all support
-points, states and controls of the theory are rational, in any dimension.
+An ellipsoid is L B, where B is the unit ball, and has the support function sqrt(p'LL'p). A system can be
+built so that this root is rational for one initial costate psi_0 and the costates that follow from it. Then
+all support points, states and controls of the theory are rational, in any dimension.
 """
 
 from dataclasses import dataclass
@@ -105,7 +105,7 @@ class ExactSystem:
 
 
 def exact_system(n: int, steps: int, seed: int) -> ExactSystem:
-    """A system in R^n, n at least 2, of random rational matrices, from a seed.
+    """A system in R^n, n at least 2, of random rational matrices that a seed determines.
 
     A(k) is chosen so that it carries psi(k) to a psi(k+1) for which L(k)'psi(k+1) has rational length.
     """
@@ -145,7 +145,7 @@ def _rational_direction(draw: Random, n: int) -> sp.Matrix:
 
 
 LENS_CENTRES = (sp.Matrix([-sp.Rational(3, 5), 0]), sp.Matrix([sp.Rational(3, 5), 0]))
-"""The lens is the intersection of the unit discs about these centres: strictly convex, with a corner."""
+"""Centres of the two unit discs whose intersection is the lens, a strictly convex set with corners."""
 
 LENS_CORNER = sp.Matrix([0, sp.Rational(4, 5)])
 """The upper corner of the lens."""

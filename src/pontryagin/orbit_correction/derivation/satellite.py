@@ -1,6 +1,6 @@
 """From the satellite's equations of motion to the regrouped system (12) and its summands, section 7.
 
-The circle has radius, speed and angular rate 1; z = (dr, dv_R, dv_T).
+In the units used, radius, speed and angular rate of the circle are 1; z = (dr, dv_R, dv_T).
 """
 
 import functools

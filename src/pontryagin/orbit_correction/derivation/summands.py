@@ -45,7 +45,7 @@ def backward_product(matrices: Sequence[Any]) -> Any:
 
 
 def final_state(N: int) -> sp.Expr:
-    """x(N) from x(0) = x, step by step by (1)."""
+    """x(N) from x(0) = x, by applying (1) step by step."""
     state = x
     for k in range(N):
         state = A(k) * state + u(k)
@@ -53,9 +53,9 @@ def final_state(N: int) -> sp.Expr:
 
 
 def state_brought_to_zero(N: int, k: int = 0, size: sp.Expr = sp.S.One) -> sp.Expr:
-    """The x(k) of (2) that the controls (times `size`) of steps k to k+N-1 bring to 0: (1) backwards.
+    """The x(k) of (2) that the controls (times `size`) of steps k to k+N-1 bring to 0, by (1) backwards.
 
-    With `size` alpha it is that of the system (7), Lemma 7. One step of it is Corollary 1.
+    With the `size` alpha it is the state of the system (7), Lemma 7. A single step of it is Corollary 1.
     """
     state = sp.S.Zero
     for step in reversed(range(k, k + N)):

@@ -14,7 +14,7 @@ from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 @styled
 def nonlinear_residual(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Figure:
-    """The deviation that the nonlinear flight of a plan leaves, against |z0|, which has slope 2.
+    """The deviation that the nonlinear flight of a plan leaves, against |z0|: a line of slope 2.
 
     State and peak are scaled together.
 

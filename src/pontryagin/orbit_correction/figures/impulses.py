@@ -1,4 +1,4 @@
-"""Figures of plans: against time, as hodographs in the square, and plans of one length side by side."""
+"""Figures of plans: against time, as hodographs in the square, and plans of equal length side by side."""
 
 from collections.abc import Sequence
 
@@ -110,7 +110,7 @@ def _square(ax: Axes) -> None:
 
 
 def same_length(plan: Plan) -> tuple[Alternative, Alternative, Alternative]:
-    """The plans of least peak, energy and fuel with the impulses of one plan."""
+    """The plans of least peak, energy and fuel with as many impulses as one plan."""
     return least_peak(plan), least_energy(plan), least_fuel(plan)
 
 

@@ -1,4 +1,4 @@
-"""Figures of 0-controllable sets: in space, scaled to unit size, and in planes across supporting planes."""
+"""Figures of 0-controllable sets: in space, scaled to unit size, and edge-on to supporting planes."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,7 +29,7 @@ def controllable_sets(plan: Plan) -> Figure:
     Parameters
     ----------
     plan : Plan
-        Of one state, at least one step.
+        A plan of one state, with at least one step.
 
     Raises
     ------
@@ -76,8 +76,8 @@ def controllable_sets(plan: Plan) -> Figure:
 def remaining_sets(plan: Plan) -> Figure:
     """At each step the set alpha X(N - k, k), the state on its boundary, and the normal -psi(k) there.
 
-    That the states stay on these boundaries is Theorem 1 for the system (7), and Theorem 4. Each set is seen
-    along its supporting plane at the state, all to one scale.
+    By Theorem 1 for the system (7), and Theorem 4, the states stay on these boundaries. Each set is seen
+    along its supporting plane at the state, all on the same scale.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def remaining_sets(plan: Plan) -> Figure:
     Raises
     ------
     ValueError
-        If the plan is that of a stack, or its number of steps is another.
+        If the plan is that of a stack, or has no step or more than six.
     """
     steps = _steps(plan)
     if steps > 6:
@@ -147,7 +147,7 @@ def _plane(ax: Axes, path: Array, towards: Array) -> None:
 
 
 def _at_step(plan: Plan, steps: int, k: int) -> Array:
-    """Factors whose sum is X(N - k, k) as the paper counts its steps."""
+    """Factors whose sum is X(N - k, k), for steps as the paper counts them."""
     carried = np.eye(3)
     for before in range(k):
         carried = plan.thrust.step_transition(before) @ carried

@@ -21,7 +21,7 @@ from pontryagin.orbit_correction.waste import Waste
 from pontryagin.validation import vectors
 
 Columns = dict[str, list[Any]]
-"""Headings, and under each its entries."""
+"""A table as its columns: for each heading the list of entries."""
 
 
 def states(plan: Plan) -> Columns:
@@ -75,7 +75,7 @@ def gauges(plans: Sequence[Plan]) -> Columns:
 
 
 def printed_inputs(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035) -> Columns:
-    """The gauge of the paper's system with B(k) as derived and as printed, against the printed 0.9286."""
+    """The gauge of the paper's system for B(k) as derived and as printed, beside the printed 0.9286."""
     derived = [satellite.step_input(k, interval) for k in range(4)]
     once = satellite.transition(interval)
     radial, transverse = once[:, 1], once[:, 2]
@@ -120,7 +120,7 @@ def power_balls(
 
 
 def crossed_measures(plans: Sequence[Plan]) -> Columns:
-    """Peak, energy and fuel of the plans of least peak, least energy and least fuel, for every plan given."""
+    """For every given plan: peak, energy and fuel of the plans of least peak, least energy and least fuel."""
     rows = [one for plan in plans for one in same_length(plan)]
     return {
         "impulses in": [one.plan.thrust.name for one in rows],
@@ -162,7 +162,7 @@ def closed_loop(loops: Mapping[str, ClosedLoop]) -> Columns:
 
 
 def limits(z0: ArrayLike, intervals: Mapping[str, float], peak: float = 0.0035, steps: int = 3000) -> Columns:
-    """alpha N at a large N and its limit, for intervals by their names and every set of impulses."""
+    """alpha N at a large N and its limit, for named intervals and every set of impulses."""
     rows = [(words, h, name) for words, h in intervals.items() for name in THRUSTS]
     ends = [ergodic.limit(z0, h, peak, name) for _, h, name in rows]
     reached = [float(ergodic.approach(z0, [steps], h, peak, name)[0]) for _, h, name in rows]
@@ -177,7 +177,7 @@ def limits(z0: ArrayLike, intervals: Mapping[str, float], peak: float = 0.0035, 
 
 
 def special_intervals(z0: ArrayLike, intervals: Mapping[str, float], peak: float = 0.0035) -> Columns:
-    """Plans of the paper's ball at intervals by their names: count, gauge and certificate."""
+    """Plans for the paper's ball at named intervals: number of impulses, gauge and certificate."""
     plans = [correct(z0, interval, peak) for interval in intervals.values()]
     return {
         r"$\Delta t$": list(intervals),

@@ -1,8 +1,8 @@
 """Linear programmes over mixtures of boundary points of the controls' sets, solved by HiGHS.
 
 A mixture of boundary points is an admissible control because the sets are convex. The multipliers psi of the
-linear programme prove a lower bound whatever the mixture, and tell for each step which boundary point, added
-as a column, would lower the cost most.
+linear programme prove a lower bound that holds for all controls. They also determine for each step the
+boundary point that lowers the cost most when it is added as a column.
 """
 
 from dataclasses import dataclass
@@ -16,22 +16,22 @@ from pontryagin.errors import NotConverged
 PRECISIONS = (1e-10, 1e-9, 1e-8)
 """Tolerances of HiGHS, tried in turn.
 
-Where hardly more than one plan exists, HiGHS may find none to the finest tolerance.
+Where hardly more than one plan exists, HiGHS may find none with the smallest tolerance.
 """
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Points of the controls' sets.
+    """Points of the controls' sets, as columns of a linear programme.
 
     Attributes
     ----------
     owners : (n,) int array
-        The step of each point.
+        The step to which each point belongs.
     points : (n, m) array
         The points.
     costs : (n,) array
-        What each costs.
+        The cost of each point.
     """
 
     owners: NDArray[np.int64]
@@ -39,7 +39,7 @@ class Columns:
     costs: Array
 
     def joined(self, owners: NDArray[np.int64], points: Array, costs: Array) -> "Columns":
-        """These columns and more."""
+        """These columns followed by further ones."""
         return Columns(
             np.append(self.owners, owners),
             np.concatenate([self.points, points]),
@@ -55,14 +55,14 @@ def mixture(
     Parameters
     ----------
     factors : (steps, 3, m) array
-        G_k, best scaled so that the sum of G G' is the identity.
+        G_k, preferably scaled so that the sum of G G' is the identity.
     target : (3,) array
-        b.
+        The vector b to reach.
     columns : Columns
         The points to mix.
     room : float, optional
         Largest total weight of a step; the cost is then the sum of the columns' own costs. Without it the
-        cost is the largest total weight that a step has, which gives the gauge.
+        cost is the largest total weight of any step, and its least value is the gauge.
 
     Raises
     ------

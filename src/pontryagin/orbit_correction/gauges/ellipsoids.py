@@ -3,7 +3,7 @@
 The sum's support function is S(psi) = sum |G_k'psi|. The gauge of b = -x0 is the largest (b, psi)/S(psi). Its
 square is twice the largest value of the concave function (b, psi) - S(psi)^2/2. Where the gradient of this
 function vanishes, b = S(psi) sum G_k G_k'psi/|G_k'psi|, which is the equation of Lemma 9 with the factor
-alpha = S(psi). Any psi proves the lower bound (b, psi)/S(psi). The controls that psi chooses (Lemma 10),
+alpha = S(psi). Every psi proves the lower bound (b, psi)/S(psi). The controls that belong to psi by Lemma 10,
 corrected so that they reach b, prove an upper bound.
 """
 
@@ -14,13 +14,13 @@ import numpy as np
 from pontryagin.arrays import Array
 
 STEPS = 80
-"""Most iterations of Newton's method."""
+"""Largest number of iterations of Newton's method."""
 
 GAP = 1e-12
-"""Relative gap between the bounds above which a harder method is tried."""
+"""Relative gap between the bounds above which a slower method is tried."""
 
 CONTINUATION = 12
-"""Rounds of the continuation, each with a tenth of the smoothing of the round before."""
+"""Number of rounds of the continuation; each has a tenth of the smoothing of the round before."""
 
 
 def cholesky_solve(matrix: Array, right: Array) -> bool:
@@ -74,7 +74,7 @@ def support(factors: Array, psi: Array, smoothing: float) -> float:
 def support_derivatives(
     factors: Array, psi: Array, smoothing: float, gradient: Array, hessian: Array
 ) -> float:
-    """`support`; in place, its gradient, the support point rho(psi), and the lower half of its Hessian."""
+    """`support`; in place, its gradient (the support point rho(psi)) and the lower half of its Hessian."""
     steps, n, m = factors.shape
     total = 0.0
     gradient[:] = 0.0
@@ -124,7 +124,7 @@ def gauge_of(
 def gauge_by_continuation(
     factors: Array, gram_factor: Array, b: Array, psi: Array, controls: Array
 ) -> tuple[float, float]:
-    """`gauge_of` for sets that are nearly flat, where Newton's method alone stops before the optimum."""
+    """`gauge_of` for nearly flat sets, for which Newton's method without continuation stops early."""
     continuation(factors, gram_factor, b, psi)
     return bounds(factors, gram_factor, b, psi, controls)
 
@@ -202,7 +202,7 @@ def newton(factors: Array, b: Array, psi: Array, smoothing: float) -> None:
 
 
 def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Array) -> tuple[float, float]:
-    """The lower bound that psi proves, and the peak of its controls of Lemma 10, corrected so as to reach b.
+    """The lower bound that psi proves, and the peak of its controls by Lemma 10, corrected so as to reach b.
 
     The correction is the least-energy control for what the controls miss.
     """
@@ -239,8 +239,8 @@ def bounds(factors: Array, gram_factor: Array, b: Array, psi: Array, parts: Arra
 def gauge_stack(factors: Array, targets: Array, costates: Array, results: Array) -> None:
     """Both bounds on the gauge and what the controls miss of b, for each row of targets (states, n).
 
-    Factors are whitened: the sum of G_k G_k' is the identity. The results fill ``results`` (states, 3) and
-    ``costates`` (states, n).
+    Factors must be whitened: the sum of G_k G_k' is the identity. The results are written to ``results``
+    (states, 3) and ``costates`` (states, n).
     """
     steps, n, m = factors.shape
     controls = np.empty((steps, m))

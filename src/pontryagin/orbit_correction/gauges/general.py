@@ -22,13 +22,13 @@ COMPILE_FROM = 40
 """The compiled kernel is loaded when the number of states times that of steps exceeds this."""
 
 FLAT = 1e-13
-"""A set is flat along an axis in which its width, relative to the largest one, is below this.
+"""A set counts as flat along an axis if its width there, relative to the largest width, is below this.
 
 Widths are measured in units of the reach of the controls along each coordinate.
 """
 
 VANISHING = 1e-100
-"""Steps that add less than this share of the reach are set to zero: their squares would underflow."""
+"""Steps that add less than this share of the reach are set to zero, because their squares would underflow."""
 
 
 @value_class
@@ -39,12 +39,12 @@ class Gauge:
     Attributes
     ----------
     alpha : (...) array
-        Minkowski functional of the 0-controllable set X(N, 0) at the state: at most 1 if and only if N steps
-        suffice.
+        Minkowski functional of the 0-controllable set X(N, 0) at the state: at most 1 if N steps suffice,
+        and only then.
     costate : (..., n) array
         psi_0, unit; zeros for the zero state.
     certificate : Certificate
-        The value is alpha of controls that reach the origin; the bound is the one that psi_0 proves.
+        The value is the alpha of controls that reach the origin; the bound is the one that psi_0 proves.
     """
 
     alpha: Array
@@ -96,7 +96,7 @@ def gauge(system: DiscreteSystem, x0: ArrayLike, steps: int) -> Gauge:
 def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     """The gauge of states (..., n) for the sum of the ellipsoids G_k B, factors (steps, n, m).
 
-    A flat sum is taken as a set of the subspace that it spans: states there have a gauge, others have none.
+    A flat sum counts as a set in the subspace that it spans: only states in this subspace have a gauge.
     """
     n, shape = factors.shape[1], x0.shape[:-1]
     reach = np.abs(factors).max(axis=(0, 2))
@@ -133,7 +133,7 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
 
 
 def _require_reachable(left: Array, x0: Array) -> None:
-    """Refuse states of which something is left outside the span of the controls."""
+    """Raise `Infeasible` if a state has a part, ``left``, outside the span of the controls."""
     outside = np.abs(left).max(axis=1, initial=0.0) > 1e-9
     if outside.any():
         state = x0.reshape(left.shape)[int(np.argmax(outside))]

@@ -1,8 +1,8 @@
-"""The gauge of a sum of flat ellipses in space, G_k (3, m): impulses in a disc.
+"""The gauge for impulses in a disc: of a sum of flat ellipses in space, G_k (3, m).
 
-The support function S(psi) = sum |G_k'psi| has a kink where psi is orthogonal to a flat G_j; there step j
-need not be at its bound. If Newton's method stops before the optimum, the optimum is at such a psi: the steps
-whose G_j'psi vanishes there reach what the other steps leave of b.
+The support function S(psi) = sum |G_k'psi| has a kink where psi is orthogonal to a flat G_j, and step j need
+not be at its bound there. If Newton's method stops before the optimum, the optimum is at such a psi: the
+steps with G_j'psi = 0 supply what the other steps leave of b.
 """
 
 from math import sqrt
@@ -14,7 +14,7 @@ from pontryagin.orbit_correction.gauges.ellipsoids import GAP, bounds, continuat
 from pontryagin.orbit_correction.gauges.zonotope import cross, dot
 
 CANDIDATES = 8
-"""Steps whose kinks are tried, those nearest to psi first."""
+"""Number of steps whose kinks are tried, in the order of their distance from psi."""
 
 
 def flat_gauge(
@@ -74,7 +74,7 @@ def length_along(factors: Array, k: int, psi: Array) -> float:
 
 
 def normal_of(factors: Array, k: int, normal: Array) -> None:
-    """Normal of the plane of the two most independent columns of G_k."""
+    """Write the normal of the plane of the two most independent columns of G_k to ``normal``."""
     best = -1.0
     trial = np.empty(3)
     for j in range(factors.shape[2]):
@@ -88,10 +88,10 @@ def normal_of(factors: Array, k: int, normal: Array) -> None:
 
 
 def kink(factors: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
-    """Lower bound proved by a psi at which G_k'psi of some steps vanishes, and the peak of the controls.
+    """The lower bound by a psi at which G_k'psi = 0 for some steps, and the peak of the controls.
 
-    The other steps are at their bounds. What they leave of b is shared among the steps that vanish, with the
-    least energy, which is also the least peak where those steps act in the same plane.
+    The other steps are at their bounds. The steps with G_k'psi = 0 supply what is left of b with the least
+    energy, which is also the least peak if they act in the same plane.
     """
     steps, _, m = factors.shape
     pairing = dot(b, psi)

@@ -1,7 +1,7 @@
 """The gauge for impulses in p-balls, strictly convex sets between the paper's ball (p = 2) and the cube.
 
 Three successive impulse components form a control u with |u|_p <= peak; as p grows the set tends to the cube.
-What the paper proves of strictly convex sets, Lemma 2 to Lemma 5, applies. The support function of G_k U is
+The paper's results on strictly convex sets, Lemma 2 to Lemma 5, apply. The support function of G_k U is
 |G_k'psi|_q with 1/p + 1/q = 1.
 """
 
@@ -20,13 +20,13 @@ from pontryagin.validation import finite
 from pontryagin.value import value_class
 
 ITERATIONS = 200
-"""Most rounds of column generation."""
+"""Largest number of rounds of column generation."""
 
 CLOSED = 5e-10
 """Column generation ends when the gap between peak and bound, relative to the peak, is at most this."""
 
 MOST_STEPS = 2000
-"""Most steps among which `fewest_power_steps` searches."""
+"""Largest number of steps that `fewest_power_steps` tries."""
 
 
 @value_class
@@ -37,16 +37,16 @@ class PowerGauge:
     Attributes
     ----------
     p : float
-        Exponent.
+        Exponent of the p-balls.
     steps : int
-        Steps of three impulse components.
+        Number of steps of three impulse components.
     costate : (3,) array
         psi_0, unit; zeros for the zero state.
     step_controls : (steps, 3) array
-        Impulse components, orbital speeds.
+        Impulse components of each step, orbital speeds.
     certificate : Certificate
-        The residual is what the controls leave of the state, relative to it; the value is their alpha; the
-        bound is the one that psi_0 proves.
+        The residual is what the controls leave of the state, relative to the state; the value is their alpha;
+        the bound is the one that psi_0 proves.
     """
 
     p: float
@@ -76,7 +76,7 @@ def power_gauge(
     z0 : (3,) array_like
         Deviation, dimensionless.
     steps : int
-        Steps of three impulse components, at least one.
+        Number of steps of three impulse components, at least one.
     p : float
         Exponent, 1 < p < infinity.
     interval, peak : float
@@ -120,7 +120,7 @@ def power_gauge(
 def fewest_power_steps(
     z0: ArrayLike, p: float, interval: float = 0.25, peak: float = 0.0035
 ) -> tuple[PowerGauge, float]:
-    """The gauge at N_min, and the lower bound on alpha(N_min - 1) that proves it (infinite below one step).
+    """The gauge at N_min, and a lower bound above 1 on alpha(N_min - 1), which is infinite if N_min = 1.
 
     Raises
     ------
@@ -155,7 +155,7 @@ def fewest_power_steps(
 
 
 def _generate(factors: Array, target: Array, p: float) -> tuple[Array, Array, float]:
-    """Controls (steps, 3) whose largest p-norm is least, the costate, and the bound that it proves."""
+    """The controls (steps, 3) whose largest p-norm is least, the costate, and the bound that it proves."""
     steps = len(factors)
     axes = np.tile(np.concatenate([np.eye(3), -np.eye(3)]), (steps, 1))
     columns = Columns(np.repeat(np.arange(steps), 6), axes, np.zeros(len(axes)))
@@ -174,7 +174,7 @@ def _generate(factors: Array, target: Array, p: float) -> tuple[Array, Array, fl
 
 
 def _support_points(along: Array, p: float) -> tuple[Array, Array]:
-    """For each v the point u of the unit p-ball with the largest (v, u), and that value |v|_q."""
+    """For each v the point u of the unit p-ball with the largest (v, u), and this value |v|_q."""
     q = p / (p - 1)
     largest = np.abs(along).max(axis=1, keepdims=True)
     scaled = along / np.maximum(largest, 1e-300)

@@ -1,4 +1,4 @@
-"""The check that a gauge must pass before it is handed out: its two bounds agree."""
+"""The check of every gauge before it is returned: its lower and its upper bound must agree."""
 
 import numpy as np
 
@@ -7,15 +7,15 @@ from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import NotConverged
 
 PROVED = 10 * ACCEPTED
-"""Largest residual and gap of a gauge that is handed out.
+"""Largest residual and gap of a gauge that is returned.
 
-It exceeds `ACCEPTED` for the sake of sets that are nearly flat, as at intervals close to whole revolutions:
-their two bounds agree only to rounding times the ratio of the largest width to the least.
+It is larger than `ACCEPTED` because of sets that are nearly flat, as at intervals close to whole revolutions.
+Their two bounds agree only to rounding times the ratio of the largest width to the least.
 """
 
 
 def unit(rows: Array) -> Array:
-    """Vectors (rows, n) of length 1 along those given, however long; zeros stay.
+    """Vectors of length 1 along the given ones (rows, n), which may be of any size; zero vectors stay zero.
 
     Examples
     --------

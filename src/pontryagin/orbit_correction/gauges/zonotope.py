@@ -1,4 +1,4 @@
-"""The gauge of a zonotope, a sum of segments [-g_k, g_k] in space, by a simplex method: impulses in a square.
+"""The gauge for impulses in a square: of a zonotope, a sum of segments [-g_k, g_k], by a simplex method.
 
 The least sum of |g_k.psi| over (b, psi) = 1 is attained at a vertex, a psi orthogonal to two of the segments.
 The method moves from vertex to vertex along edges. Along an edge the sum is convex and piecewise linear, and
@@ -14,18 +14,18 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 
 PIVOTS = 10_000
-"""Most moves from vertex to vertex."""
+"""Largest number of moves from vertex to vertex."""
 
 
 def cross(u: Array, v: Array, result: Array) -> None:
-    """u x v."""
+    """Write u x v to the result."""
     result[0] = u[1] * v[2] - u[2] * v[1]
     result[1] = u[2] * v[0] - u[0] * v[2]
     result[2] = u[0] * v[1] - u[1] * v[0]
 
 
 def dot(u: Array, v: Array) -> float:
-    """u . v in space."""
+    """u . v for vectors in space."""
     product: float = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
     return product
 
@@ -61,7 +61,7 @@ def turning_place(times: Array, rates: Array, crossed: NDArray[np.int64], used: 
             if slope >= 0.0:
                 return place
         low = above
-    # Summed in another order the slope may be negative by rounding: then it vanishes at the last piece.
+    # In this order of summation rounding may leave the slope negative: it then vanishes at the last segment.
     return high - 1 if high < used else -1
 
 
@@ -78,8 +78,8 @@ def slide(
     """Move psi along an edge to the minimum of the sum; return the segment that vanishes there, or -1.
 
     ``slope``, which is negative, is the rate of the sum at the start. ``values`` holds g_k.psi. ``signs``
-    holds the sign with which each segment counts, also where g_k.psi is zero: more than two segments vanish
-    at many vertices, since all radial impulses lie in one plane. Both are kept up to date. The segment
+    holds the sign with which each segment counts, also where g_k.psi is zero: at many vertices this is so for
+    more than two segments, since all radial impulses lie in one plane. Both arrays are updated. The segment
     ``fixed`` stays orthogonal to psi; ``leaving`` is the one that was orthogonal until this move.
     """
     count = segments.shape[0]
@@ -114,7 +114,7 @@ def slide(
 
 
 def descend(segments: Array, psi: Array, direction: Array, fixed: int, values: Array, signs: Array) -> int:
-    """`slide` along the direction or against it, whichever lowers the sum."""
+    """`slide` along the direction or its opposite, whichever lowers the sum."""
     slope = 0.0
     for k in range(segments.shape[0]):
         if k != fixed:
@@ -129,7 +129,8 @@ def descend(segments: Array, psi: Array, direction: Array, fixed: int, values: A
 def multipliers(segments: Array, b: Array, first: int, second: int, signs: Array, result: Array) -> bool:
     """Solve sum of signs g + x g_first + y g_second = z b for (x, y, z).
 
-    The sum is over all segments but the two. False if the two and b are linearly dependent.
+    The sum is over all segments except the first and the second. The answer is False if these two and b are
+    linearly dependent.
     """
     total, right = np.zeros(3), np.empty(3)
     for k in range(segments.shape[0]):
@@ -154,7 +155,7 @@ def multipliers(segments: Array, b: Array, first: int, second: int, signs: Array
 def zonotope_gauge(segments: Array, b: Array, psi: Array, controls: Array) -> tuple[float, float]:
     """Lower bound on the gauge of b, and the peak of controls (count,) whose segments add up to b.
 
-    ``psi`` (3,) is overwritten by the costate with (b, psi) = 1. If no vertex is reached the peak is 1e300.
+    ``psi`` (3,) is overwritten by the costate, with (b, psi) = 1. If no vertex is reached, the peak is 1e300.
     """
     count = segments.shape[0]
     square = dot(b, b)

@@ -1,4 +1,4 @@
-"""Plans of the same length with least peak, least energy or least fuel.
+"""Plans with the fewest steps and, among those, the least peak, the least energy or the least fuel.
 
 A state inside X(N_min, 0), the case (5), has many plans of N_min steps. Each of the three problems is convex,
 and its dual has three variables, the costate psi. With f* the conjugate of a step's cost over its set of
@@ -18,7 +18,7 @@ from pontryagin.orbit_correction.plan.correction import Plan, single
 from pontryagin.value import value_class
 
 ITERATIONS = 200
-"""Most iterations of Newton's method, and most rounds of column generation."""
+"""Largest number of iterations of Newton's method, and of rounds of column generation."""
 
 CLOSED = 1e-10
 """Iterations end when the gap, relative to the value, is at most this."""
@@ -27,21 +27,21 @@ CLOSED = 1e-10
 @value_class
 @dataclass(frozen=True, eq=False)
 class Alternative:
-    """A plan that has the same number of steps as another, and makes another measure least.
+    """A plan with the same number of steps as a given one, and the least value of another measure.
 
     Peak, energy and fuel are in units of the bound on impulses, alpha_max.
 
     Attributes
     ----------
     plan : Plan
-        The plan whose number of steps it keeps.
+        The given plan.
     least : str
         "peak", "energy" or "fuel".
     step_controls : (N, components) array
         Impulse components of each step, orbital speeds.
     certificate : Certificate
-        The residual is what remains of the state, relative to it; the value is the measure; the bound is the
-        one that a costate proves.
+        The residual is what remains of the state at the end, relative to z0; the value is that of the
+        measure; the bound is the one that a costate proves.
     """
 
     plan: Plan
@@ -67,7 +67,7 @@ class Alternative:
 
     @property
     def fuel(self) -> float:
-        """Sum of the lengths of the impulses for the disc, else sum of the moduli of their components."""
+        """Sum of the lengths of the impulses for the disc, else sum of the moduli of all components."""
         return _fuel(self.plan, self._relative)
 
     @property
@@ -76,7 +76,7 @@ class Alternative:
 
 
 def least_peak(plan: Plan) -> Alternative:
-    """The plan itself: by the definition of the gauge no plan of its length has a smaller peak.
+    """The given plan itself: by the definition of the gauge no plan of its length has a smaller peak.
 
     Parameters
     ----------
@@ -92,9 +92,9 @@ def least_peak(plan: Plan) -> Alternative:
 
 
 def least_energy(plan: Plan) -> Alternative:
-    """The plan of least sum of squares within the set of impulses.
+    """The plan with the least sum of squares of admissible impulses.
 
-    Where no bound is active the plan is the closed form G' (sum G G')^-1 b. Otherwise Newton's method solves
+    If no bound is active, the plan is the closed form G' (sum G G')^-1 b. Otherwise Newton's method solves
     the dual; the controls are the projections of G_k'psi on the set.
 
     Parameters
@@ -107,7 +107,7 @@ def least_energy(plan: Plan) -> Alternative:
     ValueError
         If the plan is that of a stack.
     pontryagin.NotConverged
-        If the bounds do not meet.
+        If the upper and the lower bound on the energy do not meet.
 
     Examples
     --------
@@ -122,11 +122,11 @@ def least_energy(plan: Plan) -> Alternative:
 
 
 def least_fuel(plan: Plan) -> Alternative:
-    """The plan of least sum of impulses within the set: a linear or cone programme.
+    """The plan with the least sum of admissible impulses, by a linear or a cone programme.
 
-    Columns are generated: HiGHS mixes impulses on the boundaries of the sets, and its multipliers tell for
-    each step which impulse, added to the mixture, lowers the fuel most. The mixture is a plan, and the
-    multipliers prove a bound.
+    The method is column generation. HiGHS finds the best mixture of given impulses. From its multipliers
+    follows for each step the impulse that, added to the mixture, lowers the fuel most. The mixture is a plan,
+    and the multipliers prove a bound.
 
     Parameters
     ----------
@@ -138,8 +138,8 @@ def least_fuel(plan: Plan) -> Alternative:
     ValueError
         If the plan is that of a stack.
     pontryagin.NotConverged
-        If the gap between the bounds does not close: for the ball, where the gauge is within 1e-8 of 1 and
-        hardly more than one plan exists.
+        If the gap between the bounds does not close. This happens for the ball if the gauge is within 1e-8 of
+        1, so that hardly more than one plan exists.
 
     Examples
     --------
@@ -167,14 +167,14 @@ def _alternative(plan: Plan, least: str, controls: Array, value: float, bound: f
 
 
 def _whitened(plan: Plan) -> tuple[Array, Array]:
-    """G_k and b = -z0, whitened."""
+    """G_k and b = -z0 in the coordinates in which the sum of G_k G_k' is the identity."""
     if not int(single(plan).steps):
         return np.zeros((0, 3, plan.step_controls.shape[-1])), np.zeros(3)
     return whitened(plan.thrust.factors(int(plan.steps)), -plan.z0)
 
 
 def _sizes(plan: Plan, controls: Array) -> Array:
-    """The gauges of the controls in the set of impulses; for the square those of each component."""
+    """The gauge of each control in the set of impulses; for the square the modulus of each component."""
     return np.abs(controls) if plan.thrust.name == "box" else np.linalg.norm(controls, axis=1)
 
 
@@ -211,18 +211,18 @@ def _least_energy(factors: Array, target: Array, square: bool) -> tuple[Array, f
 
 
 def _energy_bound(psi: Array, along: Array, controls: Array, target: Array) -> float:
-    """The bound that psi proves: 2 (b, psi) - sum of the largest 2 (G_k'psi, u) - |u|^2 over the set."""
+    """The bound that psi proves: 2 (b, psi) - sum of max over u in the set of (2 (G_k'psi, u) - |u|^2)."""
     return float(2 * (target @ psi) - (2 * along * controls - controls**2).sum())
 
 
 def _onto_box(along: Array) -> tuple[Array, Array]:
-    """The projections on the unit square, and their derivatives."""
+    """The projections of vectors on the unit square, and the derivatives of the projections."""
     inside = (np.abs(along) <= 1).astype(float)
     return np.clip(along, -1, 1), inside[:, :, None] * np.eye(along.shape[1])
 
 
 def _onto_balls(along: Array) -> tuple[Array, Array]:
-    """The projections on the unit ball, and their derivatives."""
+    """The projections of vectors on the unit ball, and the derivatives of the projections."""
     size = np.maximum(np.linalg.norm(along, axis=1), 1.0)[:, None]
     unit = along / size
     outward = np.where(size[:, :, None] > 1, unit[:, :, None] * unit[:, None, :], 0.0)
@@ -230,9 +230,9 @@ def _onto_balls(along: Array) -> tuple[Array, Array]:
 
 
 def _generate(factors: Array, target: Array, start: Array, room: float, turning: bool) -> tuple[Array, float]:
-    """Controls (N, m) of sizes up to `room` with the least sum of fuel, and the best bound.
+    """Controls (N, m) of sizes up to `room` with the least total fuel, and the best bound on it.
 
-    psi proves the bound (b, psi) - room * sum of gains; scaled down until nothing gains, (b, psi) itself.
+    psi proves the bound (b, psi) - room * sum of gains. Scaled down until no gain is left it proves (b, psi).
     """
     steps, width = start.shape
     if not steps:
@@ -255,27 +255,27 @@ def _generate(factors: Array, target: Array, start: Array, room: float, turning:
 
 
 def _length(points: Array) -> Array:
-    """The fuel of an engine that turns: the lengths of the impulses."""
+    """The fuel of one engine that turns: the length of each impulse."""
     return np.asarray(np.linalg.norm(points, axis=1))
 
 
 def _total(points: Array) -> Array:
-    """The fuel of separate engines: the sums of the moduli of the components."""
+    """The fuel of separate engines: for each impulse the sum of the moduli of its components."""
     return np.asarray(np.abs(points).sum(axis=1))
 
 
 def _longest(along: Array) -> tuple[Array, Array]:
-    """For each v the impulse u of the unit disc with the largest (v, u) - |u|, and that gain."""
+    """For each v the impulse u of the unit disc with the largest gain (v, u) - |u|, and this gain."""
     unit, size = _directions(along)
     return unit, np.maximum(size - 1, 0.0)
 
 
 def _beyond(along: Array) -> tuple[Array, Array]:
-    """For each v the u of the unit ball with the largest (v, u) - sum of |u_i|, and that gain."""
+    """For each v the u of the unit ball with the largest gain (v, u) - sum of |u_i|, and this gain."""
     return _directions(np.sign(along) * np.maximum(np.abs(along) - 1, 0.0))
 
 
 def _directions(along: Array) -> tuple[Array, Array]:
-    """Unit vectors along those given, and their lengths."""
+    """Unit vectors along the given vectors, and the lengths of the given vectors."""
     size = np.linalg.norm(along, axis=1)
     return along / np.maximum(size, 1e-300)[:, None], size

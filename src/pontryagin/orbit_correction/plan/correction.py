@@ -18,13 +18,13 @@ ROUNDING = 1e-12
 """A gauge that exceeds 1 by at most this counts as 1."""
 
 MOST_STEPS = 1_000_000
-"""Most steps among which `correct` searches."""
+"""Largest number of steps that `correct` tries."""
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A correction in the fewest steps and, among those, of the least peak: the control of Theorem 4.
+    """The correction with the fewest steps and, among those, the least peak: the control of Theorem 4.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ class Plan:
 
 
 def single(plan: Plan) -> Plan:
-    """The plan itself, if it is that of one state; else `ValueError`."""
+    """The plan itself if it is that of one state; otherwise `ValueError` is raised."""
     if plan.steps.shape:
         raise ArgumentValueError(
             f"plan must be that of one state, got a stack of shape {plan.steps.shape}", "plan"
@@ -132,8 +132,9 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
     TypeError, ValueError
         If an argument is invalid, with its name.
     pontryagin.Infeasible
-        If no number of impulses brings a state back: at intervals of whole revolutions every impulse acts
-        at the same place and none changes the radius. Also if more than a million steps are needed.
+        If no number of impulses brings a state back, or more than a million steps are needed. The first
+        happens at intervals of whole revolutions, where every impulse acts at the same place of the orbit and
+        none changes the radius there.
     pontryagin.NotConverged
         If rounding leaves a gap between the bounds on a plan.
 
@@ -167,10 +168,11 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
 def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]:
     """N_min of the states (rows, 3), and the bound on alpha(N_min - 1) that proves that fewer do not suffice.
 
-    alpha(N) decreases strictly and N alpha(N) tends to a constant, so that N alpha(N) is a good next guess
-    for N_min; each try moves it further on, by doubling amounts. Between a number of steps that is too small
-    and one that suffices, log alpha is interpolated in log N. After ten tries every third one is the middle,
-    which bounds the length of the search.
+    alpha(N) decreases strictly and N alpha(N) tends to a constant. While no number of steps is known to
+    suffice, the next one tried is therefore N alpha(N), but larger than the last by at least an amount that
+    doubles with every try. Once a number that is too small and one that suffices are known, log alpha is
+    interpolated in log N between them. After ten tries every third number is the middle of the two, which
+    bounds the length of the search.
     """
     moving = rows.any(axis=1)
     too_few = np.where(moving, thrust.fewest - 1, 0)
@@ -202,7 +204,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
 
 
 def _between(low: Array, above: Array, high: Array, below: Array, middle: bool) -> Array:
-    """Where log alpha, linear in log N between alpha(low) > 1 and alpha(high) <= 1, is 0; or the middle."""
+    """N with log alpha = 0, linear in log N from alpha(low) > 1 to alpha(high) <= 1, or the middle."""
     with np.errstate(all="ignore"):
         share = np.log(above) / np.log(above / below)
         found = np.exp(np.log(low) + share * np.log(high / low))

@@ -1,4 +1,4 @@
-"""The three sets of admissible impulses, and the gauges of stacks of states, each for its number of steps.
+"""The three sets of admissible impulses, and gauges of stacks of states, each for its own number of steps.
 
 ball    the paper's (12): three successive impulse components together in a ball whose radius is the peak
 disc    each impulse (radial, transverse) in a disc: one engine that turns
@@ -33,10 +33,10 @@ COMPILE_FROM = 60
 """The compiled kernels are loaded when the number of states times that of steps exceeds this."""
 
 SPANNING = 2
-"""The impulses of this many steps span the space, whatever the set of impulses."""
+"""This many steps are enough for the impulses to span the space, whatever the set of impulses."""
 
 KEPT = 1024
-"""Factors of at most this many steps are kept for the next call: they take most of the time of one state."""
+"""Factors of at most this many steps are cached: computing them takes most of the time for one state."""
 
 CHUNK = 1_000_000
 """A stack is solved in pieces of at most this many states times steps, to limit the memory for controls."""
@@ -120,11 +120,11 @@ class Gauges:
     Attributes
     ----------
     lower, upper : (rows,) arrays
-        Bounds on the gauges: what the costates prove, and the peaks of the controls.
+        Bounds on the gauges: the lower ones by the costates, the upper ones by the peaks of the controls.
     costates : (rows, 3) array
-        Of any length.
+        Costates psi_0, not normalised.
     controls : (rows, steps, components) array
-        In units of the peak.
+        Controls in units of the peak.
     """
 
     lower: Array
@@ -135,7 +135,7 @@ class Gauges:
 
 @dataclass(frozen=True)
 class Scaled:
-    """Factors of steps in units of their reach along each axis, and their Gramians.
+    """Factors G_k in units of the reach of the impulses along each axis, and the Gramians of the steps.
 
     Attributes
     ----------
@@ -153,13 +153,13 @@ class Scaled:
     gram_factors: Array
 
     def up_to(self, steps: int) -> "Scaled":
-        """The first of the steps."""
+        """The factors and Gramians of the first steps alone."""
         return Scaled(self.reach, self.factors[:steps], self.gram_factors[:steps])
 
 
 @dataclass(frozen=True)
 class Thrust:
-    """A set of admissible impulses with their interval and peak, and the system that they make.
+    """A set of admissible impulses with their interval and peak, and the discrete system that they define.
 
     Attributes
     ----------
@@ -182,7 +182,7 @@ class Thrust:
     def whole_revolutions(self) -> bool:
         """Whether the interval is whole revolutions, to the precision of a floating number of its size.
 
-        Then every impulse acts at the same place of the orbit, and none changes the radius there.
+        If it is, every impulse acts at the same place of the orbit, and none changes the radius there.
         """
         return abs(self.phase) <= min(np.finfo(float).eps * self.interval, 1e-9)
 
@@ -201,13 +201,13 @@ class Thrust:
         return make(steps, self.phase)
 
     def step_transition(self, k: int) -> Array:
-        """A(k) of (12), or of the system with one impulse a step, (3, 3)."""
+        """A(k) of (12), or for disc and box A(k) of the system with one impulse in each step, (3, 3)."""
         if self.name == "ball":
             return satellite.step_transition(k, self.phase)
         return satellite.transition(self.phase)
 
     def step_input(self, k: int) -> Array:
-        """B(k) of (12), or of the system with one impulse a step, (3, components)."""
+        """B(k) of (12), or for disc and box B(k) with one impulse in each step, (3, components)."""
         if self.name == "ball":
             return satellite.step_input(k, self.phase)
         return satellite.transition(self.phase)[:, 1:]
@@ -222,7 +222,7 @@ class Thrust:
         return results
 
     def bounds(self, z0: Array, counts: NDArray[np.int64]) -> tuple[Array, Array]:
-        """The bounds that `gauges` finds, computed in pieces so that large stacks fit into memory."""
+        """The lower and upper bounds by `gauges`, computed in pieces so that large stacks fit into memory."""
         lower, upper = np.empty(len(z0)), np.empty(len(z0))
         order = np.argsort(counts, kind="stable")
         while order.size:
@@ -244,7 +244,7 @@ class Thrust:
             return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).up_to(most))
 
     def _gauges(self, z0: Array, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
-        """The gauges, solved in units of the state and of the impulses' reach, since both may be tiny."""
+        """The gauges, computed in units of the state and of the impulses' reach, since both may be tiny."""
         reach, factors, gram_factors = steps.reach, steps.factors, steps.gram_factors
         most = len(factors)
         size = np.abs(z0).max(axis=1, initial=0.0)
@@ -264,7 +264,7 @@ class Thrust:
         )
 
     def _gauges_of_speeds(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
-        """The gauges where all impulses act at one place: equal impulses, which change the speeds alone."""
+        """The gauges where all impulses act at one place of the orbit and change only the speeds."""
         if z0[:, 0].any():
             raise Infeasible(
                 f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
@@ -297,7 +297,7 @@ def thrust_of(thrust: str, interval: ArrayLike, peak: ArrayLike) -> Thrust:
 
 
 def scaled(factors: Array, fewest: int) -> Scaled:
-    """The factors (steps, n, components) scaled, with Gramians from `fewest` steps on."""
+    """The scaled factors (steps, n, components), with Gramians from `fewest` steps on."""
     reach = np.maximum(np.abs(factors[:SPANNING]).max(axis=(0, 2)), 1e-300)
     units = np.ascontiguousarray(factors / reach[:, None])
     gram = np.cumsum(np.einsum("kij,klj->kil", units, units), axis=0)

@@ -1,6 +1,6 @@
-"""Recordings that replay: the satellite beside its circle, its impulses, and the sets that shrink around it.
+"""Recordings for playback: the satellite beside its circle, its impulses, and the sets that shrink around it.
 
-`recordings` names them, each with the function that writes it; `record_plan` records any one plan.
+`recordings` lists them, each with the function that writes it; `record_plan` records any single plan.
 """
 
 from collections.abc import Callable
@@ -14,7 +14,7 @@ __all__ = ["orbit_correction", "orbit_correction_square", "record_plan", "record
 
 
 def recordings() -> dict[str, Callable[[Path], None]]:
-    """The recordings of this paper: name and the function that writes the file."""
+    """The recordings of this paper: for each name the function that writes the file."""
     return {"orbit-correction": orbit_correction, "orbit-correction-square": orbit_correction_square}
 
 

@@ -1,6 +1,6 @@
-"""What a recording of one plan shows: the orbit, the impulses, and the sets of states still within reach.
+"""The recording of one plan: the orbit, the impulses, and the sets of states that can still be corrected.
 
-The orbit's radius and speed are units; a radian of the orbit takes `PACE` seconds.
+The orbit's radius and speed are the units; a radian of the orbit takes `PACE` seconds.
 """
 
 from pathlib import Path
@@ -18,13 +18,13 @@ from pontryagin.orbit_correction.playback.remaining import Remaining, remaining
 from pontryagin.orbit_correction.system import satellite
 
 SAMPLES = 13
-"""Instants that are recorded in each interval between impulses, its two ends included."""
+"""Number of instants recorded in each interval between impulses, including its two ends."""
 
 PACE = 10.0
 """Seconds of the recording for a radian of the orbit."""
 
 BLINK = 0.06
-"""Seconds that a jump takes in a plot: the player averages the values that share a pixel."""
+"""Seconds that a jump takes in a plot, because the player averages values that share a pixel."""
 
 HOLD = 0.5
 """Seconds for which an impulse is shown."""
@@ -33,7 +33,7 @@ RADIUS = 10.0
 """Radius of the orbit as drawn."""
 
 LENGTH = 4.0
-"""Length of the arrow of an impulse at its bound."""
+"""Length of the arrow of an impulse of the largest admissible size."""
 
 NEAR_THE_SET: tuple[Point, Point] = ((1.1, -1.3, 0.7), (0.0, 0.0, 0.0))
 """The place of the camera that shows the sets, and the point that it looks at."""
@@ -46,12 +46,12 @@ STATES = (("dr", BLUE), ("dvR", RED), ("dvT", GREEN))
 
 
 def record_plan(plan: Plan, path: Path) -> None:
-    """Record one plan: its true flight, and in the linear model the sets of states that can still come home.
+    """Record one plan: its true flight, and in the linear model the states that can still be corrected.
 
     Parameters
     ----------
     plan : Plan
-        Of one state, with at least one impulse.
+        A plan of one state, with at least one impulse.
     path : Path
         File to write, ending in ``.rrd``.
 
@@ -130,7 +130,7 @@ def _orbit(recording: Recording, plan: Plan, factor: float) -> None:
 
 
 def _flash(plan: Plan, t: Array) -> Array:
-    """Impulses over their bound at the times (k,), each shown while it is held, (k, 2)."""
+    """Impulses over their bound as shown at the times (k,), each for `HOLD` seconds, (k, 2)."""
     since = t[:, None] - PACE * plan.thrust.interval * np.arange(len(plan.impulses))
     shown = (since > 0) & (since < HOLD + BLINK / 2)
     return np.asarray(shown @ (plan.impulses / plan.thrust.peak))
@@ -165,6 +165,6 @@ def _sets(recording: Recording, plan: Plan) -> None:
 
 
 def _proved(plan: Plan, held: Array, left: Remaining, square: bool) -> float:
-    """The gauge that the plan's costate proves of a state carried back to the start."""
+    """The gauge, as the plan's costate proves it, of a state ``held`` that is carried back to the start."""
     psi = -plan.initial_costate
     return float(held @ psi) / float(left.boundary(psi, square) @ psi)

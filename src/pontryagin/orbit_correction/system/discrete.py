@@ -1,4 +1,4 @@
-"""Nonstationary linear systems with ellipsoidal controls, (1) and section 6, and their summands, Lemma 1."""
+"""Nonstationary linear systems (1) with ellipsoidal controls, section 6, and their summands, Lemma 1."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -27,15 +27,15 @@ class DiscreteSystem:
     Parameters
     ----------
     A : sequence of (n, n) matrices, (steps, n, n) array, one (n, n) matrix, or callable of k
-        Nonsingular. One matrix stands for a stationary system.
+        The nonsingular matrices A(k). One matrix defines a stationary system.
     H : the same
-        Symmetric positive definite.
+        The symmetric, positive definite matrices H(k).
 
     Raises
     ------
     TypeError, ValueError
-        If A or H does not hold finite numbers; and when a matrix is used (`factors`, `gauge`) that is
-        wrongly shaped, singular, not symmetric or not positive definite: the message names it with its k.
+        If A or H does not hold finite numbers. A matrix that is wrongly shaped, singular, not symmetric or
+        not positive definite raises when it is used (`factors`, `gauge`); the message names it with its k.
 
     Examples
     --------
@@ -61,7 +61,7 @@ class DiscreteSystem:
 
     @cached_property
     def _steps(self) -> list[tuple[Array, Array]]:
-        """The matrices of the steps that were checked so far."""
+        """The results of `step` for the steps that were checked so far."""
         return []
 
     def step(self, k: int) -> tuple[Array, Array]:
@@ -103,7 +103,7 @@ class DiscreteSystem:
 
 
 def _one_matrix(given: Matrices) -> bool:
-    """Whether one matrix serves every step."""
+    """Whether the same matrix is given for all steps."""
     return isinstance(given, np.ndarray) and given.ndim == 2
 
 

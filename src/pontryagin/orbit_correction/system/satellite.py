@@ -28,8 +28,8 @@ def transition(time: ArrayLike) -> Array:
 def phase(interval: float) -> float:
     """The interval minus the nearest number of whole revolutions, between -pi and pi.
 
-    Impulses at its multiples act as impulses at the multiples of the interval do. Close to whole revolutions
-    its multiples lose no digits, while those of the interval would.
+    Impulses at multiples of the phase have the same effect as impulses at multiples of the interval. Close to
+    whole revolutions the multiples of the phase lose no digits, while those of the interval would.
 
     Examples
     --------

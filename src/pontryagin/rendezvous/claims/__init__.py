@@ -2,7 +2,7 @@
 
 There is one module for each step of the texts. A module transcribes and judges; derived formulas come from
 `pontryagin.rendezvous.derivation`. `meetings` holds true and false meetings that decide claims in words,
-`spirals` the slow transfers that show that the problem of least energy in free time has no solution.
+`spirals` holds the slow transfers that show that the problem of least energy in free time has no solution.
 """
 
 from itertools import chain

@@ -23,7 +23,7 @@ from pontryagin.rendezvous.derivation.quaternion import conjugate, product, pure
 GRAVITY, PARAMETER, ECCENTRICITY, ANOMALY = 1.0, 1.5, 0.1, 0.6
 TIME_WEIGHT, ENERGY_WEIGHT, PEAK = 0.0036, 1.0, 0.25
 START = [1.0, 0.0, 1.0]
-"""r, v1, c at t0."""
+"""Values of r, v1 and c at t0."""
 
 ROUNDING = 1e-11
 """Largest residual of a meeting that counts as rounding, for quantities of the order 1."""
@@ -31,7 +31,7 @@ ROUNDING = 1e-11
 
 @dataclass(frozen=True)
 class Meeting:
-    """rho, s1, e, nu1, nu2, nu3 at t0, the duration, and the inclination of the target's orbit in degrees."""
+    """A meeting: rho, s1, e, nu1, nu2, nu3 at t0, the duration, and the target's inclination in degrees."""
 
     name: str
     costates: tuple[float, float, float, float, float, float]
@@ -209,7 +209,7 @@ class Outcome:
 
     @property
     def turn(self) -> float:
-        """Angle between the attitude and the target's, in degrees."""
+        """Angle between the attitude of the craft and that of the target, in degrees."""
         return float(np.degrees(2 * np.arcsin(min(self.mismatch, 1.0))))
 
 

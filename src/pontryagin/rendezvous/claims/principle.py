@@ -39,9 +39,9 @@ PLACE = {
     c: sp.Rational(6, 5),
     **dict(zip(attitude, (sp.Rational(k, 5) for k in (1, 2, 2, 4)), strict=True)),
 }
-"""A state without symmetries, |lambda| = 1."""
+"""A rational state without symmetries, with |lambda| = 1, at which the 16 equations are compared."""
 PRIMER = dict(zip(canonical.PSI, (sp.Rational(k, 6) for k in (2, -1, 3, 2, 3, 6)), strict=True))
-"""psi_R and psi_V there, with |psi_V| = 7/6."""
+"""Values of psi_R and psi_V at the state `PLACE`, with |psi_V| = 7/6."""
 
 
 @claim("section 2: costates", "μ, ρ, s1, e, Φ*, ψ0 belong to λ, r, v1, c, φ*, g", verdict="holds")

@@ -26,7 +26,7 @@ p1, p2, p3 = thrust
 
 
 def rates(*variables: sp.Symbol) -> list[sp.Expr]:
-    """The derived rates of given ones of the ten variables."""
+    """The derived rates of the given variables, which are among the ten."""
     known = dict(zip(reduction.REDUCED, reduction.rates(), strict=True))
     return [known[x] for x in variables]
 

@@ -48,7 +48,7 @@ def needed_thrust() -> tuple[sp.Expr, sp.Expr]:
 
 
 def mean(expression: sp.Expr) -> float:
-    """The integral over 0 <= s <= 1."""
+    """The integral of an expression in s over 0 <= s <= 1."""
     value = compiler.function("value", [share], {"value": expression})
     return float(quad(lambda at: float(value(at)[0]), 0, 1, epsabs=0, epsrel=1e-13)[0])
 
@@ -65,7 +65,7 @@ def target_rate() -> float:
 
 
 def duration_of(lap: int) -> float:
-    """T at which the craft has made up for the lead and a number of revolutions."""
+    """The duration T after which the craft has gained the target's lead and a number of revolutions."""
     return (LEAD + 2 * math.pi * lap) / (sweep() - target_rate())
 
 

@@ -41,7 +41,7 @@ lam = attitude
 
 
 def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Expr:
-    """A polynomial in a quaternion, reduced with norm 1."""
+    """A polynomial in the components of a unit quaternion, reduced by the condition that its norm is 1."""
     first, *others = quaternion
     remainder = sp.rem(sp.expand(expression), quaternion.dot(quaternion) - 1, first)
     return sp.simplify(remainder.subs(first**2, 1 - sum(part**2 for part in others)))

@@ -9,7 +9,7 @@ transversality       the moving end, (16)
 repair               the information on the attitude that (15) loses, and the equation that restores it
 terminal             (16) and (17) at a meeting as a law for the thrust at t_k
 variation            these conditions and the slope of the cost by the first variation
-forms                the equations as the solvers take them
+forms                the closed equations that the solvers use, with the optimal thrust
 primer, inertial,    independent proofs of the equations, from Cartesian coordinates
 canonical
 sapunkov             Sapunkov's elements and (1), from the Kustaanheimo-Stiefel regularisation

@@ -1,9 +1,9 @@
 """A second derivation of the 16 equations: the costates are transformed from Cartesian coordinates.
 
 R and V together are a function X of x = (r, v1, c, lambda). The costate of x for which (psi, dX) is invariant
-is (dX/dx)' psi; its rate follows from Newton's law for x and the canonical equations for psi. The thrust is
-given by its components in eta here too, with axes that are functions of R and V, so that both problems have
-the same controls. nu0 is 0, since X does not depend on a scalar factor of lambda.
+is (dX/dx)' psi; its rate follows from Newton's law for x and the canonical equations for psi. Here too the
+thrust is given by its components in eta, whose axes are functions of R and V, so both problems have the same
+controls. nu0 is 0, since X does not depend on a scalar factor of lambda.
 
 The equations are compared at rational points r, v1, c, lambda with |lambda| = 1, so that no roots occur; psi
 and the thrust remain symbols.
@@ -67,13 +67,13 @@ def _moving(rates: sp.Matrix) -> sp.Matrix:
 
 
 def _along(expressions: sp.Matrix, point: Point, rates: sp.Matrix) -> sp.Matrix:
-    """d/dt of functions of x at a point, with the rates of x."""
+    """d/dt of functions of x at a point where x has the given rates."""
     shifted = {x: point[x] + step * rate for x, rate in zip(MOVING, rates, strict=True)}
     return expressions.subs(shifted, simultaneous=True).diff(step).subs(step, 0)
 
 
 def state_gap(point: Point) -> sp.Matrix:
-    """X' by (2) and (3) less dH/dpsi, (6,)."""
+    """X' by (2) and (3) minus dH/dpsi, (6,)."""
     energy = hamiltonian(place_and_velocity().subs(point))
     newton = sp.Matrix([energy.diff(x) for x in PSI])
     rates = _moving(principle.state_rates()).subs(point)
@@ -81,7 +81,7 @@ def state_gap(point: Point) -> sp.Matrix:
 
 
 def costate_gap(point: Point) -> sp.Matrix:
-    """d/dt of (dX/dx)' psi along the canonical equations in R and V, less -dH/dx in 16 dimensions, (7,)."""
+    """d/dt of (dX/dx)' psi along the canonical equations in R and V, minus -dH/dx in 16 dimensions, (7,)."""
     place = place_and_velocity().subs(point)
     nearby = [hamiltonian(place + step * sp.eye(6)[:, k]) for k in range(6)]
     psi_rates = -sp.Matrix(nearby).diff(step).subs(step, 0)
@@ -91,13 +91,13 @@ def costate_gap(point: Point) -> sp.Matrix:
 
 
 def hamiltonian_gap(point: Point) -> sp.Expr:
-    """H in 16 dimensions less H in R and V: the term of phi*, which is Phi* phi*'."""
+    """H in 16 dimensions minus H in R and V: the term of phi*, which is Phi* phi*'."""
     energy = in_psi(sp.Matrix([principle.hamiltonian()]), point)[0]
     return sp.expand(energy - hamiltonian(place_and_velocity().subs(point)))
 
 
 def optimal_gap(mode: principle.Mode, point: Point, psi: Point) -> sp.Matrix:
-    """Rates of X and of (dX/dx)' psi by `forms.full`, less those by `inertial.cartesian`, (13,).
+    """Rates of X and of (dX/dx)' psi by `forms.full`, minus those by `inertial.cartesian`, (13,).
 
     Each system has its own optimal thrust. `psi` must have a rational |psi_V|.
     """

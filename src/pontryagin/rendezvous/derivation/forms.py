@@ -1,4 +1,4 @@
-"""The equations as the solvers take them: symbols, rates and parameters, with the optimal thrust.
+"""The closed equations that the solvers use: states, rates and parameters, with the optimal thrust.
 
 Four forms of one problem, with the numbers of their equations:
 

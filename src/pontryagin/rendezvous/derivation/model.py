@@ -60,7 +60,7 @@ def motion() -> tuple[sp.Matrix, sp.Matrix]:
 
 @cache
 def attitude_rate() -> sp.Matrix:
-    """lambda' = lambda o omega_eta / 2, (3): the derivative of lambda followed by the rotation omega h."""
+    """lambda' = lambda o omega_eta / 2, (3): the derivative by h of lambda followed by a rotation omega h."""
     h = sp.Symbol("h", positive=True)
     speed = sp.Symbol("w", positive=True)
     omega = motion()[1]

@@ -1,9 +1,9 @@
 """The problem in Cartesian coordinates, where n is Lawden's primer vector.
 
-H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*' has psi_R = -psi_V' and psi_V'' =
-G psi_V, where G is the gradient of gravity. The thrust lies along psi_V, so psi_V is n in inertial axes.
-`carried` is the derivative of n in inertial axes along the reduced equations; with the thrust along n it does
-not depend on the thrust, and the second derivative is G n.
+With H = -(alpha1 + alpha2 p^2) + (psi_R, V) + (psi_V, p - fM R/r^3) + Phi* phi*', psi_R = -psi_V' and
+psi_V'' = G psi_V, where G is the gradient of gravity. The thrust lies along psi_V, so psi_V is n in inertial
+axes. `carried` is the derivative of n in inertial axes along the reduced equations; with the thrust along n
+it does not depend on the thrust, and the second derivative is G n.
 
 The rotating axes eta depend on the state, so a thrust given by its components in eta is another function of
 the state than one given in inertial axes: for thrusts not along n the two sets of costates differ.
@@ -69,7 +69,7 @@ def hamiltonian() -> sp.Expr:
 
 
 def turning_invariant(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> sp.Matrix:
-    """2 (R x psi_R + V x psi_V) in eta."""
+    """The integral nu* = 2 (R x psi_R + V x psi_V), by its components in eta."""
     velocity = v1 * EX + c / r * EY
     moment = (r * EX).cross(position_costate) + velocity.cross(velocity_costate)
     return (2 * moment).applyfunc(sp.expand)
@@ -87,7 +87,7 @@ def transversality_condition() -> sp.Expr:
 
 
 def costates(position_costate: sp.Matrix, velocity_costate: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
-    """rho, s1, e, nu of psi_R and psi_V in eta: from (9), from psi_V' and from the integral nu*."""
+    """rho, s1, e, nu in terms of psi_R and psi_V in eta: from (9), from psi_V' and from the integral nu*."""
     along_radius = sp.Dummy("psi_R1")
     rho = sp.solve(carried()[0] + along_radius, principle.rho)[0]
     s1, e = velocity_costate[0], velocity_costate[1] / r

@@ -8,7 +8,7 @@ rho, s1, e       rho, s1, e                     costates of r, v1 and c (the ecc
 Phi*             anomaly_costate                costate of phi*
 mu               mu                             costate of lambda, a quaternion
 nu               nu0, nu                        lambda~ o mu; its vector part nu1, nu2, nu3
-n_eta            switching                      what multiplies p_eta in H
+n_eta            switching                      coefficient of p_eta in H
 p, |n|           thrust_magnitude,              lengths of the thrust and of n
                  switching_length
 psi0             -1                             costate of the running value g of the functional
@@ -99,7 +99,7 @@ def in_switching_length(expression: sp.Expr, n: sp.Matrix) -> sp.Expr:
 
 @cache
 def along_switching() -> sp.Expr:
-    """H at the thrust p n/|n| less H without thrust, in terms of p and |n|."""
+    """H at the thrust p n/|n| minus H without thrust, in terms of p and |n|."""
     n, energy = switching(), in_nu(hamiltonian())
     with_thrust = energy.subs(dict(zip(thrust, thrust_magnitude / size(n) * n, strict=True)))
     return in_switching_length(sp.expand(with_thrust - energy.subs(dict.fromkeys(thrust, 0))), n)
@@ -109,9 +109,9 @@ def along_switching() -> sp.Expr:
 def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """The p in 0 <= p <= p_max at which `along_switching` is largest.
 
-    Three values: for alpha2 > 0 where |n| <= 2 alpha2 p_max and where |n| > 2 alpha2 p_max, the cases of
-    (10), and for alpha2 = 0. The candidates are both ends, and the point between them where the slope
-    vanishes.
+    The three values are those of the two cases of (10) for alpha2 > 0, |n| <= 2 alpha2 p_max and
+    |n| > 2 alpha2 p_max, and that for alpha2 = 0. The candidates are both ends of the interval, and the point
+    between them where the slope vanishes.
     """
     gain, excess, weight = along_switching(), sp.Symbol("k", positive=True), sp.Symbol("w", positive=True)
     (top,) = sp.solve(gain.diff(thrust_magnitude), thrust_magnitude)
@@ -126,7 +126,7 @@ def best_magnitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 def _largest(
     gain: sp.Expr, candidates: tuple[sp.Expr, ...], case: dict[sp.Symbol, sp.Expr], weight: sp.Symbol
 ) -> sp.Expr:
-    """The candidate at which the gain is largest in a case, with `weight` > 0 for alpha2."""
+    """The candidate at which the gain is largest in a case, with `weight` > 0 in place of alpha2."""
 
     def lead(one: sp.Expr, other: sp.Expr) -> sp.Expr:
         difference = gain.subs(thrust_magnitude, one) - gain.subs(thrust_magnitude, other)

@@ -54,5 +54,5 @@ def turn(axis: sp.Matrix, angle: sp.Expr) -> sp.Matrix:
 
 
 def rotated(vector: sp.Matrix, attitude: sp.Matrix) -> sp.Matrix:
-    """a o x o a~, a vector given in the axes of an attitude, in inertial axes."""
+    """a o x o a~: the inertial components of a vector x that is given in the axes of the attitude a."""
     return vect(product(attitude, pure(vector), conjugate(attitude)))

@@ -7,14 +7,14 @@ nu*/|nu*|. Then S~ o lambda o T(nu) leaves i3 fixed: it is the rotation by an an
     lambda = S o [cos(chi/2) + i3 sin(chi/2)] o T(nu)~.
 
 chi is the coordinate of the attitude that the ten equations do not contain; its rate is the eleventh
-equation. T is singular at nu3 = -|nu|. The second chart starts from -i3 in place of i3 and is singular at nu3
-= |nu|.
+equation. T is singular at nu3 = -|nu|. The second chart starts from -i3 in place of i3 and is singular at
+nu3 = |nu|.
 
 paper   here      meaning
 ------  --------  ---------------------------------------------------------------------
 |nu|    length    length of the vector nu, constant
 -       chi       angle about nu*
--       chart     +1, regular off nu3 = -|nu|; -1, regular off nu3 = |nu|
+-       chart     +1, regular except at nu3 = -|nu|; -1, except at nu3 = |nu|
 """
 
 from functools import cache
@@ -56,7 +56,7 @@ def change_of_invariant() -> sp.Matrix:
 
 
 def _with_unit_attitude(expression: sp.Expr) -> sp.Expr:
-    """An expression with the factor |lambda|^2 or a power of it, at |lambda| = 1."""
+    """An expression that has |lambda|^2 or a power of it as a factor, at |lambda| = 1."""
     return sp.factor(expression).subs(attitude.dot(attitude), 1)
 
 

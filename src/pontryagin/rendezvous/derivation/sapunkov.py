@@ -2,8 +2,8 @@
 
 A quaternion u represents the place, R = u~ o i1 o u, so that r = |u|^2; the fictitious time tau is defined by
 dt = r d tau. While the energy h is negative, u is a harmonic oscillation of frequency 1 in the half-angle phi
-with d phi/d tau = sqrt(-h/2); its amplitudes A and B are the elements. Lengths and times are such that fM =
-1; epsilon is the unit of the thrust in units of gravity.
+with d phi/d tau = sqrt(-h/2); its amplitudes A and B are the elements. Lengths and times are such that
+fM = 1; epsilon is the unit of the thrust in units of gravity.
 
 paper       here            meaning
 ----------  --------------  --------------------------------------------------------------

@@ -5,13 +5,12 @@ thrust, and equal steps of phi are short in time where the orbit is strongly cur
 free. The running cost L(p), alpha1 + alpha2 p^2 or alpha1 + alpha2 |p|, enters as a symbol: the equations and
 the integrals hold for both.
 
-Since u has four components and the place three, there are three redundancies that a shooting method must
-remove:
+Since u has four components and the place three, a shooting method must remove three redundancies:
 
 turn      u -> exp(i1 s) o u does not change R. Its momentum (a, i1 o A) + (b, i1 o B) is constant, and 0
-          because the set of admissible ends is invariant.
-relation  scal(A~ o i1 o B) = 0 always, so its gradient may be added to the costates without changing the
-          thrust.
+          because the set of admissible ends is invariant under this change of u.
+relation  scal(A~ o i1 o B) = 0 always, so its gradient may be added to the costates without changing
+          the thrust.
 phase     the origin of phi is arbitrary: (a, B) - (b, A) is the costate of phi.
 
 Six numbers remain: the costates orthogonal to the directions of the turn and of the relation, which are

@@ -1,6 +1,6 @@
 """Symbols that have a plain name in generated source and the paper's name in print.
 
-The name is that of the argument in generated source and functions; a formula shows `TEX`.
+A symbol's name is that of the argument in generated source and functions; a formula shows its entry in `TEX`.
 """
 
 import sympy as sp
@@ -19,8 +19,8 @@ TEX = {
 class Symbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types.
     """A symbol that prints as given in `TEX`.
 
-    SymPy orders expressions by the name of the class; with this name these symbols are ordered among plain
-    ones.
+    SymPy orders expressions by the name of the class; with this name these symbols are ordered among the
+    plain ones.
 
     Examples
     --------

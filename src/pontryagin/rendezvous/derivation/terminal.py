@@ -1,11 +1,11 @@
-"""(16) and (17) at a meeting combined to a law for the thrust at t_k, without C_phi.
+"""(16) and (17) at a meeting combined into a law for the thrust at t_k, without C_phi.
 
 With (5), C_phi of (16) cancels all terms of (17) except those of the thrust and the cost:
 
     (n, p) = alpha1 + alpha2 p^2    at t_k.
 
-It determines the scale of the costates. It replaces (16), (17) and the unknown C_phi, which leaves seven
-equations for seven unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k.
+This law determines the scale of the costates. It replaces (16), (17) and the unknown C_phi, which leaves
+seven equations for seven unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k.
 """
 
 from functools import cache
@@ -73,8 +73,8 @@ def end_thrust() -> sp.Expr:
 def cost_slope(mode: Mode) -> sp.Expr:
     """dJ*/dt_k along the extremals of prescribed duration and free phi*_k, as a function of |n(t_k)|.
 
-    By the first variation. With an unsaturated end it is alpha1 - alpha2 p(t_k)^2, and vanishes where `law`
-    does.
+    It follows from the first variation. With an unsaturated end it is alpha1 - alpha2 p(t_k)^2, which
+    vanishes where `law` does.
     """
     ends = transversality.end_values()
     optimal = dict(zip(thrust, principle.optimal_thrust(mode).subs(ends), strict=True))

@@ -31,7 +31,7 @@ FAMILY = {x: sp.Function(f"{x}_")(t, s) for x in (*STATE, *COSTATE, *thrust)}
 
 @cache
 def rest_of_the_variation() -> sp.Expr:
-    """d/ds of (psi, x') - H less d/dt of (psi, dx/ds), along the 16 equations: the remainder."""
+    """d/ds of (psi, x') - H minus d/dt of (psi, dx/ds), along the 16 equations: the remainder."""
     states, costates = ([FAMILY[x] for x in names] for names in (STATE, COSTATE))
     lagrangian = sum(m * x.diff(t) for m, x in zip(costates, states, strict=True))
     lagrangian -= principle.hamiltonian().subs(FAMILY)

@@ -1,14 +1,15 @@
-"""The equations in Sapunkov's elements: modes of thrust along n, and where each ends.
+"""The equations in Sapunkov's elements: modes of thrust along n, and the events that end them.
 
-The independent variable is phi. The states are A, B, their costates a, b, the time and what L has cost so
-far; along them run the derivatives in six unknown costates at the start. Four modes of thrust along n:
+The independent variable is phi. The states are A, B, their costates a, b, the time, and the integral of the
+running cost L without alpha1. Their derivatives in six unknown costates at the start are integrated with
+them. There are four modes of thrust along n:
 
-unsaturated  n/2                                      alpha1 + alpha2 p^2 below the peak
+unsaturated  n/2                                      alpha1 + alpha2 p^2, below the peak
 saturated    p_max n/|n|                              any functional
 coast        0                                        alpha1 + alpha2 |p|
-smoothed     p_max n/|n| (1 + tanh(S/width))/2        alpha1 + alpha2 |p| its jump at S = |n| - 1 smoothed
+smoothed     p_max n/|n| (1 + tanh(S/width))/2        alpha1 + alpha2 |p|, jump at S = |n| - 1 = 0 smoothed
 
-The rates are those of `kernels`, whatever the thrust. Units are those of `Scaled`, alpha2 = 1.
+The rates at any thrust are those of `kernels`. Units are those of `Scaled`, alpha2 = 1.
 """
 
 import functools
@@ -35,21 +36,21 @@ OTHER: dict[tuple[str, Mode], Mode] = {
     ("fuel", "saturated"): "coast",
     ("fuel", "coast"): "saturated",
 }
-"""The mode after a switch, by functional and mode before."""
+"""The mode after a switch, by the functional and the mode before."""
 RISING = {"unsaturated": 1.0, "saturated": -1.0, "coast": 1.0, "smoothed": 1.0}
-"""The sense in which |n| passes the level where an arc ends."""
+"""The sense, +1 rising and -1 falling, in which |n| passes its level at the end of an arc of each mode."""
 
 ELEMENTS, COSTATES, TIME, SPENT = slice(0, 8), slice(8, 16), 16, 17
 COUNT, COLUMNS = 18, 6
-"""Number of states, and of the unknown costates that they are differentiated in."""
+"""Number of states, and of the unknown costates in which they are differentiated."""
 NAMES = (*(f"{group}{i}" for group in ("A", "B", "a", "b") for i in range(4)), "t", "spent")
 STRIDE = 8.0
-"""Longest step of phi under a smoothed jump, in its widths.
+"""Longest step of phi under a smoothed jump, in units of its width.
 
-A coast under it is a straight line to rounding, and steps without limit would leap over the burn behind it.
+A smoothed coast is a straight line to rounding; steps of unlimited length would skip the burn after it.
 """
 STEPS_PER_UNIT = 80
-"""An arc that needs more Taylor steps than this per unit of phi runs into a singularity."""
+"""An arc that needs more Taylor steps than this per unit of phi is taken to run into a singularity."""
 
 
 class Constants(NamedTuple):
@@ -64,7 +65,7 @@ class Constants(NamedTuple):
 def thrust_of(
     mode: Mode, of: Arithmetic, n: Sequence[Number], p: Sequence[Number]
 ) -> tuple[list[Number], Number]:
-    """Thrust along n in a mode with the `Constants` p, and the L that it costs."""
+    """Thrust along n in a mode with the `Constants` p, and its running cost L without alpha1."""
     peak, charge, _, width = p
     square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
     if mode == "coast":
@@ -79,7 +80,7 @@ def thrust_of(
 
 
 def rates(mode: Mode) -> RightHandSide:
-    """Rates of the 18 states by phi in a mode."""
+    """Derivatives of the 18 states in phi in a mode."""
 
     def of_mode(of: Arithmetic, phi: Number, x: Sequence[Number], p: Sequence[Number]) -> list[Number]:
         n = of.lift(kernels.element_switching)(*x[:16], phi)
@@ -103,7 +104,7 @@ def leaving(mode: Mode) -> EventFunction:
 
 @functools.cache
 def equations(mode: Mode) -> Kernel:
-    """The equations of a mode; six costates stand for the columns, whose start is that of the flight."""
+    """The equations of a mode, with columns for six derivatives whose initial values the flight sets."""
     return Kernel(NAMES, rates(mode), len(Constants._fields), tuple(range(8, 14)), (leaving(mode),))
 
 
@@ -114,5 +115,5 @@ def arc(mode: Mode, taylor: bool | None = None, rough: bool = False) -> Integrat
 
 
 def longest_step(mode: Mode, constants: Constants) -> float:
-    """Longest step of phi."""
+    """Longest step of phi allowed in a mode."""
     return STRIDE * constants.width if mode == "smoothed" else np.inf

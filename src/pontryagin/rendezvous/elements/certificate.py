@@ -1,7 +1,7 @@
-"""The certificate of an extremal in the elements: the maximum principle, with Newton's law as a witness.
+"""The certificate of an extremal in the elements: the maximum principle, compared with Newton's law.
 
-The witness has Cartesian coordinates, other costates and another integrator; it shares the thrust's law and
-the switch times.
+Newton's law is integrated in Cartesian coordinates, with other costates and another integrator; only the law
+of thrust and the switch times are shared.
 """
 
 from collections.abc import Callable
@@ -45,31 +45,35 @@ SAMPLES = 201
 @value_class
 @dataclass(frozen=True, eq=False)
 class ElementsCertificate(MaximumPrinciple):
-    """Residuals of a rendezvous in the elements, in units with p* = c* = fM = 1; no bound on other costs.
+    """Residuals of a rendezvous in the elements, in units with p* = c* = fM = 1.
+
+    No bound on the cost of other controls follows.
 
     Parameters
     ----------
     boundary : () array
-        Distance between craft and target at the meeting, difference of their velocities, and by what a fixed
-        duration is missed.
+        The largest of the distance between craft and target at the meeting, the difference of their
+        velocities, and the error of a fixed duration.
     transversality : () array
-        Momentum of the turn, relative to the largest costate, and at a free duration the terminal law.
+        Momentum of the turn (see `turn_momentum`), relative to the largest costate, and for a free duration
+        the residual of the terminal law.
     hamiltonian : () array
-        |H| with what the target's motion adds, which is constant and at a free duration 0; at a fixed one
-        the change of H. In units of the largest running cost.
+        For a free duration |H|, with the constant that the target's motion contributes; it must be 0. For a
+        fixed duration the change of H. The unit is the largest running cost.
     maximality : () array
         As in `MaximumPrinciple`, in units of the largest running cost.
     cartesian : () array
-        ``boundary`` by Newton's law in inertial axes.
+        Distance between craft and target at the meeting, and difference of their velocities, by Newton's law
+        in inertial axes.
     agreement : () array
-        Largest difference of R and V on the way between the elements and Newton's law, and of n relative to
-        the largest.
+        Largest difference during the flight between the elements and Newton's law, of R, V and n, with n
+        relative to its largest size.
     relation : () array
         Largest |scal(A~ o i1 o B)|.
     switching : () array
         Largest relative difference between |n| and its level at the switches.
     condition : () array
-        Condition number of the shooting equations, costates measured by the largest and phi by itself.
+        Condition number of the shooting equations, with the unknowns in the units of `scales`.
 
     Examples
     --------
@@ -91,7 +95,7 @@ class ElementsCertificate(MaximumPrinciple):
 
     @cached_property
     def residual(self) -> Array:
-        """The largest of all but the condition number."""
+        """The largest of all entries but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
         return np.asarray(
             np.max([*own, self.cartesian, self.agreement, self.relation, self.switching], axis=0)
@@ -99,7 +103,7 @@ class ElementsCertificate(MaximumPrinciple):
 
 
 def certify(root: Root[ElementFlight], free: bool) -> ElementsCertificate:
-    """Evaluate every condition anew."""
+    """Evaluate every condition independently."""
     flight = root.flight
     grid = np.linspace(0.0, flight.phi, SAMPLES)
     states = flight.sample(grid)
@@ -129,7 +133,7 @@ def certify(root: Root[ElementFlight], free: bool) -> ElementsCertificate:
 
 
 def running_cost(flight: ElementFlight, thrust: Array) -> Array:
-    """L at thrusts (k, 3)."""
+    """The running cost L at thrusts (k, 3), as (k,)."""
     size = np.linalg.norm(thrust, axis=1)
     if flight.law.bang:
         return np.ones_like(size)
@@ -137,7 +141,7 @@ def running_cost(flight: ElementFlight, thrust: Array) -> Array:
 
 
 def maximality(flight: ElementFlight, n: Array, thrust: Array) -> Array:
-    """By how much the largest H over |p| <= p_max exceeds H at the thrust flown."""
+    """Difference between the largest H over |p| <= p_max and H at the thrust used, (k,)."""
     size, law = np.linalg.norm(n, axis=1), flight.law
     if law.bang:
         most = size * law.peak
@@ -152,7 +156,10 @@ def maximality(flight: ElementFlight, n: Array, thrust: Array) -> Array:
 
 
 def turn_momentum(states: Array) -> float:
-    """Largest |(a, i1 o A) + (b, i1 o B)|, relative to the largest costate."""
+    """Largest |(a, i1 o A) + (b, i1 o B)|, relative to the largest costate.
+
+    It is the momentum conjugate to turning A and B together, which changes neither R nor V.
+    """
     moved = np.hstack([product(I1, states[:, :4]), product(I1, states[:, 4:8])])
     costates = states[:, COSTATES]
     return float(np.abs(np.sum(moved * costates, axis=1)).max() / np.abs(costates).max())
@@ -168,7 +175,7 @@ def off_level(flight: ElementFlight) -> float:
 
 
 def fly_cartesian(flight: ElementFlight, times: Array) -> Array:
-    """R, V, psi_R and psi_V (k, 12) at ascending times by DOP853, arc by arc."""
+    """R, V, psi_R and psi_V, (k, 12), at ascending times, integrated arc by arc by DOP853."""
     from scipy.integrate import solve_ivp
 
     state = cartesian_start(flight)
@@ -197,7 +204,10 @@ def fly_cartesian(flight: ElementFlight, times: Array) -> Array:
 
 
 def cartesian_start(flight: ElementFlight) -> Array:
-    """R, V and their costates psi at t0: (a, b) is M' psi and a multiple of the relation's gradient."""
+    """R, V and their costates psi at t0.
+
+    (a, b) is M' psi plus a multiple of the relation's gradient, with M the derivative of R and V in A and B.
+    """
     craft = start_of(flight.scaled)
     costates = flight.pieces[0].whole[COSTATES]
     columns = np.column_stack([place_gradient(craft).T, relation_gradient(craft)])

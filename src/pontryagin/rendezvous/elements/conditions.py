@@ -1,8 +1,8 @@
 """The conditions of a meeting in Sapunkov's elements and their exact derivatives.
 
-Unknowns: six costates at the start and phi at the end. Conditions: craft and target have one place and one
-velocity at the time t(phi), six; the duration, or at a free one the terminal law |n(t_k)|. While A and B
-are led from where the craft coasts to the target's, a goal on the way stands in the target's place.
+The unknowns are six costates at the start and phi at the end. Six conditions state that craft and target have
+the same place and velocity at the time t(phi). The seventh is the fixed duration, or for a free one the
+terminal law for |n(t_k)|. During the continuation from coasting, a goal takes the target's place.
 """
 
 from collections.abc import Callable
@@ -28,13 +28,13 @@ from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 from pontryagin.value import value_class
 
 Goal = Callable[[float], tuple[Array, Array]]
-"""Time to R and V (6,) and their rates (6,)."""
+"""A function of the time that returns R and V of the goal (6,) and their rates (6,)."""
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class ElementsSetting:
-    """What is solved for, and under which law of thrust; units of `Scaled`.
+    """A problem with the law of thrust under which it is solved, in the units of `Scaled`.
 
     Parameters
     ----------
@@ -43,13 +43,13 @@ class ElementsSetting:
     law : Law
         The functional, alpha1/alpha2 and the bound.
     duration : float or None
-        t_k where fixed.
+        t_k if it is fixed.
     goal : function of the time, optional
-        What stands in the target's place.
+        The goal that takes the target's place.
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
     rough : bool
-        Whether extremals are flown to 1e-10 only: on the way of a family.
+        Whether flights are integrated only to 1e-10, as along families, whose points are only guesses.
     """
 
     scaled: Scaled
@@ -75,7 +75,7 @@ class ElementsSetting:
         return self.law.end_switching
 
     def replace(self, **changes: Any) -> "ElementsSetting":
-        """The same with some of it changed; "ratio", "peak" and "width" are the law's."""
+        """A copy with some attributes changed; "ratio", "peak" and "width" change the law."""
         of_law = {name: changes.pop(name) for name in ("ratio", "peak", "width") if name in changes}
         return replace(self, law=replace(self.law, **of_law), **changes)
 
@@ -83,7 +83,7 @@ class ElementsSetting:
 @value_class
 @dataclass(frozen=True, eq=False)
 class ElementsEquations:
-    """Residual (7,) and Jacobian (7, 7) at one flight."""
+    """Residual (7,) and Jacobian (7, 7) of the conditions at the unknowns of a flight."""
 
     flight: ElementFlight
     residual: Array
@@ -91,7 +91,7 @@ class ElementsEquations:
 
 
 def target(scaled: Scaled) -> Goal:
-    """The target by Kepler's equation, and Newton's law for how it moves on."""
+    """The target as a goal: R and V by Kepler's equation, their rates by Newton's law."""
 
     def at(time: float) -> tuple[Array, Array]:
         state = target_by_kepler(scaled, time)
@@ -106,7 +106,7 @@ def equations(setting: ElementsSetting, unknowns: Array) -> ElementsEquations:
     Raises
     ------
     NotConverged
-        Where the extremal cannot be followed.
+        If the flight cannot be integrated to its end.
     """
     flight = fly_elements(
         setting.scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor, setting.rough
@@ -124,14 +124,14 @@ def equations(setting: ElementsSetting, unknowns: Array) -> ElementsEquations:
 
 
 def _place(flight: ElementFlight) -> tuple[Array, Array, Array]:
-    """R and V at the end, their derivatives (6, 8) in A and B, and in phi."""
+    """R and V at the end, (6,), and their derivatives in A and B, (6, 8), and in phi, (6,)."""
     inputs = np.append(flight.end[:8], flight.phi)
     values, slopes = jacobian(lambda x: kernels.element_place(*x), inputs)
     return values, slopes[:, :8], slopes[:, 8]
 
 
 def _terminal(flight: ElementFlight, columns: Array) -> tuple[float, Array]:
-    """|n|/|n|_wanted - 1 at the end, and its derivatives in the unknowns."""
+    """|n| at the end relative to that of the terminal law, minus 1, and its derivatives in the unknowns."""
     n = switching(flight.end, np.array(flight.phi))
     gradient, by_phi = switching_gradient(flight.end, flight.phi)
     row = gradient @ columns

@@ -1,4 +1,4 @@
-"""Sapunkov's elements A, B and phi of a place and a velocity, and back."""
+"""Sapunkov's elements A, B and phi: conversion from and to place and velocity."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -23,9 +23,9 @@ RELATED = 1e-6
 class Elements:
     """A place and a velocity on an ellipse, as A, B and phi; or a stack of them.
 
-    The spinor u = A cos phi + B sin phi stands for the place, R = u~ o i1 o u, and w = -A sin phi + B cos phi
-    for the velocity; A and B are constant while the craft coasts. Turning A and B together,
-    A -> exp(i1 s) o A, changes neither R nor V.
+    The spinor u = A cos phi + B sin phi gives the place, R = u~ o i1 o u, and w = -A sin phi + B cos phi the
+    velocity; A and B are constant while the craft coasts. Turning A and B together, A -> exp(i1 s) o A,
+    changes neither R nor V.
 
     Parameters
     ----------
@@ -39,8 +39,8 @@ class Elements:
     Raises
     ------
     ValueError, TypeError
-        Naming the argument that is not as above; or if A and B both vanish, or do not satisfy
-        scal(A~ o i1 o B) = 0, as those of a place and a velocity do.
+        If an argument is not as above; the message names it. Also if A and B both vanish, or do not satisfy
+        scal(A~ o i1 o B) = 0, which holds for those of any place and velocity.
 
     Examples
     --------
@@ -108,7 +108,7 @@ class Elements:
         return cls(both[..., :4], both[..., 4:], np.zeros(r.shape), scale)
 
     def at(self, phi: ArrayLike) -> "Elements":
-        """The same orbit at another phi."""
+        """The elements of the same orbit at another phi."""
         return Elements(self.A, self.B, phi, self.gravity)
 
     @property
@@ -144,7 +144,7 @@ class Elements:
         return product(conjugate(self.A), product(I1, self.B))[..., 0]
 
     def turned(self, angle: ArrayLike) -> "Elements":
-        """A and B turned together by exp(i1 angle): other numbers, the same place and velocity."""
+        """Elements with A and B turned together by exp(i1 angle); place and velocity are the same."""
         half = finite("angle", angle, "a number or an array of them")[..., None]
         turn = np.cos(half) * np.array([1.0, 0, 0, 0]) + np.sin(half) * I1
         return Elements(product(turn, self.A), product(turn, self.B), self.phi, self.gravity)
@@ -164,7 +164,7 @@ def place(A: ArrayLike, B: ArrayLike, phi: ArrayLike) -> Array:
 
 
 def relation_gradient(craft: Elements) -> Array:
-    """Of scal(A~ o i1 o B), (8,)."""
+    """Gradient of scal(A~ o i1 o B) in A and B, (8,)."""
     return np.concatenate([product(I1, craft.B), -product(I1, craft.A)])
 
 
@@ -175,7 +175,7 @@ def place_gradient(craft: Elements) -> Array:
 
 
 def _oscillation(R: Array, V: Array) -> Array:
-    """u and w (..., 8) of R and V, fM = 1, by the formula that is regular there."""
+    """u and w, (..., 8), of R and V, fM = 1, by the one of two formulas that is regular at R."""
     ahead = R[..., 0] >= 0
     parts = [*np.moveaxis(R, -1, 0), *np.moveaxis(V, -1, 0)]
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,7 +1,7 @@
-"""A whole extremal in Sapunkov's elements: its arcs, its end, and how the end depends on the costates.
+"""A flight in Sapunkov's elements: its arcs, its end, and the derivatives of the end in the costates.
 
-The six unknown costates are those orthogonal to a turn of the elements and to the gradient of their
-relation, two directions in which the flight does not change. Units are those of `Scaled`.
+The six unknown costates are orthogonal to a turn of the elements and to the gradient of their relation, two
+directions in which the flight does not change. Units are those of `Scaled`.
 """
 
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ from pontryagin.value import value_class
 SWITCHES = 200
 """A flight with more switches than this is given up."""
 GRAZING = 1e-7
-"""Rate of |n|^2 by phi at a switch below which the thrust may switch off and on again in between."""
+"""Rate in phi of the event function at a switch, up to which |n| counts as only touching its level."""
 
 
 @value_class
@@ -55,15 +55,15 @@ class ElementFlight:
     scaled : Scaled
         The problem.
     law : Law
-        Of the thrust.
+        The law of thrust.
     costates : (6,) array
-        In the columns of `basis`.
+        Initial costates, as coefficients of the columns of `basis`.
     phi : float
-        Half-angle at the end.
+        phi at the end.
     pieces : tuple of Piece
-        Its arcs: phi where each begins, its mode, states and derivatives there.
+        The arcs of the flight: phi at the beginning, mode, and states with derivatives at the beginning.
     end : (18,) array
-        A, B, a, b, the time, and the integral of p^2 or |p|.
+        A, B, a, b, the time, and the integral of p^2 or |p|, at the end.
     slopes : (18, 6) array
         Derivatives of the end in the costates.
     taylor : bool or None
@@ -91,12 +91,12 @@ class ElementFlight:
 
     @cached_property
     def switch_angles(self) -> Array:
-        """phi where the thrust switches."""
+        """Values of phi at which the thrust switches."""
         return np.array([piece.begin for piece in self.pieces[1:]])
 
     @cached_property
     def switch_times(self) -> Array:
-        """The times there."""
+        """Times at which the thrust switches."""
         return np.array([piece.whole[TIME] for piece in self.pieces[1:]])
 
     def sample(self, grid: Array) -> Array:
@@ -104,11 +104,11 @@ class ElementFlight:
         return sample(flow_of(self.law, self.taylor), self.pieces, grid)
 
     def modes(self, grid: Array) -> list[Mode]:
-        """The mode flown at each phi."""
+        """The mode of thrust at each phi."""
         return [self.pieces[i].mode for i in places(self.pieces, grid)]
 
     def thrust(self, states: Array, grid: Array) -> Array:
-        """p in inertial axes (k, 3) of the modes flown."""
+        """p in inertial axes, (k, 3), at states (k, 18) in the modes of the flight at each phi."""
         n = switching(states, grid)
         rows = np.empty_like(n)
         for i, mode in enumerate(self.modes(grid)):
@@ -141,13 +141,13 @@ def start_of(scaled: Scaled) -> Elements:
 
 
 def basis(craft: Elements) -> Array:
-    """Six orthonormal costates (8, 6) of A and B, across the turn and across the relation."""
+    """Six orthonormal costates (8, 6) of A and B, normal to the turn and to the relation's gradient."""
     turn = np.concatenate([product(I1, craft.A), product(I1, craft.B)])
     return np.linalg.svd(np.stack([turn, relation_gradient(craft)]))[2][2:].T
 
 
 def flow_of(law: Law, taylor: bool | None, rough: bool = False) -> SwitchedFlow[Mode]:
-    """How the thrust of a law switches; where it jumps, so do the rates."""
+    """The switched flow of a law of thrust; where the thrust jumps, the rates jump too."""
 
     def arc_of(mode: Mode) -> Arc:
         constants = law.constants(mode)
@@ -164,13 +164,13 @@ def fly_elements(
     taylor: bool | None = None,
     rough: bool = False,
 ) -> ElementFlight:
-    """Follow the extremal that starts with the given costates up to a half-angle; roughly, as a guess.
+    """Integrate the extremal with the given initial costates up to phi; ``rough`` flights are less accurate.
 
     Raises
     ------
     NotConverged
-        Where the integrator stops short, |n| = 0 under a thrust that does not vanish with it, or the thrust
-        switches where |n| only touches its level, or too often.
+        If the integrator stops short, |n| = 0 under a thrust that does not vanish with it, the thrust
+        switches where |n| only touches its level, or it switches too often.
     """
     start = start_of(scaled)
     across = basis(start)

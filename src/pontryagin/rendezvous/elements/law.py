@@ -1,4 +1,4 @@
-"""The law of thrust in the elements: functional, bound, and the mode that the switching function selects."""
+"""The law of thrust: functional, bound, and the mode of thrust that the switching function selects."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -25,7 +25,7 @@ class Law:
     peak : float
         p_max.
     width : float
-        Of the smoothed jump of "fuel"; 0 for the jump itself.
+        Width of the smoothed jump of "fuel"; 0 for the jump itself.
     """
 
     kind: Literal["square", "fuel"]
@@ -40,12 +40,12 @@ class Law:
 
     @property
     def charge(self) -> float:
-        """L at p_max, without alpha1."""
+        """The running cost L at p_max, without alpha1."""
         return 0.0 if self.bang or self.peak == np.inf else self.peak ** (2 if self.kind == "square" else 1)
 
     @property
     def end_switching(self) -> float:
-        """|n(t_k)| of a free meeting, by (n, p) = L; of "fuel" with its jump, and with alpha1 > 0."""
+        """|n(t_k)| for a free duration, by (n, p) = L; for "fuel" with the jump itself and alpha1 > 0."""
         if self.bang:
             return 1 / self.peak
         if self.kind == "fuel":
@@ -54,7 +54,7 @@ class Law:
         return float(2 * root if root <= self.peak else self.ratio / self.peak + self.peak)
 
     def mode(self, size: float) -> Mode:
-        """Of the thrust where |n| has a size."""
+        """The mode of thrust for a given size of n."""
         if self.bang:
             return "saturated"
         if self.kind == "square":
@@ -64,7 +64,7 @@ class Law:
         return "saturated" if size > 1 else "coast"
 
     def constants(self, mode: Mode) -> Constants:
-        """Of the integrator of a mode."""
+        """Constants of the integrator of a mode."""
         peak = self.peak if self.peak < np.inf else 1.0
         levels = {"square": 2 * self.peak, "fuel": 1.0}
         never = self.bang or mode == "smoothed" or levels[self.kind] == np.inf

@@ -1,10 +1,10 @@
-"""The second functional, alpha1 + alpha2 |p|: thrust at the peak or none, found smooth and then sharpened.
+"""Solve for the second functional, alpha1 + alpha2 |p|, by smoothing the on-off thrust and sharpening it.
 
-An entropy of the throttle, of a given width, keeps the thrust smooth: p = p_max (1 + tanh(S/width))/2 with
-S = |n|/alpha2 - 1. From an extremal of the first functional the costates are scaled to give about the same
-thrust, the goal is led to the target, a free duration to the terminal law, the bound lowered and the width
-after it. Then the jump itself takes the place of the smoothed one: Newton's method with the switches located
-as events.
+An entropy term of the throttle, with a given width, keeps the thrust smooth: p = p_max (1 + tanh(S/width))/2
+with S = |n|/alpha2 - 1. The costates of an extremal of the first functional are scaled to give about the same
+thrust. Then the goal is moved to the target, a free duration is changed until the terminal law holds, the
+bound is lowered, and after it the width. Finally the jump itself replaces the smoothed one, and Newton's
+method is used with the switches located as events.
 """
 
 import math
@@ -31,43 +31,44 @@ from pontryagin.rendezvous.root import Root
 from pontryagin.validation import integer
 
 WIDTHS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002)
-"""Widths of the smoothed jump, in the order in which they are gone through."""
+"""Widths of the smoothed jump, in the order in which they are used."""
 SHARPENED_FROM = 0.1
-"""Width from which on the jump itself is tried in the place of the smoothed one."""
+"""Largest width at which the jump itself is tried in the place of the smoothed one."""
 ROOM = 1.3
-"""The bound at the widest jump is at least this, in units of the largest thrust of the first functional."""
+"""Smallest bound at the widest jump, in units of the largest thrust of the first functional."""
 
 
 def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
-    """A rendezvous of least integral of alpha1 + alpha2 |p|, with its thrust on or off.
+    """A rendezvous of least integral of alpha1 + alpha2 |p|, whose thrust is either at the peak or zero.
 
-    The problem's ``time_weight`` and ``energy_weight`` are alpha1 and alpha2, the latter of |p| here. One
-    family of extremals is followed; other numbers of revolutions are other local optima.
+    The problem's ``time_weight`` and ``energy_weight`` are alpha1 and alpha2; here alpha2 is the weight of
+    |p|. One family of extremals is followed; other numbers of revolutions give other local optima.
 
     Parameters
     ----------
     problem : Rendezvous
-        What is to be solved; its peak must be finite.
+        The problem to be solved; its peak must be finite.
     revolutions : int
-        How many more than the number nearest to what the craft would make coasting.
+        Revolutions in addition to the number nearest to that of the coasting craft.
 
     Returns
     -------
     ElementsExtremal
-        Its ``modes`` are "saturated" and "coast" in turn; ``smoothed`` holds the extremals that led to it.
+        Its ``modes`` alternate between "saturated" and "coast"; ``smoothed`` holds the extremals with a
+        smoothed jump that were followed to it.
 
     Raises
     ------
     TypeError
-        If ``problem`` is no `Rendezvous`, or ``revolutions`` no integer.
+        If ``problem`` is not a `Rendezvous`, or ``revolutions`` not an integer.
     ValueError
-        If the peak is infinite: the optimum is then a few impulses, and no thrust; if ``energy_weight``
-        is 0: that is the least time, which `solve` and `solve_in_elements` find; or if the duration is
-        free and the craft is with the target at the start.
+        If the peak is infinite, since the optimum then consists of a few impulses and is not a thrust; if
+        ``energy_weight`` is 0, since that is the least-time problem of `solve` and `solve_in_elements`; or
+        if the duration is free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing.
     NotConverged
-        If the family turns back or ends before the problem asked for.
+        If the family turns back or ends before it reaches the given problem.
 
     Examples
     --------
@@ -102,10 +103,10 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
 def _sharpen_freed(
     scaled: Scaled, law: Law, wide: Root[ElementFlight]
 ) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
-    """`_sharpen`, with the terminal law in place of the duration.
+    """`_sharpen` for a free duration, with the terminal law in place of the duration.
 
-    With a jump arcs come and go along the durations; so only where the smoothed family ends is the sharp
-    extremal of one duration led to the law.
+    With the jump itself, arcs appear and vanish as the duration changes. The sharp extremal of a fixed
+    duration is therefore followed to the terminal law only if the smoothed family ends.
     """
     try:
         return _sharpen(scaled, law, wide, None)
@@ -115,12 +116,12 @@ def _sharpen_freed(
 
 
 def _guessed_duration(scaled: Scaled) -> float:
-    """A first guess of a free duration: half the peak changes one orbit into the other."""
+    """A first guess of a free duration: 1.5 times what half the peak needs to change the orbit."""
     return 1.5 * orbit_change_duration(scaled, (scaled.peak / 2) ** 2)
 
 
 def _widest(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root[ElementFlight]:
-    """The extremal of the widest smoothed jump."""
+    """The extremal of the widest smoothed jump, under the bound of the problem."""
     gentle = least_energy(scaled, duration, revolutions)
     wide = replace(
         law, width=WIDTHS[0], peak=max(law.peak, ROOM * float(SHOOTING.thrust(gentle.flight).max()))
@@ -139,12 +140,12 @@ def _widest(scaled: Scaled, law: Law, duration: float, revolutions: int) -> Root
 def _sharpen(
     scaled: Scaled, law: Law, wide: Root[ElementFlight], duration: float | None
 ) -> tuple[list[Root[ElementFlight]], Root[ElementFlight]]:
-    """The extremals of ever narrower jumps, widest first, and the one with the jump itself.
+    """The extremals of smoothed jumps, widest first, and the extremal with the jump itself.
 
     Raises
     ------
     NotConverged
-        If none of them leads to the jump itself.
+        If Newton's method with the jump itself fails from all of them.
     """
 
     def narrowed(logarithm: float) -> ElementsSetting:
@@ -163,7 +164,7 @@ def _sharpen(
 
 
 def rescaled_unknowns(gentle: Root[ElementFlight], law: Law) -> Array:
-    """Unknowns of an extremal of the first functional, scaled to a smoothed thrust about as large."""
+    """Unknowns of an extremal of the first functional, scaled to give a smoothed thrust of about its size."""
     flight = gentle.flight
     grid = np.linspace(0.0, flight.phi, 201)
     size = float(np.sqrt(np.mean(switching(flight.sample(grid), grid) ** 2) * 3))

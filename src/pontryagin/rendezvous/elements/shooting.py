@@ -1,4 +1,4 @@
-"""Newton's method for the conditions of a meeting in the elements, and the families of its solutions."""
+"""Newton's method for the conditions of a meeting in the elements, and families of its solutions."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -18,31 +18,31 @@ from pontryagin.rendezvous.families import Shooting, fine_grid
 from pontryagin.rendezvous.root import Conditions, Root, root, scales
 
 WITHIN = 3.0
-"""Factor by which a step of Newton's method may change phi at the end."""
+"""Largest factor by which a step of Newton's method may change phi at the end."""
 ITERATIONS, FEW = 25, 8
-"""Most steps of Newton's method, by exact flights and by rough ones."""
+"""Largest numbers of steps of Newton's method with accurate flights and with rough ones."""
 ROUGH = 1e-8
-"""Relative correction that is left undone where flights are rough."""
+"""Relative correction at which Newton's method with rough flights ends."""
 ROUGH_MEETING = 1e-6
-"""Residual above which Newton's method has not arrived where flights are rough."""
+"""Largest residual of a meeting that is accepted with rough flights."""
 LEAST_STEP = 1 / 128
-"""Step below which a family is given up, in shares of the way."""
+"""Smallest step of a family, as a share of the interval of its parameter; below it the family is given up."""
 FARTHEST = 1.5
-"""How far from its end a family may lead, in units of the way."""
+"""Largest distance of a curve from the end value of its parameter, in units of the parameter's interval."""
 FIRST_ARC, ARCS = 0.01, 100
-"""First step along a curve that is followed round its folds, and the most points."""
+"""First step and largest number of steps along a curve that is followed round its folds."""
 DIFFERENCE = 1e-4
-"""Difference of the parameter for the slope of the equations; flights there are good to 1e-10."""
+"""Difference of the parameter by which the equations are differentiated; rough flights are good to 1e-10."""
 PACES = {"duration": (0.025, 0.1, 160), "ratio": (0.2, 0.3, 80)}
-"""Over the logarithm of each number: the first step, the largest, and the most steps tried."""
+"""First step, largest step and largest number of tries over the logarithm of the duration or the ratio."""
 LEAST_PACE = 1e-3
-"""Step of such a logarithm below which a family is given up."""
+"""Smallest step over the logarithm of the duration or the ratio; below it the family is given up."""
 LOST = "the family of extremals could not be followed"
-"""What is said where a family ends."""
+"""Message of the exception where a family ends."""
 
 
 def meet(setting: ElementsSetting, unknowns: Array) -> Root[ElementFlight]:
-    """The meeting that Newton's method reaches; roughly, on the way of a family.
+    """The meeting that Newton's method reaches; for rough settings with lower accuracy.
 
     Raises
     ------
@@ -60,11 +60,11 @@ def meet(setting: ElementsSetting, unknowns: Array) -> Root[ElementFlight]:
 
 
 Settings = Callable[[float], ElementsSetting]
-"""The settings of a family by its parameter."""
+"""A family of settings: a function of its parameter."""
 
 
 def _roughly(family: Settings) -> Callable[[float, Array], Point[Conditions[ElementFlight]]]:
-    """The points of a family by rough flights."""
+    """A function that finds points of a family by rough flights."""
 
     def at(parameter: float, guess: Array) -> Point[Conditions[ElementFlight]]:
         found = meet(replace(family(parameter), rough=True), guess)
@@ -74,12 +74,12 @@ def _roughly(family: Settings) -> Callable[[float, Array], Point[Conditions[Elem
 
 
 def lead(family: Settings, start: Root[ElementFlight], begin: float, end: float) -> Root[ElementFlight]:
-    """The solution at ``end`` of a family of settings, over its parameter from that at ``begin``.
+    """The solution at the parameter ``end`` of a family of settings, by continuation from that at ``begin``.
 
     Raises
     ------
     NotConverged
-        Where the family turns back, or cannot be followed.
+        If the family turns back, or cannot be followed.
     """
     points = _over(family, start, begin, end)
     return reach(points, end, lambda x: meet(family(end), x), LOST)
@@ -94,15 +94,15 @@ def _over(
 
 
 def lead_round(family: Settings, start: Root[ElementFlight], begin: float, end: float) -> Root[ElementFlight]:
-    """As `lead`, and where that ends by pseudo-arclength.
+    """As `lead`, but continued by pseudo-arclength where `lead` would end.
 
-    So the family may turn back on the way (a fold: two extremals of one problem meet); it then may end on
-    another extremal than a family that does not.
+    The family may therefore turn back on the way (a fold: two extremals of one problem meet). It may then end
+    at another extremal than a family without folds would.
 
     Raises
     ------
     NotConverged
-        Where that ends as well.
+        If the continuation by pseudo-arclength ends as well.
     """
     *_, last = _over(family, start, begin, end)
     if last.parameter == end:
@@ -126,16 +126,17 @@ def lead_round(family: Settings, start: Root[ElementFlight], begin: float, end: 
 def curve(
     setting: ElementsSetting, start: Root[ElementFlight], name: str, end: float
 ) -> Iterator[Point[Conditions[ElementFlight]]]:
-    """The extremals through one as a number of the setting changes, by rough flights.
+    """The curve of extremals through a given one as an attribute of the setting changes, by rough flights.
 
     Parameters
     ----------
     setting : ElementsSetting
-        What the start solves.
+        The setting that the start solves.
     start : Root
         An extremal.
     name : "peak", "ratio" or "duration"
-        The parameter is its logarithm. Costates over "ratio" are guessed in units of |n(t_k)|.
+        The attribute; the parameter is its logarithm. For "ratio" the costates are extrapolated in units of
+        |n(t_k)|.
     end : float
         The value of the parameter at which the curve ends.
     """
@@ -163,7 +164,7 @@ def curve(
 
 
 def _law(setting: ElementsSetting, point: Point[Conditions[ElementFlight]]) -> float:
-    """By what the terminal law is missed at the end of an extremal of a fixed duration."""
+    """Residual of the terminal law at the end of an extremal of a fixed duration."""
     return float(equations(setting, point.unknowns).residual[-1])
 
 
@@ -181,4 +182,4 @@ SHOOTING = Shooting(
     law=_law,
     thrust=_thrust,
 )
-"""These equations, as `pontryagin.rendezvous.families` leads their extremals."""
+"""The elements as a formulation for `pontryagin.rendezvous.families`."""

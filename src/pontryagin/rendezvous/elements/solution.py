@@ -1,4 +1,4 @@
-"""An extremal in Sapunkov's elements, in the user's units."""
+"""An extremal in Sapunkov's elements, in the user's units: cost, elements, control, certificate."""
 
 import math
 from dataclasses import dataclass, field
@@ -32,13 +32,14 @@ class ElementsExtremal:
     Attributes
     ----------
     problem : Rendezvous
-        What is solved.
+        The problem solved.
     root : Root
-        The meeting in the solver's units.
+        The meeting, in the solver's units.
     value : float
-        The unit of the cost.
+        The solver's unit of the cost, in the user's units.
     smoothed : tuple of Root
-        Extremals with the thrust's jump smoothed, by falling width, that led here; of `least_fuel` alone.
+        Extremals with the thrust's jump smoothed, by decreasing width, from which `least_fuel` continued to
+        this one; empty for other solvers.
 
     Examples
     --------
@@ -75,17 +76,17 @@ class ElementsExtremal:
 
     @property
     def switch_times(self) -> Array:
-        """Where the thrust meets its bound or leaves it, or goes on or off, (k,)."""
+        """Times at which the thrust meets or leaves its bound, or is switched on or off, (k,)."""
         return self.flight.switch_times * self.problem.scaled.time
 
     @property
     def modes(self) -> tuple[str, ...]:
-        """ "unsaturated", "saturated" or "coast" for each arc between the switches."""
+        """The mode of each arc between the switches: "unsaturated", "saturated" or "coast"."""
         return tuple(piece.mode for piece in self.flight.pieces)
 
     @cached_property
     def certificate(self) -> ElementsCertificate:
-        """Every condition of the maximum principle evaluated anew; see `ElementsCertificate`."""
+        """Every condition of the maximum principle, evaluated independently; see `ElementsCertificate`."""
         return certify(self.root, self.problem.free)
 
     def _sampled(self, t: ArrayLike) -> tuple[Array, Array]:
@@ -96,7 +97,7 @@ class ElementsExtremal:
         return phi[back], self.flight.sample(phi)[back]
 
     def elements(self, t: ArrayLike) -> Elements:
-        """A, B and phi at the times t (..., k), of the inertial axes, in the user's units."""
+        """A, B and phi at the times t (..., k), in inertial axes and the user's units."""
         scaled = self.problem.scaled
         phi, states = self._sampled(t)
         back = conjugate(self.problem.chaser.attitude)
@@ -107,14 +108,14 @@ class ElementsExtremal:
         return rotated(vectors, np.broadcast_to(self.problem.chaser.attitude, (*vectors.shape[:-1], 4)))
 
     def control(self, t: ArrayLike) -> Array:
-        """p in inertial axes at the times t (..., k), (..., k, 3)."""
+        """p in inertial axes at the times t (..., k), as (..., k, 3)."""
         phi, _ = self._sampled(t)
         order, back = np.unique(phi, return_inverse=True)
         thrust = self.flight.thrust(self.flight.sample(order), order)[back]
         return self._inertial(thrust) * self.problem.scaled.acceleration
 
     def switching(self, t: ArrayLike) -> Array:
-        """n in inertial axes at the times t (..., k), (..., k, 3), in units of the cost over velocity."""
+        """n in inertial axes at the times t (..., k), as (..., k, 3), in units of the cost over velocity."""
         phi, states = self._sampled(t)
         scaled = self.problem.scaled
         return self._inertial(switching(states, phi)) * (self.value * scaled.time / scaled.length)

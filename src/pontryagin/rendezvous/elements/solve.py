@@ -1,6 +1,6 @@
 """Solve a rendezvous in Sapunkov's elements for the first functional, alpha1 + alpha2 p^2.
 
-From the problem without bound to the bound, and for least time to alpha2 = 0.
+It is solved first without a bound on the thrust, then with it, and for least time with alpha2 = 0.
 """
 
 import math
@@ -31,33 +31,33 @@ def solve_in_elements(
 ) -> ElementsExtremal:
     """A rendezvous of least integral of alpha1 + alpha2 p^2 in Sapunkov's elements, his (1).
 
-    The elements of the goal are led from the craft's to the target's; then the duration is changed until the
-    terminal law holds, and the bound lowered. One family of extremals is followed; `solve` looks at several.
+    The elements of the goal are moved from the craft's to the target's; then a free duration is changed until
+    the terminal law holds, and the bound is lowered. Unlike `solve`, it follows one family of extremals only.
 
     Parameters
     ----------
     problem : Rendezvous
-        What is to be solved.
+        The problem to be solved.
     start : Extremal, optional
-        A solution by `solve`; its costates, carried over to A and B, are then where Newton's method starts.
+        A solution by `solve`. Newton's method then starts from its costates, converted to those of A and B.
     revolutions : int
-        How many more than the number nearest to what the craft would make coasting; without ``start``.
+        Revolutions in addition to the number nearest to that of the coasting craft; not used with ``start``.
 
     Returns
     -------
     ElementsExtremal
-        The one extremal that the family leads to.
+        The extremal at the end of the family.
 
     Raises
     ------
     TypeError
-        If ``problem`` is no `Rendezvous`, ``start`` no `Extremal`, or ``revolutions`` no integer.
+        If ``problem`` is not a `Rendezvous`, ``start`` not an `Extremal`, or ``revolutions`` not an integer.
     ValueError
         If the duration is free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``).
     NotConverged
-        If the family turns back or ends before the problem asked for.
+        If the family turns back or ends before it reaches the given problem.
 
     Examples
     --------
@@ -81,14 +81,14 @@ def solve_in_elements(
 
 
 def carried(start: Extremal) -> Array:
-    """A solution's costates as those of A and B, and phi at its end: the unknowns (7,).
+    """The unknowns (7,) for a solution by `solve`: its costates as those of A and B, and phi at the end.
 
     With M the derivative of R and V in A and B, a and b are M' psi.
 
     Raises
     ------
     Infeasible
-        Where the start leaves the ellipses.
+        If the start flies through a parabola or a hyperbola, where A and B do not exist.
     """
     flight = start.flight
     craft = start_of(flight.scaled)
@@ -102,7 +102,7 @@ def carried(start: Extremal) -> Array:
 
 
 def _extremal(setting: ElementsSetting, revolutions: int) -> Root[ElementFlight]:
-    """The extremal that the families lead to; for least time from the first unbounded one that does."""
+    """The extremal that the families reach; for least time from the first unbounded problem that succeeds."""
     reason: NotConverged | None = None
     for ratio in loose_ratios(setting.ratio, setting.peak):
         loose = setting.replace(ratio=ratio, peak=math.inf)

@@ -1,7 +1,7 @@
-"""The first extremal in the elements, from coasting: A, B and phi of the goal are led to the target's.
+"""The first extremal in the elements: the goal's A, B, phi move from the coasting craft to the target.
 
-The target's elements are constant, as the craft's are where it coasts: so the way from one orbit to another
-is a straight line of A and B, and more or fewer revolutions are multiples of pi in phi.
+The elements of the target and of the coasting craft are constant. The path from one orbit to the other is
+therefore a straight line in A and B, and more or fewer revolutions are multiples of pi in phi.
 """
 
 import math
@@ -34,11 +34,11 @@ from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 UNBOUNDED = Law("square", 1.0, np.inf)
 """The law of the problem without bound whose duration is fixed."""
 SHARES = (1.0, 0.6, 0.4, 0.25)
-"""Parts of a fixed duration from which it is reached."""
+"""Shares of a fixed duration at which a first extremal is sought, to be stretched to that duration."""
 
 
 def coasting_angle(orbit: Elements, duration: float) -> float:
-    """phi gained by coasting for a time, fM = 1: half the eccentric anomaly, by Kepler's equation."""
+    """Growth of phi (half the eccentric anomaly) over a time of coasting, by Kepler's equation; fM = 1."""
     A, B = np.asarray(orbit.u), np.asarray(orbit.w)
     pace = math.sqrt(2 * float(orbit.Q))
     square, other, mixed = float(A @ A), float(B @ B), float(A @ B)
@@ -50,10 +50,11 @@ def coasting_angle(orbit: Elements, duration: float) -> float:
 
 
 def nearest_elements(orbit: Elements, other: Elements) -> tuple[Array, float]:
-    """Of all A and B (8,) that stand for another orbit, the nearest to those of one; phi in that phase.
+    """Of all A and B (8,) that describe another orbit, those nearest to the first; phi of that choice.
 
-    Both freedoms are angles, and the product of the two sets of elements is bilinear in their cosines and
-    sines: the nearest pair is that of the largest singular value of two rows and two columns.
+    A and B of an orbit are determined up to two angles: a turn of both together and the phase of phi. The
+    scalar product of the two sets of elements is bilinear in the cosines and sines of these angles, so that
+    the nearest choice belongs to the largest singular value of a 2 by 2 matrix.
     """
     here = np.concatenate([orbit.A, orbit.B])
     u, w = np.asarray(other.u), np.asarray(other.w)
@@ -74,12 +75,12 @@ def nearest_elements(orbit: Elements, other: Elements) -> tuple[Array, float]:
 
 
 def unbounded(setting: ElementsSetting, revolutions: int = 0) -> Root[ElementFlight]:
-    """The extremal without bound, of the fixed duration or of a free one.
+    """The extremal without bound, with the fixed duration or a free one.
 
     Raises
     ------
     NotConverged
-        When the families do not lead to it.
+        If it is not reached by any of the families.
     """
     if setting.duration is not None:
         return meet(setting, least_energy(setting.scaled, setting.duration, revolutions).unknowns)
@@ -90,7 +91,7 @@ def unbounded(setting: ElementsSetting, revolutions: int = 0) -> Root[ElementFli
 def cold_start(
     scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
 ) -> Root[ElementFlight]:
-    """The unbounded extremal of alpha1 + alpha2 p^2 and a fixed time that coasting leads to.
+    """The unbounded extremal of alpha1 + alpha2 p^2 for a fixed duration, by continuation from coasting.
 
     Parameters
     ----------
@@ -99,14 +100,14 @@ def cold_start(
     duration : float
         t_k.
     revolutions : int
-        How many more than the number nearest to what the craft makes coasting.
+        Revolutions in addition to the number nearest to that of the coasting craft.
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
 
     Raises
     ------
     NotConverged
-        Where the extremal cannot follow the goal.
+        If the extremal cannot follow the goal.
     """
     setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
     phi = coasting_angle(start_of(scaled), duration)
@@ -116,12 +117,12 @@ def cold_start(
 def least_energy(
     scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
 ) -> Root[ElementFlight]:
-    """The least-energy extremal of a fixed duration: `cold_start`, or from a shorter duration, stretched.
+    """The least-energy extremal of a fixed duration, by `cold_start` or stretched from a shorter duration.
 
     Raises
     ------
     NotConverged
-        Where none of the durations leads to the target.
+        If the target is reached from none of the durations tried.
     """
     setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
     reason: NotConverged | None = None
@@ -134,14 +135,14 @@ def least_energy(
 
 
 def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -> Root[ElementFlight]:
-    """The meeting with the target, from an extremal whose end the goal starts from.
+    """The meeting with the target, by moving the goal from the end of a given extremal to the target.
 
-    A, B and phi of the goal, and the duration, go to those of the target along a straight line.
+    A, B and phi of the goal and the duration change along a straight line to those of the meeting.
 
     Raises
     ------
     NotConverged
-        Where the extremal cannot follow the goal, or the target would be met before the start.
+        If the extremal cannot follow the goal, or the target would be met before the start.
     """
     scaled, duration = setting.scaled, float(setting.duration or 0)
     flight = fly_elements(scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor)

@@ -1,8 +1,9 @@
-"""The curve of false meetings: what conditions (5), (15), (16) and (17) accept without (6).
+"""The curve of false meetings: solutions of conditions (5), (15), (16) and (17) that violate (6).
 
 Where lambda(t_k) satisfies (15), every lambda(t_k) rotated about nu* does so too: the angle of that rotation
-is free, and the conditions as printed have a curve of solutions. It passes through true meetings at whole
-turns; in between, craft and target do not meet. In the plane the rotation moves the target's orbit in itself.
+is free, so the conditions as printed have a curve of solutions. It passes through true meetings at whole
+turns; in between, craft and target do not meet. In the plane the rotation turns the target's orbit within
+that plane.
 """
 
 from dataclasses import dataclass, field
@@ -28,7 +29,7 @@ from pontryagin.validation import finite
 from pontryagin.value import value_class
 
 LARGEST = 0.6
-"""Longest step along the curve, unknowns relative to their scales and the angle in radians."""
+"""Longest step along the curve, with unknowns relative to their scales and the angle in radians."""
 
 
 @value_class
@@ -52,17 +53,17 @@ class FalseFamily:
 
     @property
     def angles(self) -> Array:
-        """Angles about nu*, in the plane about its normal, (k,), in radians."""
+        """Angles of the members in radians, (k,); see `RotatedMeeting.angle`."""
         return self._each("angle")
 
     @property
     def durations(self) -> Array:
-        """t_k, (k,)."""
+        """Durations t_k, (k,), in the user's unit of time."""
         return self._each("duration")
 
     @property
     def costs(self) -> Array:
-        """J, (k,)."""
+        """Costs J, (k,)."""
         return self._each("cost")
 
     @property
@@ -77,17 +78,17 @@ class FalseFamily:
 
     @property
     def distances(self) -> Array:
-        """Distances from the target at t_k, (k,)."""
+        """Distances from the target at t_k, (k,), in the user's unit of length."""
         return self._each("distance")
 
     @cached_property
     def printed_singular_values(self) -> Array:
-        """Those of the printed conditions' Jacobian at the true meeting, (8,), falling; the last is 0."""
+        """Singular values of the printed Jacobian at the true meeting, (8,), descending; the last is 0."""
         return _singular_values(printed_jacobian(self.solution.flight))
 
     @cached_property
     def repaired_singular_values(self) -> Array:
-        """Those of the repaired conditions' Jacobian at the true meeting, (7,), falling."""
+        """Singular values of the repaired conditions' Jacobian at the true meeting, (7,), descending."""
         return _singular_values(self.solution.root.equations.jacobian)
 
 
@@ -106,7 +107,8 @@ def false_meeting(problem: Rendezvous, angle: float, true: Extremal | None = Non
     problem : Rendezvous
         The problem whose printed conditions (5), (15), (16) and (17) are to hold.
     angle : float
-        In radians, about nu*, in the plane about the normal of the target's orbit; 0 gives the true meeting.
+        Angle of the rotation in radians: about nu*, or about the normal of the target's orbit where craft and
+        target move in one plane. 0 gives the true meeting.
     true : Extremal, optional
         A true meeting of the problem, from which the curve is followed; `solve` by default.
 
@@ -139,22 +141,23 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
     """Follow the solutions of the printed conditions from a true meeting to given angles about nu*.
 
     Each member satisfies the ten reduced equations and conditions (5), (15), (16), (17) of Pimkina &
-    Chelnokov. (6) holds at whole turns alone, where the craft makes as many revolutions more or fewer.
+    Chelnokov. (6) holds only at whole turns, where the craft makes that many revolutions more or fewer.
 
     Parameters
     ----------
     solution : Extremal
         Solution of a problem with a free duration.
     angles : (k,) array_like
-        Angles in radians, of either sign; 2 pi is a whole turn. They are about nu*, and where craft and
-        target move in one plane about the normal of the target's orbit: positive is ahead of it.
+        Angles in radians, of either sign; 2 pi is a whole turn. The rotation is about nu*; where craft and
+        target move in one plane it is about the normal of the target's orbit, and a positive angle is ahead
+        of the target.
 
     Raises
     ------
     TypeError
-        If `solution` is no Extremal.
+        If `solution` is not an Extremal.
     ValueError
-        If the duration is prescribed, since (17) then says nothing, or if `angles` are not as above.
+        If the duration is prescribed, since (17) needs a free one, or if `angles` are not as above.
     NotConverged
         If the curve ends before an angle is reached.
 
@@ -184,7 +187,7 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
 
 
 def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
-    """Members all along the curve of false meetings through a true one, also where it turns back.
+    """The members at all points of the curve of false meetings through a true one, also where it turns back.
 
     Parameters
     ----------
@@ -223,9 +226,10 @@ def _member(solution: Extremal, angle: float, root: Root[Flight]) -> RotatedMeet
 def _curve(
     solution: Extremal, angles: list[float]
 ) -> tuple[list[Point[ReducedEquations]], dict[float, Root[Flight]]]:
-    """The curve from a true meeting until it passes the last of some angles of one sign, nearest first.
+    """Follow the curve from a true meeting through angles of one sign, sorted by magnitude.
 
-    Returns its points, of which the last is the first beyond, and the solutions at the angles.
+    Returns the points of the curve up to the first one at or beyond the last angle, and the solutions at
+    the angles.
     """
     family, points, roots = (
         rotated_target_family(solution),

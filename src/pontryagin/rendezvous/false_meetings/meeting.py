@@ -1,4 +1,4 @@
-"""One solution of the conditions as printed: what they leave, what (6) leaves, and the distance missed."""
+"""One solution of the printed conditions: their residual, the residual of (6), and the distance missed."""
 
 import math
 from dataclasses import dataclass, field
@@ -28,8 +28,8 @@ class RotatedMeeting:
         The solution. `boundary`, `transversality`, `hamiltonian` and `maximality` of its certificate are as
         small as those of a true meeting; `attitude` and `cartesian` are not.
     angle : float
-        The angle in radians by which lambda(t_k) is rotated from lambda*, whole turns counted: about nu*, in
-        the plane about the normal of the target's orbit.
+        Angle in radians by which lambda(t_k) is rotated from lambda*, including whole turns: about nu*, or
+        about the normal of the target's orbit where craft and target move in one plane.
     """
 
     extremal: Extremal = field(repr=False)
@@ -42,7 +42,7 @@ class RotatedMeeting:
 
     @property
     def flight(self) -> Flight:
-        """The extremal in the solver's units."""
+        """The flight of the extremal, in the solver's units."""
         return self.extremal.flight
 
     @property
@@ -85,11 +85,11 @@ class RotatedMeeting:
 
     @property
     def distance(self) -> float:
-        """Distance between craft and target at t_k, by Newton's law and Kepler's equation."""
+        """Distance of craft and target at t_k in the user's unit, by Newton's law and Kepler's equation."""
         return float(np.linalg.norm(self._separation[:3])) * self.problem.scaled.length
 
     @property
     def drift(self) -> float:
-        """Speed of the craft relative to the target at t_k."""
+        """Speed of the craft relative to the target at t_k, in the user's unit."""
         scaled = self.problem.scaled
         return float(np.linalg.norm(self._separation[3:])) * scaled.length / scaled.time

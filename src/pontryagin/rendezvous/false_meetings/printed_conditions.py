@@ -1,6 +1,6 @@
 """The end conditions as printed, (5), (15), (16) and (17), in numbers, with their exact derivatives.
 
-Eight equations for six costates, t_k and C_phi, in units with p* = c* = fM = 1.
+They are eight equations for six costates, t_k and C_phi, in units with p* = c* = fM = 1.
 """
 
 import math
@@ -22,7 +22,7 @@ Numbers = NDArray[Any]
 
 
 def reduced_variables(row: Array, eccentricity: float) -> Array:
-    """r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3 and C_phi, (11,), of the 16 variables."""
+    """r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3 and C_phi, (11,), as functions of the 16 variables."""
     nu = product(conjugate(row[4:8]), row[12:])[1:]
     constant = row[11] * (1 + eccentricity * math.cos(row[3])) ** 2
     return np.concatenate([row[:4], row[8:11], nu, [constant]])

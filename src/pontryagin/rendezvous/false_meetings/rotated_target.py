@@ -1,12 +1,12 @@
-"""The repaired equations towards a target rotated about nu*: their solutions satisfy what is printed.
+"""The repaired equations for a target rotated about nu*: their solutions satisfy the printed conditions.
 
-(15) compares lambda o nu o lambda~ with lambda* o nu o lambda*~. Rotating lambda about nu* changes neither,
-so that a craft whose attitude at t_k is lambda* rotated about nu* by any angle passes (15), and with (5),
-(16) and (17) everything that the ten equations are asked.
+(15) compares lambda o nu o lambda~ with lambda* o nu o lambda*~. Rotating lambda about nu* changes neither.
+So a craft whose attitude at t_k is lambda* rotated about nu* by any angle satisfies (15); if it satisfies
+(5), (16) and (17) too, it satisfies all conditions that the paper imposes on the ten equations.
 
 Angles are about nu*, by the right-hand rule. In the plane they are about the normal of the target's orbit,
-positive where the craft ends ahead: nu* is parallel to that normal, of either sign, and the sign may change
-along the curve of solutions.
+and positive where the craft ends ahead of the target: nu* is parallel or antiparallel to that normal, and its
+sense may change along the curve of solutions.
 """
 
 from dataclasses import replace
@@ -34,7 +34,7 @@ from pontryagin.rendezvous.root import Root, root
 CHI = 10
 """Index of chi among the twelve states."""
 FLAT = 1e-12
-"""Largest component out of the plane of the quaternion between two orbits that count as coplanar."""
+"""Two orbits are coplanar if the quaternion between them has a smaller out-of-plane part than this."""
 
 
 def rotated_target_family(solution: Extremal) -> Family[ReducedEquations]:
@@ -52,7 +52,7 @@ def in_one_plane(scaled: Scaled) -> bool:
 
 
 def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[ReducedEquations, Array]:
-    """`shooting.equations` towards lambda* rotated about nu* by an angle, and their slope in the angle."""
+    """`conditions.equations` for lambda* rotated about nu* by an angle, and their derivative by the angle."""
     unrotated = equations(setting, unknowns)
     flight = unrotated.flight
     shift = np.zeros(len(flight.end))
@@ -77,6 +77,6 @@ def newton_at_angle(family: Family[ReducedEquations], unknowns: Array, angle: fl
     Raises
     ------
     NotConverged
-        If it does not converge.
+        If Newton's method does not converge.
     """
     return root(lambda x: family(x, angle)[0], unknowns, within=WITHIN)

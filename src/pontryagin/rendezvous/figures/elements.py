@@ -89,7 +89,7 @@ def _shade_burns(ax: Axes, solution: ElementsExtremal) -> None:
 
 @styled
 def sharpening(solution: ElementsExtremal) -> Figure:
-    """|n|/alpha2 and the thrust over its peak, of the smoothed extremals and of the one that switches."""
+    """|n|/alpha2 and the thrust over its peak, for the smoothed extremals and the one that switches."""
     scaled = solution.problem.scaled
     figure, (above, below) = subplots(2, sharex=True, height=4.6)
     colours = _colours(len(solution.smoothed))
@@ -163,17 +163,17 @@ def two_functionals(energy: ElementsExtremal, fuel: ElementsExtremal) -> Figure:
 
 
 def in_elements(name: str) -> ElementsExtremal:
-    """A case of the report in the elements: the extremal that `solve` found."""
+    """The extremal of a case of the report that `solve` found, computed in Sapunkov's elements."""
     return _with_start(name)[0]
 
 
 @functools.cache
 def _with_start(name: str) -> tuple[ElementsExtremal, str]:
-    """That extremal, and a description of the start from which it was found.
+    """The extremal of `in_elements`, and a description of the start from which it was found.
 
     The start is "cold" if `solve_in_elements` finds the extremal by itself. Otherwise the costates of `solve`
-    are carried over, and the description says what a cold start leads to: the cost of another extremal, or
-    none.
+    are carried over, and the description gives the result of a cold start: the cost of another extremal, or
+    "none" if it does not converge.
     """
     other = solved(name)
     try:
@@ -187,7 +187,7 @@ def _with_start(name: str) -> tuple[ElementsExtremal, str]:
 
 @functools.cache
 def fuel_solved(name: str) -> ElementsExtremal:
-    """A case of least fuel, solved once."""
+    """The extremal of a case of least fuel, computed once."""
     one = fuel_cases()[name]
     return least_fuel(one.problem, one.more)
 
@@ -230,7 +230,7 @@ def fuel() -> dict[str, list[Any]]:
 
 
 def fuel_judge() -> dict[str, list[Any]]:
-    """The cases of least fuel and their direct costs at two meshes, as `tables.judge` for the others."""
+    """The direct costs of the cases of least fuel at two meshes; `tables.judge` has the other cases."""
     known = fuel_cases()
     found = {name: fuel_solved(name).cost for name in known}
     kept = {name: one for name, one in direct_results().items() if name in found}

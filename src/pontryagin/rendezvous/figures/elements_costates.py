@@ -48,7 +48,7 @@ def costates_along(solution: ElementsExtremal) -> Figure:
 
 
 def drift(solution: ElementsExtremal, states: Array, phi: Array) -> Array:
-    """H = -L + (n, p) + kappa/t' less its value at the end, over the largest running cost."""
+    """H = -L + (n, p) + kappa/t' minus its value at the end, over the largest running cost."""
     thrust = solution.flight.thrust(states, phi)
     spent = running_cost(solution.flight, thrust)
     phase = np.asarray(kernels.element_phase(*[*states[:, :16].T, phi]))

@@ -1,4 +1,4 @@
-"""Figures of false meetings: the residuals of true ones, and another place than the target's."""
+"""Figures of false meetings: residuals as small as those of true meetings, and the distance missed."""
 
 from collections.abc import Mapping
 
@@ -108,7 +108,7 @@ def missed(family: FalseFamily) -> Figure:
 
 @styled
 def singular_values(solutions: Mapping[str, Extremal]) -> Figure:
-    """Singular values of the printed conditions' Jacobian and of the repaired one's, over the largest."""
+    """Singular values of the printed and of the repaired conditions' Jacobian, over the largest one."""
     figure, ax = subplots(height=0.75 + 0.55 * len(solutions))
     for row, extremal in enumerate(solutions.values()):
         for jacobian, colour, shift, marker, name in (

@@ -26,7 +26,7 @@ ROTATED = ORANGE
 
 @dataclass(frozen=True)
 class Units:
-    """The units in which a figure shows a problem's numbers, and their names for the axes; "" for none."""
+    """The units in which a figure shows a problem's numbers, and their names; a name may be empty."""
 
     length: float
     time: float
@@ -42,7 +42,7 @@ class Units:
 
 
 def units(problem: Rendezvous) -> Units:
-    """Astronomical units and days, or megametres and hours, for a problem in km and s; none for others."""
+    """Astronomical units and days, or megametres and hours, for a problem in km and s; else no units."""
     if problem.gravity == 1:
         return Units(1.0, 1.0, 1.0, "", "", "")
     if problem.gravity == SUN:

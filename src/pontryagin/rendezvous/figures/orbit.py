@@ -64,7 +64,7 @@ def draw(ax: Axes3D, extremal: Extremal, arrows: int, width: float = 1.6) -> Non
 
 
 def equal(ax: Axes3D, points: Array) -> None:
-    """Set the same scale along all axes, with some room normal to points in a plane."""
+    """Set the same scale along all axes; coplanar points get some room normal to their plane."""
     low, high = points.min(axis=0), points.max(axis=0)
     reach = np.maximum(high - low, 0.25 * (high - low).max())
     middle = (low + high) / 2

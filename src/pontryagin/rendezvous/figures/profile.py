@@ -19,11 +19,11 @@ from pontryagin.rendezvous.playback.motion import RendezvousMotion, motion_of
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 POINTS = 241
-"""Number of points by which an orbit is drawn."""
+"""Number of points with which an orbit is drawn."""
 ARROWS = 24
 """Number of thrust arrows along the path."""
 FLOOR = 1e-17
-"""Value at which a smaller |H| is drawn."""
+"""Values of |H| below this one are drawn at it."""
 
 
 @styled

@@ -1,4 +1,4 @@
-"""The extremals of a problem without a bound, where the cost as a function of the duration is stationary."""
+"""Free-time extremals without a bound on the thrust, as stationary points of the cost over the duration."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -23,14 +23,14 @@ from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.root import scales
 
 MARGIN = 1.25
-"""Factor by which curves are continued beyond the shortest and the longest duration of an extremal."""
+"""Factor by which curves extend beyond the shortest and the longest duration of the extremals found."""
 DEAREST = 1.6
 """Cost up to which curves are drawn, in units of the best cost."""
 
 
 @styled
 def revolutions(found: Mapping[str, Extremal]) -> Figure:
-    """Cost over t_k of the fixed-time extremals on every branch, and the free-time extremals as dots."""
+    """Cost against t_k for the fixed-time extremals on every branch, and the free-time extremals as dots."""
     figure, axes = subplots(1, len(found), height=3.6, squeeze=False)
     for ax, (name, best) in zip(axes[0], found.items(), strict=True):
         _draw_branches(ax, best)

@@ -53,7 +53,7 @@ def series(extremal: Extremal) -> Figure:
 
 
 def drift(extremal: Extremal, times: Array, states: Array) -> Array:
-    """H over the largest running cost; at a prescribed time less its value at t_k."""
+    """H over the largest running cost; for a prescribed duration H minus its value at t_k."""
     flight, weights = extremal.flight, extremal.problem.scaled.weights
     thrust = flown_thrust(flight, times, states)
     largest = np.max(weights[0] + weights[1] * np.sum(thrust**2, axis=1))

@@ -93,7 +93,7 @@ def nearest(extremal: Extremal, cost: float) -> Extremal:
 
 
 def excess(extremal: Extremal, cost: float) -> float:
-    """A direct cost over that of the nearest extremal, less 1."""
+    """Relative difference of a direct cost from that of the nearest extremal."""
     return cost / nearest(extremal, cost).cost - 1
 
 

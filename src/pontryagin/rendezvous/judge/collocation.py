@@ -1,9 +1,10 @@
 """A rendezvous as a nonlinear programme, by collocation with CasADi and Ipopt.
 
-Neither costates nor the axes eta are used: Newton's law in inertial axes, Radau collocation of the third
-degree on equal intervals, the thrust free at every collocation point, and the target by Kepler's equation.
-The start is cold: a path of evenly changing angle, and no thrust. As the mesh is refined, the cost approaches
-the true one from either side; two meshes show how closely. CasADi is an extra: ``pip install casadi``.
+It uses neither costates nor the axes eta, but Newton's law in inertial axes, Radau collocation of the third
+degree on equal intervals with the thrust free at every collocation point, and Kepler's equation for the
+target. The start is cold: a path of evenly changing angle, and almost no thrust. As the mesh is refined, the
+cost approaches the true one from either side; two meshes show how closely. CasADi is an extra:
+``pip install casadi``.
 """
 
 import math
@@ -62,8 +63,8 @@ def direct(
     guess : float
         A duration to start from, in the user's unit of time; not used where the duration is prescribed.
     revolutions : float
-        Approximate number of revolutions of the initial path; the nearest one that ends at the target is
-        used.
+        Approximate number of revolutions of the initial path; the nearest one that ends at the target
+        is used.
     intervals : int
         Number of intervals of the mesh.
     fuel : bool
@@ -174,7 +175,7 @@ def _target(ca: Any, scaled: Scaled, eccentric: Any) -> Any:
 
 
 def _guess(scaled: Scaled, duration: float, revolutions: float, intervals: int) -> tuple[Array, Array, Array]:
-    """A path of evenly changing angle and inclination to the target, at nodes and inner points; no thrust."""
+    """A path of evenly changing angle and inclination at nodes and inner points, and a nearly zero thrust."""
     goal = target_by_kepler(scaled, duration)
     place, velocity = goal[:3], goal[3:]
     normal = np.cross(place, velocity)

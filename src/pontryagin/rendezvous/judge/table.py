@@ -1,8 +1,8 @@
-"""``python -m pontryagin.rendezvous.judge``: the results of the direct method in the cases of the report.
+"""The results of the direct method for the cases of the report, and the command that computes them.
 
-The costs at two meshes are kept in ``judge.csv``, so that the report needs no CasADi; each row holds a
-checksum of its problem. The cases of least fuel come last. Nothing of the indirect solutions enters the
-direct method.
+The command is ``python -m pontryagin.rendezvous.judge``. The costs at two meshes are kept in ``judge.csv``,
+so that the report needs no CasADi; each row holds a checksum of its problem. The cases of least fuel come
+last. The direct method uses nothing from the indirect solutions.
 """
 
 import csv
@@ -59,7 +59,7 @@ def all_cases() -> dict[str, Case]:
 
 
 def checksum(problem: Rendezvous, fuel: bool = False) -> int:
-    """A number that changes with every number of the problem, and with the functional.
+    """A checksum that changes with every number of the problem, and with the functional.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def write(found: dict[str, DirectResult]) -> None:
 
 
 def main(names: Iterable[str] = ()) -> None:
-    """Solve the named cases, or all; the rows of the others are kept."""
+    """Solve the named cases, or all of them, and write ``judge.csv``; the rows of other cases are kept."""
     known = all_cases()
     chosen = list(names) or list(known)
     found = direct_results() if names else {}

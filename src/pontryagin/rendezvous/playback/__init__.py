@@ -36,8 +36,8 @@ def recordings() -> dict[str, Callable[[Path], None]]:
 def rendezvous_inclined(path: Path) -> None:
     """A rendezvous in another plane in the least time.
 
-    From a circle to a target on an ellipse inclined by 30 degrees, the thrust at its bound throughout. Its
-    direction reverses where |n| is small. The thin blue ellipse is where the craft would go if the thrust
+    From a circle to a target on an ellipse inclined by 30 degrees, with the thrust at its bound throughout.
+    Its direction reverses where |n| is small. The thin blue ellipse is where the craft would go if the thrust
     stopped; at the meeting it lies on the target's orbit, the axes eta of the craft on the axes eta* of the
     target, and both move on together. H vanishes to rounding.
     """
@@ -56,9 +56,9 @@ def rendezvous_saturated(path: Path) -> None:
 def rendezvous_mars(path: Path) -> None:
     """From the Earth to Mars in the least time.
 
-    A thrust of 0.6 mm/s^2 all the way, on the planets' Kepler orbits (times in seconds, the thrust in
-    km/s^2); the attraction of the planets themselves is neglected. About halfway, where |n| nearly vanishes,
-    the thrust reverses its direction within three weeks.
+    The planets move on Kepler orbits, and the thrust is 0.6 mm/s^2 all the way (times are in seconds, the
+    thrust in km/s^2); the attraction of the planets themselves is neglected. About halfway, where |n| nearly
+    vanishes, the thrust reverses its direction within three weeks.
     """
     record_extremal(solve(case("mars").problem), path)
 
@@ -67,10 +67,10 @@ def rendezvous_false(path: Path) -> None:
     """A false meeting: the ten equations and their conditions are satisfied, and the target is missed.
 
     Every residual of the conditions that the paper imposes on its ten equations is at rounding level, and the
-    cost is less than that of the true optimum. But condition (15), which is to replace that on the attitude,
-    does not change when the end is rotated about nu*: the craft reaches the target's orbit rotated about that
-    axis (orange), and never the target (the gap is purple). Grey: the true optimum, found with the missing
-    condition.
+    cost is less than that of the true optimum. But condition (15), which is meant to replace the condition on
+    the attitude, does not change when the end is rotated about nu*: the craft reaches the target's orbit
+    rotated about that axis (orange), and never the target (the gap is purple). The true optimum, found with
+    the missing condition, is grey.
     """
     problem = case("mixed").problem
     true = solve(problem)
@@ -83,8 +83,8 @@ def record_extremal(extremal: Extremal, path: Path, true: Extremal | None = None
     Parameters
     ----------
     extremal : Extremal
-        A true meeting, or a result of `false_meeting`: then the target is shown where it is, and in orange
-        where the craft would meet it.
+        A true meeting, or a result of `false_meeting`. For a false meeting the target is shown where it is,
+        and in orange where the craft would meet it.
     path : Path
         File to write, ending in ``.rrd``.
     true : Extremal, optional

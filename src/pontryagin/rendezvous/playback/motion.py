@@ -20,11 +20,11 @@ from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.witness.cartesian import target_by_kepler
 
 EVEN = 401
-"""Number of evenly spaced samples up to t_k, before others are added."""
+"""Number of evenly spaced samples up to t_k, before samples are added where the thrust turns fast."""
 TURN = 0.1
 """Largest angle in radians by which the thrust turns from one sample to the next."""
 HALVINGS = 8
-"""Most times that an interval between samples is halved."""
+"""Maximum number of times that an interval between samples is halved."""
 COASTING = 0.12
 """Duration of the coasting shown after t_k, as a share of t_k."""
 COASTING_SAMPLES = 49
@@ -158,7 +158,7 @@ class RendezvousMotion:
 
     @cached_property
     def hamiltonian(self) -> Array:
-        """H at `t`, (k,), over the largest running cost; at a fixed duration less its value at t_k."""
+        """H at `t`, (k,), over the largest running cost; for a fixed duration H minus its value at t_k."""
         flight, problem = self.extremal.flight, self.extremal.problem
         weights = problem.scaled.weights
         thrust = certify.flown_thrust(flight, self.t / problem.scaled.time, self.states)

@@ -32,16 +32,16 @@ from pontryagin.rendezvous.playback.motion import RendezvousMotion
 SECONDS = 30.0
 """Duration of a replay, in seconds."""
 POINTS = 121
-"""Number of points by which an orbit is drawn."""
+"""Number of points with which an orbit is drawn."""
 CRAFT, TARGET, ROTATED = BLUE, GREEN, ORANGE
 AXES = np.eye(3)
 COMPONENTS = ("p1", "p2", "p3")
 FLOOR = -17.0
-"""Power of ten at which |H| is cut off, since a smaller one is 0 to rounding."""
+"""Lowest power of ten at which |H| is drawn; smaller values are 0 to rounding."""
 
 
 def record_motion(motion: RendezvousMotion, path: Path, true: RendezvousMotion | None = None) -> None:
-    """Record a motion; the path of the craft in another one is drawn in grey if it is given."""
+    """Record a motion; if a motion `true` is given, the path of its craft is drawn in grey."""
     speed = float(motion.times[-1]) / SECONDS
     with record(path, "rendezvous", _layout(motion), speed, (5, 3, 3)) as recording:
         _orbits(recording, motion)
@@ -151,7 +151,7 @@ def _largest(motion: RendezvousMotion) -> float:
 
 
 def _along(axis: Array, attitude: Array) -> Array:
-    """One axis of the attitudes (n, 4), in the axes of the scene, (n, 3)."""
+    """One axis of a body with the attitudes (n, 4), in the axes of the scene, (n, 3)."""
     return rotated(np.broadcast_to(axis, (len(attitude), 3)), attitude)
 
 

@@ -58,7 +58,7 @@ class FuelCase(Case):
     name, title, problem, guess, revolutions
         As for `Case`.
     more : int
-        The argument `revolutions` of `least_fuel`: how many more than the coasting craft would make.
+        The argument `revolutions` of `least_fuel`: how many revolutions more than a coasting craft.
     """
 
     more: int = 0
@@ -70,7 +70,7 @@ def circle(radius: float = 1.0) -> Chaser:
 
 
 def chaser_on(orbit: Orbit, gravity: float = 1.0) -> Chaser:
-    """A craft that moves on an orbit and is at its anomaly."""
+    """A craft on a given orbit, at the anomaly of that orbit."""
     areal = math.sqrt(gravity * orbit.parameter)
     growth = 1 + orbit.eccentricity * math.cos(orbit.anomaly)
     radial = areal / orbit.parameter * orbit.eccentricity * math.sin(orbit.anomaly)
@@ -158,7 +158,7 @@ def _ellipses() -> Case:
 
 
 def _mars() -> Case:
-    """Earth and Mars on Kepler orbits; the thrust is 0.6 mm/s^2."""
+    """From the Earth to Mars, both on Kepler orbits, with a thrust of 0.6 mm/s^2."""
     unit, degree = ASTRONOMICAL_UNIT, math.pi / 180
     earth = Orbit.from_angles(unit * (1 - 0.0167**2), 0.0167, 0.0, 0.0, 102.9 * degree, 10 * degree)
     mars = Orbit.from_angles(

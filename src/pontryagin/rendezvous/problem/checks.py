@@ -1,4 +1,4 @@
-"""Checks of the numbers and quaternions that a rendezvous is posed with."""
+"""Checks of the numbers and quaternions that define a rendezvous."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,11 +8,11 @@ from pontryagin.errors import ArgumentValueError
 from pontryagin.validation import finite, vectors
 
 UNIT_WITHIN = 1e-6
-"""A quaternion whose length differs from 1 by at most this, as in single precision, is normalised."""
+"""Quaternions whose length differs from 1 by at most this, as in single precision, are normalised."""
 
 
 def number(name: str, value: ArrayLike, least: float | None = None, excluded: bool = False) -> float:
-    """`value` as one finite float, at least `least`, or above it where that is `excluded`."""
+    """`value` as one finite float that is at least `least`, or greater than `least` if it is `excluded`."""
     array = finite(name, value, "a number")
     if array.ndim:
         raise ArgumentValueError(f"{name} must be one number, got an array of shape {array.shape}", name)

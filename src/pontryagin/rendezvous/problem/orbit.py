@@ -1,4 +1,4 @@
-"""The target's orbit, (5) and (6), and its place there at the start, (4)."""
+"""The target's Kepler orbit, (5) and (6), and the target's place on it at the start, (4)."""
 
 import math
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from pontryagin.value import value_class
 @value_class
 @dataclass(frozen=True, eq=False)
 class Orbit:
-    """A target on a Kepler ellipse, (5) and (6), and where it is on it at the start, (4).
+    """The Kepler ellipse of the target, (5) and (6), and the target's place on it at the start, (4).
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class Orbit:
         pericentre: float,
         anomaly: float,
     ) -> "Orbit":
-        """The orbit of a given node, inclination and argument of the pericentre.
+        """The orbit with a given node, inclination and argument of the pericentre.
 
         Parameters
         ----------

@@ -26,8 +26,8 @@ class Rendezvous:
     chaser, target : Chaser, Orbit
         The craft under control and its target, both at t0 = 0.
     time_weight, energy_weight : float
-        alpha1 and alpha2, neither negative nor both zero. With ``energy_weight=0`` the duration is
-        minimised.
+        alpha1 and alpha2, neither negative nor both zero. With ``energy_weight=0`` the duration
+        is minimised.
     peak : float
         p_max, in units of acceleration; ``math.inf`` for no bound, if ``energy_weight`` is positive.
     gravity : float
@@ -75,7 +75,7 @@ class Rendezvous:
         self._check_sizes()
 
     def _check_consistency(self) -> None:
-        """Refuse what leaves nothing to minimise, and a craft that does not start on an ellipse."""
+        """Refuse problems with nothing to minimise, and a craft that does not start on an ellipse."""
         if self.time_weight == 0 and self.energy_weight == 0:
             raise ArgumentValueError(
                 "time_weight and energy_weight must not both be 0: nothing would be minimised", "time_weight"

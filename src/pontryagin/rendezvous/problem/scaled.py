@@ -24,15 +24,15 @@ class Scaled:
     Attributes
     ----------
     length, time, acceleration : float
-        p*, sqrt(p*^3/fM) and fM/p*^2, the solver's units in those of the user.
+        p*, sqrt(p*^3/fM) and fM/p*^2: the solver's units, expressed in those of the user.
     value : float
-        The solver's unit of the cost in that of the user.
+        The solver's unit of the cost, expressed in that of the user.
     start : (3,) array
         r, v1, c at t0.
     anomaly, eccentricity : float
         phi* at t0, in radians; e*.
     orientation : (4,) array
-        lambda0~ o Lambda*.
+        lambda0~ o Lambda*, with lambda0 the attitude of the craft at t0.
     ratio : float
         alpha1/alpha2; inf where alpha2 = 0.
     peak : float
@@ -64,7 +64,7 @@ class Scaled:
         gravity: float,
         duration: float | None,
     ) -> "Scaled":
-        """The numbers of a `Rendezvous`, whose arguments these are."""
+        """The scaled numbers of a `Rendezvous` with these arguments."""
         length = target.parameter
         time = math.sqrt(length**3 / gravity)
         speed = length / time
@@ -91,7 +91,7 @@ class Scaled:
 
     @property
     def costate_units(self) -> Array:
-        """Units of rho, s1, e, nu1, nu2, nu3 in those of the user, (6,): the cost's over the state's."""
+        """The solver's units of the six costates in the user's, (6,): the cost's unit over the state's."""
         speed = self.length / self.time
         return self.value / np.array([self.length, speed, self.length * speed, 1.0, 1.0, 1.0])
 

@@ -1,8 +1,8 @@
-"""The equations of the reduced form: thrust that is unsaturated or saturated, and where one mode ends.
+"""The equations of the reduced form for unsaturated and saturated thrust, and the events between them.
 
-The eleven repaired equations are flown with their derivatives in the six initial costates and in the bound:
-p_max is a twelfth state that does not change. A mode ends where |n| passes 2 alpha2 p_max; the control is
-continuous there, so that the derivatives have no jump. Units are those of `Scaled`, alpha2 = 1.
+The eleven repaired equations are integrated with their derivatives in the six initial costates and in the
+bound: p_max is a twelfth state that does not change. A mode ends where |n| passes 2 alpha2 p_max; the control
+is continuous there, so that the derivatives do not jump. Units are those of `Scaled`, alpha2 = 1.
 """
 
 import functools
@@ -21,14 +21,14 @@ STATES = ("r", "v1", "c", "phi", "rho", "s1", "e", "nu1", "nu2", "nu3", "chi", "
 COSTATES = slice(4, 10)
 BOUND = 11
 COUNT, COLUMNS = 12, 7
-"""Number of states, and of the initial values that they are differentiated in."""
-WRT = (4, 5, 6, 7, 8, 9, BOUND)
+"""Number of states, and of the initial values in which they are differentiated."""
+WRT = (4, 5, 6, 7, 8, 9, BOUND)  # the initial values in which the states are differentiated
 HYSTERESIS = 1e-14
-"""An unsaturated arc ends this far above saturation, a saturated one this far below."""
+"""An unsaturated arc ends where `saturation` rises to this, a saturated arc where it falls to minus this."""
 STEPS_PER_UNIT = 100
-"""An arc that needs more Taylor steps than this per unit of time runs into a singularity."""
+"""An arc that needs more Taylor steps than this per unit of time is taken to run into a singularity."""
 ECCENTRICITY, CHART, SATURATED = 0, 1, 2
-"""Places of the parameters; the last is 1 in a saturated lane and 0 in an unsaturated one."""
+"""Indices of the parameters; the last is 1 in a saturated lane and 0 in an unsaturated one."""
 
 
 def rates(mode: Mode) -> RightHandSide:
@@ -59,7 +59,7 @@ def leaving(mode: Mode) -> EventFunction:
 
 @functools.cache
 def equations(mode: Mode, ends: bool) -> Kernel:
-    """The equations of a mode; without ``ends`` it goes on whatever |n| is (alpha2 = 0, or no bound)."""
+    """The equations of a mode; without ``ends`` no value of |n| ends it (for alpha2 = 0, or no bound)."""
     events = (leaving(mode),) if ends else ()
     return Kernel(STATES, rates(mode), 2, WRT, events, HYSTERESIS)
 
@@ -72,7 +72,7 @@ def arc(mode: Mode, ends: bool = True, taylor: bool | None = None, rough: bool =
 
 @functools.cache
 def lanes(kind: Literal["unsaturated", "saturated", "both"], slopes: bool) -> Lanes:
-    """The vector integrator of one mode without end, or of both with the mode as a parameter of a lane."""
+    """The vector integrator of one mode without events, or of both, with the mode as a lane's parameter."""
     wrt = WRT if slopes else ()
     if kind != "both":
         return Lanes(Kernel(STATES, rates(kind), 2, wrt))

@@ -1,8 +1,8 @@
 """The certificate of an extremal: the conditions of the maximum principle, evaluated in three ways.
 
-The reduced flight is compared with the 16 equations, flown by another integrator, and with Newton's law in
-inertial axes. The attitude is tested against (6) as the 16 equations carry it; lambda* and -lambda* are one
-attitude.
+The reduced flight is compared with the 16 equations, integrated by another method, and with Newton's law in
+inertial axes. Condition (6) is tested with the attitude of the 16 equations; lambda* and -lambda* are the
+same attitude.
 """
 
 from collections.abc import Callable
@@ -29,40 +29,43 @@ from pontryagin.rendezvous.witness.cartesian import (
 )
 from pontryagin.value import value_class
 
-SAMPLES = 201
+SAMPLES = 201  # evenly spaced times at which the flight is tested
 FAINT = 1e-3
-"""Share of the largest costate that H is measured by at least, whatever the running cost."""
-TINY = 1e-300
+"""Smallest unit in which H is measured, as a share of the largest costate, for small running costs."""
+TINY = 1e-300  # keeps relative errors of zero from being 0/0
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class RendezvousCertificate(MaximumPrinciple):
-    """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on other controls' cost.
+    """Residuals of a rendezvous, in units with p* = c* = fM = 1; no bound on the cost of other controls.
 
     Parameters
     ----------
     boundary : () array
-        That of (5).
+        Residual of (5).
     transversality : () array
-        That of (16) and, at a free duration, of the law for the thrust at the end.
+        Residual of (16) and, for a free duration, of the law for the thrust at the end.
     hamiltonian : () array
-        |H|, or at a fixed duration its change, in units of the largest running cost; of a thousandth of the
-        largest costate, where that is more: where next to no thrust is needed, H is rounded by that.
+        |H| for a free duration, the change of H for a fixed one. Its unit is the largest running cost, or a
+        thousandth of the largest costate if that is more: where almost no thrust is needed, the costates
+        determine the rounding error of H.
     maximality : () array
-        As in `MaximumPrinciple`, in the same units.
+        As in `MaximumPrinciple`, in the unit of ``hamiltonian``.
     attitude : () array
-        |vect(lambda~ o lambda*)| of (6) at the meeting, with lambda carried by its own equation.
+        |vect(lambda~ o lambda*)| of (6) at the meeting, with lambda integrated by its own equation.
     agreement : () array
-        Largest difference on the way between the reduced flight, the 16 equations, and Newton's law in
-        inertial axes with n as the costate of the velocity; costates relative to the largest.
+        Largest difference during the flight between the reduced equations and the 16 equations, and between
+        the reduced equations and Newton's law in inertial axes, where n is the costate of the velocity;
+        costates are relative to the largest.
     cartesian : () array
         Distance between craft and target at the meeting, and difference of their velocities, by Newton's
         law in inertial axes and Kepler's equation.
     cost : () array
-        Relative difference of the integral of p^2 from the one that Newton's law carries along.
+        Relative difference between the integral of p^2 and the same integral along Newton's law.
     condition : () array
-        Condition number of the shooting equations: how much larger the costates' error can be.
+        Condition number of the shooting equations: the factor by which errors of the costates can be larger
+        than the residuals.
 
     Examples
     --------
@@ -84,13 +87,13 @@ class RendezvousCertificate(MaximumPrinciple):
 
     @cached_property
     def residual(self) -> Array:
-        """The largest of all but the condition number."""
+        """The largest of all entries but the condition number."""
         own = (self.boundary, self.transversality, self.hamiltonian, self.maximality)
         return np.asarray(np.max([*own, self.attitude, self.agreement, self.cartesian, self.cost], axis=0))
 
 
 def certify(root: Root[Flight], weights: tuple[float, float], free: bool) -> RendezvousCertificate:
-    """Evaluate every condition anew; weights are alpha1 and alpha2 in the solver's units."""
+    """Evaluate every condition independently; weights are alpha1 and alpha2 in the solver's units."""
     flight = root.flight
     times = np.linspace(0, flight.duration, SAMPLES)
     reduced, whole, inertial = flight.sample(times), fly_full(flight, times), fly_cartesian(flight, times)
@@ -130,7 +133,7 @@ def fly_full(flight: Flight, times: Array) -> Array:
 
 
 def anomaly_constant(flight: Flight) -> float:
-    """C_phi that (16) asks for."""
+    """C_phi as (16) requires it."""
     end = flight.end
     return float(
         kernels.anomaly_constant(end[4], end[5], end[9], end[3], 1.0, flight.scaled.eccentricity, 1.0)
@@ -138,7 +141,7 @@ def anomaly_constant(flight: Flight) -> float:
 
 
 def transversality(end: Array, eccentricity: float) -> float:
-    """(16) at the end of the 16 equations, relative to the largest costate."""
+    """Residual of (16) at the end of the 16 equations, relative to the largest costate."""
     rho, s1, _, pair = end[8:12]
     nu3 = product(conjugate(end[4:8]), end[12:])[3]
     wanted = kernels.anomaly_constant(rho, s1, nu3, end[3], 1.0, eccentricity, 1.0)
@@ -147,7 +150,7 @@ def transversality(end: Array, eccentricity: float) -> float:
 
 
 def flown_thrust(flight: Flight, times: Array, states: Array) -> Array:
-    """The thrust of the mode that each arc was flown in, (k, 3), whatever |n| says."""
+    """The thrust, (k, 3), of the mode in which each arc was integrated, independent of |n|."""
     begins = np.array([piece.begin for piece in flight.pieces])
     which = np.clip(np.searchsorted(begins, times, side="right") - 1, 0, None)
     saturated = np.array([piece.mode == "saturated" for piece in flight.pieces])[which]
@@ -158,7 +161,7 @@ def flown_thrust(flight: Flight, times: Array, states: Array) -> Array:
 
 
 def hamiltonian(states: Array, thrust: Array, constant: float, weights: tuple[float, float]) -> Array:
-    """H of (17) along the flight."""
+    """H of (17) at the given states."""
     r, v1, c, _, rho, s1, e, nu1, nu2, nu3 = states.T[:10]
     inputs = [r, v1, c, rho, s1, e, nu1, nu2, nu3, *thrust.T, constant, 1.0, 1.0, 1.0, *weights]
     return np.asarray(kernels.hamiltonian(*inputs))
@@ -170,7 +173,7 @@ def terminal_law(state: Array, thrust: Array, weights: tuple[float, float]) -> f
 
 
 def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[float, float]) -> Array:
-    """By how much the largest H over |p| <= p_max exceeds H at the thrust flown."""
+    """Difference between the largest H over |p| <= p_max and H at the thrust used, (k,)."""
     n = switching(states)
     size = np.linalg.norm(n, axis=-1)
     best = np.minimum(size / (2 * weights[1]), flight.peak) if weights[1] else flight.peak
@@ -181,7 +184,10 @@ def maximality(flight: Flight, states: Array, thrust: Array, weights: tuple[floa
 
 
 def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
-    """Largest difference of R, V, rho, s1, e and nu, the costates relative to the largest of them."""
+    """Largest difference of R, V, rho, s1, e and nu between the reduced and the 16 equations.
+
+    Costates are relative to the largest of them.
+    """
     attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - cartesian_of(whole, whole[:, 4:8])
     nu = product(conjugate(whole[:, 4:8]), whole[:, 12:])[:, 1:]
@@ -191,7 +197,7 @@ def agreement(flight: Flight, reduced: Array, whole: Array) -> float:
 
 
 def newton_agreement(flight: Flight, reduced: Array, inertial: Array) -> float:
-    """Largest difference of R, V and n from Newton's law, n relative to the largest costate."""
+    """Largest difference of R, V and n from those of Newton's law, n relative to the largest costate."""
     attitude = flight.attitude(reduced)
     places = cartesian_of(reduced, attitude) - inertial[:, :6]
     n = rotated(switching(reduced), attitude) - inertial[:, 9:12]
@@ -200,5 +206,5 @@ def newton_agreement(flight: Flight, reduced: Array, inertial: Array) -> float:
 
 
 def condition(root: Root[Flight]) -> float:
-    """Condition number, costates measured by the largest and the duration by itself."""
+    """Condition number of the shooting equations, with the unknowns in the units of `scales`."""
     return float(np.linalg.cond(root.equations.jacobian * scales(root.unknowns)))

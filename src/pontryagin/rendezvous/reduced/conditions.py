@@ -1,8 +1,8 @@
 """The conditions of a meeting and their exact derivatives.
 
-Unknowns: rho, s1, e, nu1, nu2, nu3 at t0, and t_k where it is free. Conditions: (5), the attitude (6) by nu
-and chi, and at a free duration the terminal law, written for |n|: unsaturated it is 2 sqrt(alpha1 alpha2),
-saturated alpha1/p_max + alpha2 p_max.
+The unknowns are rho, s1, e, nu1, nu2, nu3 at t0, and t_k if it is free. The conditions are (5), the attitude
+(6) in terms of nu and chi and, for a free duration, the terminal law for |n(t_k)|: it is
+2 sqrt(alpha1 alpha2) for unsaturated thrust and alpha1/p_max + alpha2 p_max for saturated thrust.
 """
 
 import math
@@ -24,7 +24,7 @@ from pontryagin.rendezvous.reduced.flight import (
 from pontryagin.value import value_class
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
-"""r, v1, c, nu and chi among the twelve states."""
+"""Indices of r, v1, c, nu and chi, on which the conditions depend, among the twelve states."""
 I3 = np.array([0.0, 0.0, 0.0, 1.0])
 """The third axis as a quaternion."""
 
@@ -32,7 +32,7 @@ I3 = np.array([0.0, 0.0, 0.0, 1.0])
 @value_class
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """What is solved for, and under which constants; units of `Scaled`.
+    """A problem with the constants under which it is solved, in the units of `Scaled`.
 
     Parameters
     ----------
@@ -43,14 +43,14 @@ class Setting:
     peak : float
         p_max, inf for no bound.
     lead : float
-        By how much the target's orbit is turned ahead in its plane, in radians: 0, or 2 pi for each
-        revolution that the craft is to make beyond those it makes at 0.
+        Angle by which the target's orbit is turned ahead in its plane, in radians: 2 pi for each revolution
+        that the craft makes beyond those that it makes with a lead of 0.
     duration : float or None
-        t_k where fixed.
+        t_k if it is fixed.
     taylor : bool or None
         As for `pontryagin.numerics.flow.flow`.
     rough : bool
-        Whether extremals are flown to 1e-10 only: along curves, from which `meet` starts anew.
+        Whether flights are integrated only to 1e-10, as along curves, whose points are guesses for `meet`.
     """
 
     scaled: Scaled
@@ -81,32 +81,32 @@ class Setting:
 
     @property
     def end_switching_slopes(self) -> tuple[float, float]:
-        """Its derivatives in log(alpha1/alpha2) and log p_max."""
+        """Derivatives of `end_switching` in log(alpha1/alpha2) and log p_max."""
         root = math.sqrt(self.ratio)
         if root <= self.peak:
             return root, 0.0
         return self.ratio / self.peak, self.peak - self.ratio / self.peak
 
     def replace(self, **changes: Any) -> "Setting":
-        """The same with some of it changed."""
+        """A copy with some attributes changed."""
         return replace(self, **changes)
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class ReducedEquations:
-    """Residuals and derivatives at one point.
+    """Residuals of the conditions and their derivatives at given unknowns.
 
     Attributes
     ----------
     flight : Flight
-        The extremal.
+        The flight of these unknowns.
     residual : (n,) array
-        n = 6, or 7 with the terminal law.
+        Residuals; n = 6, or 7 with the terminal law.
     jacobian : (n, n) array
-        In the unknowns.
+        Derivatives of the residual in the unknowns.
     by_peak, by_ratio, by_lead : (n,) arrays
-        In log p_max, log(alpha1/alpha2) and the lead.
+        Derivatives of the residual in log p_max, log(alpha1/alpha2) and the lead.
     """
 
     flight: Flight
@@ -118,8 +118,10 @@ class ReducedEquations:
 
 
 def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
-    """(5) and (6) towards a goal r, v1, c, lambda0~ o lambda (7,): values (6,), slopes (6, 12) in the end
-    states, (6, 3) in nu at the start."""
+    """Residuals of (5) and (6) with a goal (7,) of r, v1, c and lambda0~ o lambda in the target's place.
+
+    Returns the residuals (6,), their derivatives (6, 12) in the final states and (6, 3) in nu at the start.
+    """
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
     values, slopes = jacobian(lambda x: kernels.mismatch(*[*x, flight.chart, *goal]), inputs)
     by_state = np.zeros((6, 12))
@@ -128,7 +130,7 @@ def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
 
 
 def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
-    """Derivative of `mismatch` when the goal moves in a direction."""
+    """Derivative of the residuals of `mismatch` as the goal moves in a direction (7,)."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
     return derivative(lambda x: kernels.mismatch(*[*inputs, flight.chart, *x]), goal, direction)[1]
 
@@ -142,7 +144,7 @@ def end_rates(flight: Flight) -> Array:
 
 
 def goal_of(setting: Setting, anomaly: float) -> tuple[Array, Array]:
-    """The target at an anomaly, its orbit turned ahead by the lead, and its rate there."""
+    """The goal at an anomaly of the target, with its orbit turned ahead by the lead, and the goal's rate."""
     ahead = product(setting.scaled.orientation, about_third(setting.lead))
     return setting.scaled.target(anomaly, ahead)
 
@@ -153,7 +155,7 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
     Raises
     ------
     NotConverged
-        Where the extremal cannot be followed.
+        If the flight cannot be integrated to its end.
     """
     costates = unknowns[:6]
     duration = float(unknowns[6]) if setting.free else float(setting.duration or 0)
@@ -197,7 +199,7 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
 
 
 def _terminal(setting: Setting, flight: Flight) -> tuple[float, Array]:
-    """|n|/|n|_wanted - 1 at the end, and its derivatives in the twelve states."""
+    """|n| at the end relative to that of the terminal law, minus 1; its derivatives in the twelve states."""
     used = [0, 2, 5, 6, 7]
     square, by_used = jacobian(lambda x: [kernels.switching_square(*x)], flight.end[used])
     size = math.sqrt(square[0])

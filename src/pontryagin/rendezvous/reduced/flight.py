@@ -1,6 +1,7 @@
-"""A whole extremal of given costates: its arcs, its end and how the end depends on the costates.
+"""The flight of given initial costates: its arcs, its end, and the derivatives of the end in the costates.
 
-A flight starts in the mode that |n| says and changes it at every switch. It knows nothing of a target.
+A flight starts in the mode that |n| selects and changes the mode at every switch. Whether it ends at the
+target is not considered here.
 """
 
 from dataclasses import dataclass
@@ -37,15 +38,15 @@ class Flight:
     costates : (6,) array
         rho, s1, e, nu1, nu2, nu3 at t0.
     duration : float
-        Its end.
+        Time at the end.
     peak : float
         p_max.
     bang : bool
-        Whether alpha2 = 0: saturated throughout.
+        Whether alpha2 = 0, so that the thrust is saturated throughout.
     chart : int
-        Chart of chi.
+        Chart of chi, +1 or -1.
     pieces : tuple of Piece
-        Its arcs: where each begins, its mode, states and derivatives there.
+        The arcs of the flight: beginning, mode, and states with derivatives at the beginning.
     end : (12,) array
         r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3, chi, p_max at the end.
     slopes : (12, 7) array
@@ -67,7 +68,7 @@ class Flight:
 
     @property
     def switch_times(self) -> Array:
-        """Where the thrust meets or leaves its bound."""
+        """Times at which the thrust meets or leaves its bound."""
         return np.array([piece.begin for piece in self.pieces[1:]])
 
     @property
@@ -86,23 +87,23 @@ class Flight:
         return sample(flow, self.pieces, times)
 
     def attitude(self, states: Array) -> Array:
-        """lambda0~ o lambda (..., 4) of states (..., 12)."""
+        """lambda0~ o lambda, (..., 4), at states (..., 12)."""
         values = [*self.costates[3:], *np.moveaxis(states[..., 7:11], -1, 0), float(self.chart)]
         return np.stack(kernels.attitude(*values), axis=-1)
 
     def thrust(self, times: Array) -> Array:
-        """p in eta, (k, 3)."""
+        """p in the axes eta at ascending times, (k, 3)."""
         return thrust(self.sample(times), self.peak, self.bang)
 
 
 def switching(states: Array) -> Array:
-    """n in eta, (..., 3), of the twelve states (..., 12)."""
+    """n in the axes eta, (..., 3), at states (..., 12)."""
     r, _, c, _, _, s1, e, nu1 = np.moveaxis(states[..., :8], -1, 0)
     return np.stack(kernels.switching(r, c, s1, e, nu1), axis=-1)
 
 
 def thrust(states: Array, peak: float, bang: bool) -> Array:
-    """What maximises H, (8) and (10): n/2, or p_max n/|n| where that is smaller or alpha2 = 0."""
+    """The thrust that maximises H, (8) and (10): n/2, or p_max n/|n| if that is smaller or alpha2 = 0."""
     n = switching(states)
     size = np.linalg.norm(n, axis=-1, keepdims=True)
     bounded = peak / np.where(size > 0, size, 1.0)
@@ -117,7 +118,7 @@ def chart_of(costates: Array) -> int:
 def flow_of(
     eccentricity: float, has_switches: bool, chart: int, taylor: bool | None, rough: bool = False
 ) -> SwitchedFlow[Mode]:
-    """How the thrust switches: at every event to the other mode, continuously."""
+    """The switched flow of the thrust: every event changes to the other mode, without a jump."""
     parameters = (eccentricity, float(chart))
     return SwitchedFlow(
         arc=lambda mode: Arc(arc(mode, has_switches, taylor, rough), parameters),
@@ -136,13 +137,13 @@ def fly(
     taylor: bool | None = None,
     rough: bool = False,
 ) -> Flight:
-    """Follow the extremal that starts with the given costates; roughly, where it is only a guess.
+    """Integrate the extremal with the given initial costates; ``rough`` flights are less accurate and faster.
 
     Raises
     ------
     NotConverged
-        Where the integrator stops short: at the centre of attraction, or at |n| = 0 under alpha2 = 0; and
-        where the thrust switches too often.
+        If the integrator stops short, at the centre of attraction or at |n| = 0 under alpha2 = 0, or if the
+        thrust switches too often.
     """
     bound = peak if peak < np.inf else 1.0
     chosen = chart_of(costates) if chart is None else chart

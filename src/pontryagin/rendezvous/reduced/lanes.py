@@ -1,8 +1,8 @@
 """Many extremals of the reduced form at once, each from its own costates, by heyoka's vector mode.
 
-Flights with different switches go side by side: the mode is a parameter of each lane, m = 0 unsaturated,
-1 saturated, and the rates are (1 - m) unsaturated + m saturated. Without heyoka the flights go one by one
-through SciPy's DOP853. Units are those of `Scaled`.
+Flights with different switches are integrated side by side: the mode is a parameter m of each lane, 0 for
+unsaturated and 1 for saturated, and the rates are (1 - m) unsaturated + m saturated. Without heyoka SciPy's
+DOP853 integrates the flights one by one. Units are those of `Scaled`.
 """
 
 from dataclasses import dataclass
@@ -33,24 +33,24 @@ from pontryagin.rendezvous.reduced.flight import (
 
 @dataclass(frozen=True)
 class Flights:
-    """Where k extremals end, in the units of `Scaled`.
+    """The ends of k extremals, in the units of `Scaled`.
 
     Attributes
     ----------
     costates : (k, 6) array
         rho, s1, e, nu1, nu2, nu3 at t0.
     durations : (k,) array
-        Of each.
+        Duration of each flight.
     charts : (k,) array of int
-        Of chi.
+        Chart of chi in each flight, +1 or -1.
     reached : (k,) array of bool
         Whether the extremal could be followed to its end; where not, its other rows hold nan.
     ends : (k, 12) array
         As in `pontryagin.rendezvous.reduced.flight.Flight`.
     slopes : (k, 12, 7) array or None
-        Derivatives of the ends in the costates and in p_max, if asked for.
+        Derivatives of the ends in the costates and in p_max; None if they were not integrated.
     switches : (k,) array of int
-        How often the thrust met its bound or left it.
+        Number of times that the thrust met its bound or left it.
     """
 
     costates: Array
@@ -71,7 +71,7 @@ def fly_all(
     slopes: bool = True,
     taylor: bool | None = None,
 ) -> Flights:
-    """Follow the extremals that start with the costates (k, 6) for the durations, (k,) or one."""
+    """Integrate the extremals with the initial costates (k, 6) over the durations, (k,) or one for all."""
     use_taylor = has_heyoka() if taylor is None else taylor
     spans = np.broadcast_to(np.asarray(durations, dtype=float), (len(costates),))
     run = _side_by_side if use_taylor else _one_by_one

@@ -1,4 +1,4 @@
-"""Many starts of one rendezvous: where each leads, and Newton's method from all of them side by side."""
+"""Many initial costates of one rendezvous: the ends of their extremals, and Newton's method from each."""
 
 from dataclasses import dataclass, replace
 
@@ -30,22 +30,22 @@ from pontryagin.value import value_class
 
 ITERATIONS, HALVINGS = 30, 6
 FAINT = 1e-8
-"""nu3 of costates whose nu is 0 and has no direction; the derivatives change by as much."""
+"""Value set for nu3 where nu is 0 and has no direction; the derivatives change by as much."""
 NEAR = 1e-8
-"""Residual below which a start is left to Newton's method for one flight."""
+"""Residual below which Newton's method for a single flight takes over."""
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
 class Carried:
-    """Where extremals of given costates lead.
+    """The ends of extremals with given initial costates.
 
     Attributes
     ----------
     reached : (...) array of bool
         Whether the extremal could be followed to its end; where not, its other rows hold nan.
     state : (..., 8) array
-        r, v1, c, phi* and lambda (four) at the end, in the user's units.
+        r, v1, c, phi* and lambda (four numbers) at the end, in the user's units.
     costate : (..., 6) array
         rho, s1, e, nu1, nu2, nu3 at the end, in the user's units of the cost over those of the state.
     miss : (..., 6) array
@@ -53,7 +53,7 @@ class Carried:
     slopes : (..., 6, 6) array
         Derivatives of the miss in the costates at t0, by the variational equations.
     switches : (...) array of int
-        How often the thrust met its bound or left it.
+        Number of times that the thrust met its bound or left it.
 
     Examples
     --------
@@ -76,28 +76,29 @@ class Carried:
 
 
 def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None = None) -> Carried:
-    """Carry extremals, (2), (8)-(14), from their costates at t0 to their ends, many at once.
+    """Integrate many extremals, (2), (8)-(14), from their costates at t0 to their ends.
 
-    heyoka's vector mode does it, switches of the thrust included; without heyoka they go one by one.
+    They are integrated side by side by heyoka's vector mode, switches of the thrust included; without heyoka
+    one by one.
 
     Parameters
     ----------
     problem : Rendezvous
-        Gives the start, the bound, the weights and what is to be met.
+        The problem, which gives the start, the bound, the weights and the target.
     costates : (..., 6) array_like
         rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
     durations : (...) array_like, optional
-        When each ends; by default the problem's own fixed duration.
+        The duration of each; by default the problem's own fixed duration.
 
     Returns
     -------
     Carried
-        One row for each start.
+        The ends, one row for each start.
 
     Raises
     ------
     ValueError, TypeError
-        Naming the argument that is not as above.
+        If an argument is not as above; the message names it.
 
     Examples
     --------
@@ -126,7 +127,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
     times = np.broadcast_to(ends_at / scaled.time, shape).ravel()
-    with np.errstate(all="ignore"):  # `reached` says which costates are too large to be flown
+    with np.errstate(all="ignore"):  # flights of too large costates overflow; `reached` marks them
         flights = fly_all(scaled, inside, times, scaled.peak, scaled.ratio == np.inf)
     miss, slopes = misses(scaled, flights)
     speed = scaled.length / scaled.time
@@ -147,7 +148,7 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
 
 
 def _directed(costates: Array) -> Array:
-    """Costates with a little nu along i3 where nu is 0: the flight is the same, and chi has an axis."""
+    """Costates with a small nu along i3 where nu is 0, so that chi has an axis; the flight is the same."""
     given = np.array(costates)
     given[~given[:, 3:].any(axis=1), 5] = FAINT
     return given
@@ -156,19 +157,19 @@ def _directed(costates: Array) -> Array:
 def relative_attitude(flights: Flights) -> Array:
     """lambda0~ o lambda at the ends, (k, 4)."""
     inputs = [*flights.costates.T[3:], *flights.ends.T[7:11], flights.charts]
-    with np.errstate(all="ignore"):  # of those that could not be followed
+    with np.errstate(all="ignore"):  # the ends of failed flights are nan
         return np.stack(kernels.attitude(*inputs), axis=-1)
 
 
 def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
-    """(5) and (6) at the ends, (k, 6), and their derivatives in the costates at t0, (k, 6, 6)."""
+    """Residuals of (5), (6) at the ends, (k, 6), and their derivatives in the costates at t0, (k, 6, 6)."""
     assert flights.slopes is not None
     count = len(flights.ends)
     with np.errstate(all="ignore"):
         values = kernels.target(flights.ends[:, 3], 1.0, scaled.eccentricity, 1.0, *scaled.orientation)
     goal = np.delete(np.array([np.broadcast_to(value, count) for value in values]), 3, axis=0)
     inputs = np.vstack([flights.ends.T[SEEN], flights.costates.T[3:]])
-    with np.errstate(all="ignore"):  # at a chart's singular direction
+    with np.errstate(all="ignore"):  # nu may be in the singular direction of its chart
         values, missed = jacobian(lambda x: kernels.mismatch(*[*x, flights.charts, *goal]), inputs)
     by_input = np.moveaxis(missed, -1, 0)
     slopes = by_input[..., :7] @ flights.slopes[:, SEEN, :6]
@@ -179,24 +180,24 @@ def misses(scaled: Scaled, flights: Flights) -> tuple[Array, Array]:
 def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]:
     """The extremals of a fixed duration that Newton's method reaches from many starts, cheapest first.
 
-    All starts are carried together; each takes its own step, halved where the miss does not get smaller.
+    All flights are integrated together; each start takes its own step, halved while the miss does not fall.
 
     Parameters
     ----------
     problem : Rendezvous
-        With a fixed duration.
+        A problem with a fixed duration.
     costates : (k, 6) array_like
         Starts: rho, s1, e, nu1, nu2, nu3 at t0, in the user's units of the cost over those of the state.
 
     Returns
     -------
     tuple of Extremal
-        Each extremal once; none where no start led to one. The first's `searched` counts the starts lost.
+        Each extremal once; empty if none was reached. `searched` of the first one counts the failed starts.
 
     Raises
     ------
     ValueError, TypeError
-        Naming the argument that is not as above.
+        If an argument is not as above; the message names it.
 
     Examples
     --------
@@ -233,9 +234,9 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
 
 
 def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:
-    """Where Newton's method with halved steps ends from the starts (k, 6): costates, sizes of the residual.
+    """Newton's method with halved steps from the starts (k, 6): final costates and sizes of the residual.
 
-    The size is inf where even the start cannot be flown.
+    The size is inf where not even the flight of the start can be integrated.
     """
 
     def evaluate(_: NDArray[np.intp], costates: Array) -> Evaluated:

@@ -1,7 +1,7 @@
 """Integrals along a flight: the cost, the angle about the centre, the half-anomaly of Sapunkov's elements.
 
-Near the centre of attraction everything is fast, so that panels even in time would be blind there: they are
-halved where that changes something.
+Near the centre of attraction the integrands change fast, so that panels of equal duration would be too coarse
+there. Panels are therefore halved where that changes the integral.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,7 @@ from pontryagin.numerics.quadrature import Halving, integral
 from pontryagin.rendezvous.reduced.flight import Flight
 
 HALVING = Halving(strict=6, most=12, loose=1e-11)
-"""A flight is known to about 1e-13 of its size, so that panels need no more than a few halvings."""
+"""Few halvings suffice, since a flight is accurate to about 1e-13 of its size."""
 
 
 def along(flight: Flight, rate: Callable[[Array], Array]) -> float:
@@ -22,7 +22,7 @@ def along(flight: Flight, rate: Callable[[Array], Array]) -> float:
 
 
 def edges_of(flight: Flight) -> Array:
-    """Half a unit of time apart at most, and at the switches of the thrust."""
+    """Ends of panels: at most half a unit of time apart, and at the switches of the thrust."""
     even = np.linspace(0.0, flight.duration, 2 + int(2 * flight.duration))
     return np.unique([*even, *flight.switch_times])
 
@@ -33,7 +33,7 @@ def energy(flight: Flight) -> float:
 
 
 def angle(flight: Flight) -> float:
-    """The angle that the craft turns about the centre, in radians: the integral of c/r^2."""
+    """The angle through which the craft turns about the centre, in radians: the integral of c/r^2."""
 
     def rate(times: Array) -> Array:
         r, _, c = flight.sample(times).T[:3]
@@ -43,7 +43,10 @@ def angle(flight: Flight) -> float:
 
 
 def half_anomaly(flight: Flight) -> float:
-    """phi of Sapunkov's elements at the end: the integral of dt/(r sqrt(2Q)), Q = -1/h; nan on no ellipse."""
+    """phi of Sapunkov's elements at the end: the integral of dt/(r sqrt(2Q)), Q = -1/h.
+
+    It is nan if the flight leaves the ellipses, where the energy h is not negative.
+    """
 
     def rate(times: Array) -> Array:
         r, v1, c = flight.sample(times).T[:3]

@@ -1,7 +1,7 @@
-"""Extremals of the problem without bound that make more revolutions, or fewer.
+"""Extremals of the problem without bound with more or fewer revolutions.
 
-They lie on one curve, along which the target's orbit is turned in its plane: at every whole turn it is the
-target's own again.
+They lie on one curve, along which the target's orbit is turned in its plane: after every whole turn the orbit
+is the original one again.
 """
 
 import math
@@ -20,14 +20,14 @@ from pontryagin.rendezvous.root import Root
 
 TAU = 2 * math.pi
 REVOLUTIONS = 4
-"""How many revolutions more or fewer than the first extremal's are looked at."""
+"""Largest number of revolutions, more or fewer than those of the first extremal, that is tried."""
 WORSE = 2.0
-"""The curve is left where an extremal costs more than this many times the best."""
+"""The curve is left at an extremal that costs more than this many times the best one."""
 
 
 @dataclass(frozen=True)
 class UnboundedExtremal:
-    """An extremal of the unbounded problem and the lead it belongs to."""
+    """An extremal of the unbounded problem, with its lead and alpha1/alpha2; see `Setting`."""
 
     root: Root[Flight]
     lead: float
@@ -41,7 +41,7 @@ class UnboundedExtremal:
 
 
 def through_revolutions(setting: Setting, first: Root[Flight], log: Search) -> list[UnboundedExtremal]:
-    """Extremals with more revolutions and with fewer, along the curve on which the target's orbit turns."""
+    """The first extremal, and those with more and with fewer revolutions on the curve through it."""
     found = [UnboundedExtremal(first, 0.0, setting.ratio)]
     log.revolutions.append(0)
     for sign in (1, -1):
@@ -77,14 +77,14 @@ def _walk(
 
 
 def _end(point: Point[ReducedEquations], cost: float, best: float) -> str:
-    """Why the curve is left at a point; empty if it is followed on."""
+    """The reason to leave the curve at a point; empty if it is followed further."""
     if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
         return f"{REVOLUTIONS} revolutions were looked at"
     return f"the last meeting cost more than {WORSE:g} times the best" if cost > WORSE * best else ""
 
 
 def _passed(last: Point[ReducedEquations] | None, point: Point[ReducedEquations]) -> list[tuple[int, Array]]:
-    """Whole revolutions between two points of the curve, and unknowns there; without the start's own."""
+    """Whole revolutions between two points of the curve, with unknowns there; the start is left out."""
     if last is None:
         return []
     low, high = sorted((last.parameter / TAU, point.parameter / TAU))

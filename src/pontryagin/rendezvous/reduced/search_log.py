@@ -1,11 +1,13 @@
-"""Where a search for extremals looked and what it gave up, which tells whether a better one may be missed."""
+"""The log of a search for extremals: where it looked, what it gave up, and why."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass
 class Search:
-    """Where extremals were looked for; filled in as the search goes on.
+    """Where extremals were sought, and with what result; filled in during the search.
+
+    It shows where a better extremal may have been missed.
 
     Attributes
     ----------
@@ -14,9 +16,9 @@ class Search:
     revolutions : list of int
         Revolutions of the extremals of the unbounded problem, counted from those of the first.
     ends : list of str
-        Where the curve through the revolutions was left, each way, and why.
+        Where the curve over the revolutions was left in each direction, and why.
     given_up : list of str
-        What could not be reached or was not taken on, and why.
+        Extremals that could not be reached or were not continued, and why.
     """
 
     durations: list[float] = field(default_factory=list)

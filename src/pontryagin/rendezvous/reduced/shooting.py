@@ -1,4 +1,4 @@
-"""Newton's method for the conditions of a meeting, and the families of its solutions."""
+"""Newton's method for the conditions of a meeting in the reduced form, and families of its solutions."""
 
 import math
 from collections.abc import Iterator
@@ -16,20 +16,20 @@ from pontryagin.rendezvous.reduced.flight import (
 from pontryagin.rendezvous.root import Root, root, scales
 
 WITHIN = 5.0
-"""Factor by which a step of Newton's method may change a free duration."""
+"""Largest factor by which a step of Newton's method may change a free duration."""
 ITERATIONS, HALVINGS = 12, 6
-"""Most steps of Newton's method, and how many lengths of each are tried."""
+"""Largest number of steps of Newton's method, and how many lengths of each are tried."""
 PACES = {
     "duration": (0.1, 0.5, 400),
     "lead": (0.3, 1.5, 100),
     "peak": (0.1, 1.0, 120),
     "ratio": (0.3, 3.0, 80),
 }
-"""Along a curve over each number: the first step, the largest, and the most points."""
+"""First step, largest step and largest number of steps along the curve over each parameter."""
 
 
 def meet(setting: Setting, unknowns: Array) -> Root[Flight]:
-    """The meeting that Newton's method reaches, flown roughly until exact flights are worth it.
+    """The meeting that Newton's method reaches; the first steps use rough flights.
 
     Raises
     ------
@@ -48,16 +48,16 @@ def meet(setting: Setting, unknowns: Array) -> Root[Flight]:
 
 
 def family(setting: Setting, name: str) -> Family[ReducedEquations]:
-    """The equations as a family over one number of the setting.
+    """The equations as a family over one attribute of the setting.
 
     Parameters
     ----------
     setting : Setting
-        The others.
+        The setting, which gives all other attributes.
     name : "peak", "ratio", "duration" or "lead"
-        The parameter is the lead itself, or the logarithm of the others. Costates over "ratio" are divided by
-        |n(t_k)|, which keeps them of one size; over "duration" the unknowns are six, and the last of the
-        seven equations, the terminal law, is for the caller to look at.
+        The attribute. The parameter is the lead itself, or the logarithm of one of the others. For "ratio"
+        the costates are divided by |n(t_k)|, which keeps their size nearly constant. For "duration" there are
+        six unknowns; the last of the seven equations, the terminal law, is evaluated but not solved.
     """
 
     def over_duration(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
@@ -91,15 +91,16 @@ def _end_scale(setting: Setting) -> Array:
 def curve(
     setting: Setting, start: Root[Flight], name: str, towards: float
 ) -> Iterator[Point[ReducedEquations]]:
-    """The curve of extremals through one as a number of the setting changes, by rough flights; see `family`.
+    """The curve of extremals through a given one as an attribute of the setting changes, by rough flights.
 
     Parameters
     ----------
     setting : Setting
-        What the start solves; its value of the number is where the curve begins.
+        The setting that the start solves; the curve begins at its value of the attribute.
     start : Root
         An extremal.
     name : "peak", "ratio", "duration" or "lead"
+        The attribute that changes; `family` states the parameter.
     towards : float
         The value of the parameter in whose direction the curve is followed first.
     """
@@ -144,4 +145,4 @@ SHOOTING = Shooting(
     law=lambda setting, point: float(point.equations.residual[-1]),
     thrust=_thrust,
 )
-"""These equations, as `pontryagin.rendezvous.families` leads their extremals."""
+"""The reduced form as a formulation for `pontryagin.rendezvous.families`."""

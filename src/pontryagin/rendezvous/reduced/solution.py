@@ -37,13 +37,13 @@ class Extremal:
     Attributes
     ----------
     problem : Rendezvous
-        What is solved.
+        The problem solved.
     root : Root
         The meeting, in the solver's units.
     others : tuple of Extremal
-        The other extremals found, by cost; only the best one has them.
+        The other extremals found, by increasing cost; empty for all but the best extremal.
     searched : Search
-        Where extremals were looked for and what was given up, and why; None with a ``start``.
+        Where extremals were sought, what was given up, and why; None if `solve` was given a ``start``.
 
     Examples
     --------
@@ -94,22 +94,22 @@ class Extremal:
 
     @property
     def switch_times(self) -> Array:
-        """Where the thrust meets its bound or leaves it, (k,)."""
+        """Times at which the thrust meets its bound or leaves it, (k,), in the user's unit of time."""
         return self.flight.switch_times * self.problem.scaled.time
 
     @property
     def modes(self) -> tuple[str, ...]:
-        """ "unsaturated" or "saturated" for each arc between the switches."""
+        """The mode of each arc between the switches: "unsaturated" or "saturated"."""
         return tuple(piece.mode for piece in self.flight.pieces)
 
     @cached_property
     def revolutions(self) -> float:
-        """Angle that the craft turns about the centre, in revolutions."""
+        """Angle through which the craft turns about the centre, in revolutions."""
         return angle(self.flight) / (2 * math.pi)
 
     @cached_property
     def certificate(self) -> RendezvousCertificate:
-        """Every condition of the maximum principle evaluated anew; see `RendezvousCertificate`."""
+        """Every condition of the maximum principle, evaluated independently; see `RendezvousCertificate`."""
         return certify(self.root, self.problem.scaled.weights, self.problem.free)
 
     def _sampled(self, t: ArrayLike) -> Array:
@@ -119,7 +119,7 @@ class Extremal:
         return rows.reshape(*inside.shape, -1)
 
     def state(self, t: ArrayLike) -> Array:
-        """r, v1, c, phi* and lambda (four) at the times t (..., k), (..., k, 8)."""
+        """r, v1, c, phi* and lambda (four numbers) at the times t (..., k), as (..., k, 8)."""
         scaled, states = self.problem.scaled, self._sampled(t)
         speed = scaled.length / scaled.time
         attitude = product(self.problem.chaser.attitude, self.flight.attitude(states))
@@ -127,28 +127,28 @@ class Extremal:
         return np.concatenate([states[..., :4] * units, attitude], axis=-1)
 
     def costate(self, t: ArrayLike) -> Array:
-        """rho, s1, e, nu1, nu2, nu3 at the times t (..., k), (..., k, 6)."""
+        """rho, s1, e, nu1, nu2, nu3 at the times t (..., k), as (..., k, 6)."""
         return self._sampled(t)[..., 4:10] * self.problem.scaled.costate_units
 
     def control(self, t: ArrayLike) -> Array:
-        """p_eta at the times t (..., k), (..., k, 3)."""
+        """p_eta at the times t (..., k), as (..., k, 3)."""
         return thrust(self._sampled(t), self.flight.peak, self.flight.bang) * self.problem.scaled.acceleration
 
 
 def require_extremal(name: str, given: object) -> None:
-    """Raise unless it is a solution by `solve`.
+    """Raise unless an argument is an `Extremal`.
 
     Raises
     ------
     TypeError
-        Naming the argument.
+        If it is not; the message names the argument.
     """
     if not isinstance(given, Extremal):
         raise TypeError(f"{name} must be an Extremal, as solve returns, got {given!r}")
 
 
 def distinct(found: Iterable[Extremal]) -> list[Extremal]:
-    """Each extremal once, cheapest first."""
+    """The extremals without repetition, cheapest first."""
     kept: list[Extremal] = []
     for candidate in sorted(found, key=lambda x: x.cost):
         if not any(_same(candidate, other) for other in kept):

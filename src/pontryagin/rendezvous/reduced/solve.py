@@ -1,7 +1,7 @@
-"""Solve a rendezvous: from the problem without bound to the bound, and for least time to alpha2 = 0.
+"""Solve a rendezvous: first without a bound on the thrust, then with it, and for least time with alpha2 = 0.
 
-Every step follows a family of true rendezvous problems: over the duration and over the revolutions without
-bound, then over the bound, then over alpha1/alpha2. All extremals reached come back, cheapest first.
+Every step follows a family of rendezvous problems: without bound over the duration and over the revolutions,
+then over the bound, then over alpha1/alpha2. All extremals reached are returned, cheapest first.
 """
 
 import math
@@ -24,43 +24,43 @@ from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root
 
 KEPT = 4
-"""How many extremals of the unbounded problem are taken on to the bound; for least time, two."""
+"""Number of extremals of the unbounded problem that are continued to the bound; for least time it is two."""
 
 
 def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
-    """The best extremal found of the rendezvous (1)-(7); the others found are its `others`.
+    """The best extremal found of the rendezvous (1)-(7); its `others` are the other extremals found.
 
-    Solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
-    From coasting the costates are led to a transfer without bound, by families over the duration and over
-    the revolutions; then the bound is lowered, and for least time alpha1/alpha2 raised until the thrust is
-    saturated throughout. The maximum principle is necessary, not sufficient: of the extremals found the
-    cheapest comes first, and `searched` tells where they were looked for.
+    The equations solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
+    By continuation from coasting a transfer without bound is found, by families over the duration and over
+    the revolutions further ones. Then the bound is lowered, and for least time alpha1/alpha2 is raised until
+    the thrust is saturated throughout. The maximum principle is necessary, not sufficient: the cheapest of
+    the extremals found is returned, and `searched` states where they were sought.
 
     Parameters
     ----------
     problem : Rendezvous
-        What is to be solved.
+        The problem to be solved.
     start : Extremal, optional
-        A solution of a problem close to this one; its costates are then taken as the start of Newton's
-        method, and nothing else is looked for.
+        A solution of a problem close to this one. Newton's method then starts from its costates, and no
+        other extremal is sought.
 
     Returns
     -------
     Extremal
-        The cheapest found. Without a bound all extremals that the search came upon are among its
-        ``others``; with one, those that could be brought under it.
+        The cheapest one found. Its ``others`` are, without a bound, all extremals that the search found;
+        with a bound, those that could be continued to it.
 
     Raises
     ------
     TypeError
-        If ``problem`` is no `Rendezvous`, or ``start`` no `Extremal`.
+        If ``problem`` is not a `Rendezvous`, or ``start`` not an `Extremal`.
     ValueError
         If the duration is free and the craft is with the target at the start.
     Infeasible
-        If the duration is free and costs nothing (``time_weight=0``), or a fixed one is too short for the
-        bound: no extremal was reached, and on a family followed the costates grew beyond measure.
+        If the duration is free and costs nothing (``time_weight=0``), or if a fixed one is too short for the
+        bound: no extremal was reached, and in one of the families the costates grew without limit.
     NotConverged
-        If no extremal was reached otherwise.
+        If no extremal was reached for another reason.
 
     Examples
     --------
@@ -86,21 +86,21 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
 
 
 def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
-    """The costates of a neighbour's solution in this problem's units, and its duration if one is needed."""
+    """Costates of another problem's solution in this problem's units, with its duration if that is free."""
     scaled = problem.scaled
     costates = start.initial_costate / scaled.costate_units
     return np.append(costates, start.duration / scaled.time) if problem.free else costates
 
 
 def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
-    """All extremals found of a problem, in no order.
+    """All extremals found of a problem, in no particular order.
 
     Raises
     ------
     NotConverged
         If none was reached.
     Infeasible
-        If none was, and on a curve followed the bound came to the least for the fixed duration.
+        If none was reached and in one of the families the bound came to the least for the fixed duration.
     """
     roots: list[Root[Flight]] = []
     too_short = False
@@ -121,7 +121,7 @@ def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
 
 
 def _without_bound(setting: Setting, loose: Setting, log: Search) -> list[UnboundedExtremal]:
-    """The extremals without bound that are taken on to the bound, cheapest first; without one all of them."""
+    """The extremals without bound that are continued to the bound, cheapest first; all if there is none."""
     try:
         found = sorted(through_revolutions(loose, unbounded(loose, log), log), key=lambda one: one.cost)
     except NotConverged as reason:

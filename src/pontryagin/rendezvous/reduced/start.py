@@ -1,9 +1,10 @@
-"""The first extremal of the problem without bound, from coasting, whose costates are zero.
+"""The first extremal of the problem without bound, by continuation from coasting with zero costates.
 
-The goal is moved from where the craft coasts to where the target will be, and the extremal with it: no thrust
-at first, the whole transfer at last. The turn in the orbit's plane may be taken with whole revolutions more
-or less, which gives one family of extremals for each. A fixed duration is reached so, or from a shorter one,
-which is then stretched; from a guess of a free one the family over the duration leads to the terminal law.
+The goal is moved from where the coasting craft ends to where the target will be, and the extremal follows it:
+no thrust at the beginning of the path, the whole transfer at its end. The turn in the orbit's plane may
+include any number of whole revolutions, each of which gives a family of extremals. A fixed duration is
+reached directly, or from a shorter one by continuation in the duration. For a free duration a guess is made,
+and the family over the duration is followed until the terminal law holds.
 """
 
 import math
@@ -27,32 +28,32 @@ from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.root import Root
 
 GoalPath = Callable[[float], tuple[Array, Array]]
-"""The share of the way to the goal (7,) and its rate (7,)."""
+"""A function of the share of the path that returns the goal (7,) and its rate (7,)."""
 
 SEED: Array = np.array([0, 0, 0, 0, 0, 1e-6])
-"""Costates of coasting; nu is not quite zero, so that it has a direction."""
+"""Costates of coasting; nu is slightly off zero, so that it has a direction."""
 LEAST_STEP = 1 / 256
-"""Share of the goal's way below which a step is not halved again."""
+"""Smallest step of the goal, as a share of its path."""
 TRIES = 60
-"""Most steps of the goal that are tried."""
+"""Largest number of steps of the goal that are tried."""
 TAU = 2 * math.pi
 SHORT = 0.5
-"""A free duration estimated by the gap between craft and target is tried first where it is below this."""
+"""A free duration estimated from the gap between craft and target is tried first if it is below this."""
 STRETCHED = (1.0, 0.6, 0.4, 0.2)
-"""Parts of a fixed duration from which it is reached."""
+"""Shares of a fixed duration at which a first extremal is sought, to be stretched to that duration."""
 GUESSED = (1.0, 1.5, 0.7, 2.5, 0.4)
 """Multiples of a guessed duration that are tried."""
 MORE_TURNS = (0, 1, -1, 2, -2)
-"""Revolutions more than half of the target's lead that are tried."""
+"""Revolutions tried in addition to the number that makes up half of the target's lead."""
 
 
 def unbounded(setting: Setting, log: Search) -> Root[Flight]:
-    """An extremal of the unbounded problem, of the fixed duration or of a free one.
+    """An extremal of the unbounded problem, with the fixed duration or a free one.
 
     Raises
     ------
     NotConverged
-        If none is reached from any guess.
+        If no extremal is reached from any guess.
     """
     for duration in _durations(setting):
         log.durations.append(duration)
@@ -68,7 +69,7 @@ def unbounded(setting: Setting, log: Search) -> Root[Flight]:
 
 
 def _durations(setting: Setting) -> list[float]:
-    """To start from: the fixed one and shorter ones, or guesses of a free one."""
+    """Durations to start from: the fixed one and shorter ones, or guesses of a free one."""
     if setting.duration is not None:
         return [share * setting.duration for share in STRETCHED]
     usual, short = (guess(setting.scaled, setting.ratio) for guess in (orbit_change_duration, gap_duration))
@@ -77,27 +78,27 @@ def _durations(setting: Setting) -> list[float]:
 
 
 def _even_turns(scaled: Scaled, duration: float) -> int:
-    """Revolutions that let the craft turn halfway between what it and the target would turn coasting."""
+    """Revolutions for which the craft turns by the mean of its own and the target's angle when coasting."""
     wanted = ballistic_lead(scaled, duration) / 2
     return round((wanted - coasting_twist(scaled, duration)) / TAU)
 
 
 def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Root[Flight]:
-    """The unbounded extremal of a fixed time, alpha2 = 1, that coasting leads to.
+    """The unbounded extremal of a fixed duration, alpha2 = 1, by continuation from coasting.
 
     Parameters
     ----------
     setting : Setting
-        With a duration.
+        A setting with a fixed duration.
     revolutions : int
-        How many turns more than the shortest the goal makes on its way.
+        Revolutions of the goal on its path in addition to the shortest turn.
     seed : (6,) array
-        Costates whose own end the goal starts from; by default those of coasting.
+        Costates of the flight at whose end the goal starts; by default those of coasting.
 
     Raises
     ------
     NotConverged
-        Where the extremal cannot follow the goal.
+        If the extremal cannot follow the goal.
     """
     loose = setting.replace(peak=math.inf, ratio=1.0)
     scaled, duration = loose.scaled, float(loose.duration or 0)
@@ -119,20 +120,23 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
 
 
 def twist(relative: Array) -> float:
-    """The angle about i3 of a turn = (a turn about an axis across i3) o (a turn about i3), in (-pi, pi]."""
+    """The angle about i3 when a turn is split into (turn about an axis normal to i3) o (turn about i3).
+
+    It lies in (-pi, pi].
+    """
     angle = 2 * math.atan2(relative[3], relative[0])
     return angle - 2 * math.pi * round(angle / (2 * math.pi))
 
 
 def coasting_twist(scaled: Scaled, duration: float) -> float:
-    """The angle in the orbit's plane from where the craft coasts to where the target will be, (-pi, pi]."""
+    """The angle in the orbit's plane from the coasting craft's end to the target there, in (-pi, pi]."""
     flight = fly(scaled, SEED, duration)
     goal, _ = scaled.target(float(flight.end[3]))
     return twist(product(conjugate(flight.attitude(flight.end)), goal[3:]))
 
 
 def _path(flight: Flight, goal: Array, revolutions: int) -> GoalPath:
-    """The goal (7,) and its rate as functions of the share of the way."""
+    """The path of the goal from the end of a flight to the target."""
     place = flight.attitude(flight.end)
     relative = product(conjugate(place), goal[3:])
     angle = twist(relative)
@@ -157,7 +161,7 @@ def _path(flight: Flight, goal: Array, revolutions: int) -> GoalPath:
 
 
 def _chase(setting: Setting, costates: Array, done: float, reached: float, path: GoalPath) -> Array | None:
-    """Costates that follow the goal from one share of its path to another; None where they cannot.
+    """Costates of the extremal as the goal moves from one share of its path to another; None if that fails.
 
     They are predicted along the path and corrected by Newton's method without damping.
     """

@@ -1,7 +1,7 @@
 """Newton's law in inertial axes for the craft, and Kepler's equation for the target.
 
-An independent check of the solver: the variables, the integrator (SciPy's DOP853) and the formula for the
-target's place are others. Only the costates at t0 and the times of the switches are the solver's.
+This is an independent check of the solver: it uses other variables, another integrator (SciPy's DOP853) and
+another formula for the target's place. It takes only the costates at t0 and the switch times from the solver.
 """
 
 import math
@@ -18,11 +18,11 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import Flight
 
 Rates = Callable[[Array], Array]
-"""The rates of a state (n,), (n,)."""
+"""A function from a state, (n,), to its rates, (n,)."""
 
 
 def integrate(rates: Callable[[str], Rates], flight: Flight, start: Array, times: Array) -> Array:
-    """States at ascending times, (k, n), arc by arc by DOP853; ``rates(mode)`` is a function of the state."""
+    """States at ascending times, (k, n), integrated arc by arc; ``rates(mode)`` is a mode's `Rates`."""
     from scipy.integrate import solve_ivp
 
     ends = [*(piece.begin for piece in flight.pieces[1:]), flight.duration]
@@ -44,7 +44,7 @@ def integrate(rates: Callable[[str], Rates], flight: Flight, start: Array, times
 
 
 def cartesian_of(states: Array, attitude: Array) -> Array:
-    """R and V, (..., 6), of r, v1, c and the attitude."""
+    """R and V, (..., 6), as functions of r, v1, c and the attitude."""
     r, v1, c = np.moveaxis(states[..., :3], -1, 0)
     return np.stack(kernels.cartesian(r, v1, c, *np.moveaxis(attitude, -1, 0)), axis=-1)
 
@@ -90,6 +90,6 @@ def target_by_kepler(scaled: Scaled, time: float) -> Array:
 
 
 def separation(flight: Flight) -> Array:
-    """R and V of the craft less those of the target at t_k, (6,); axes and units as in `fly_cartesian`."""
+    """R and V of the craft minus those of the target at t_k, (6,); axes and units as in `fly_cartesian`."""
     end = fly_cartesian(flight, np.array([flight.duration]))[0, :6]
     return end - target_by_kepler(flight.scaled, flight.duration)

@@ -1,9 +1,9 @@
 """The turn of a rigid body about a fixed axis, planned by the programme of one channel.
 
-The programme plans the angle x1 about the axis e. Euler's equations with w = x2 e need the torque
-M = J e (x3 + f) + x2^2 e x (J e): the channel's torque along J e, and a gyroscopic torque across the axis,
-which vanishes only where e is a principal axis and which no channel commands. With feedforward the
-actuators give it too; without, the body misses its target.
+The programme plans the angle x1 about the axis e. By Euler's equations w = x2 e needs the torque
+M = J e (x3 + f) + x2^2 e x (J e): the channel's torque along J e, and a gyroscopic torque across the axis.
+The gyroscopic torque vanishes only if e is a principal axis, and no channel commands it. With feedforward the
+actuators give it too; without feedforward the body misses its target.
 """
 
 from collections.abc import Callable
@@ -28,15 +28,15 @@ from pontryagin.value import value_class
 @value_class
 @dataclass(frozen=True, eq=False)
 class Turn:
-    """A body turned about a fixed axis by a programme; times (k,) as in the programme.
+    """A body turned about a fixed axis by a programme. Times t (k,) are those of the programme.
 
     Attributes
     ----------
     body : RigidBody
     axis : (3,) array
-        Unit axis e, the same in body and inertial axes while the turn goes as planned.
+        Unit axis e; its components in body and inertial axes are the same while the turn goes as planned.
     programme : solution of one manoeuvre
-        Plans the angle about the axis.
+        The programme that plans the angle about the axis.
     feedforward : bool
         Whether the actuators also give the gyroscopic torque.
     motion : Motion
@@ -62,15 +62,15 @@ class Turn:
         return self.motion.rate(t)
 
     def error(self, t: ArrayLike) -> Array:
-        """Rotation vector from the planned to the true attitude, rad, (k, 3)."""
+        """Rotation vector of the turn from the planned to the true attitude, rad, (k, 3)."""
         return rotation_vector(between(self.planned_attitude(t), self.attitude(t)))
 
     def rate_error(self, t: ArrayLike) -> Array:
-        """True less planned angular rate, (k, 3)."""
+        """True minus planned angular rate, (k, 3)."""
         return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
 
     def angle(self, t: ArrayLike) -> Array:
-        """Angle turned about the axis, rad, (k,): the twist of the true attitude about it."""
+        """Angle turned about the axis, rad, (k,): the twist of the true attitude about the axis."""
         turn = between(self.planned_attitude(t), self.attitude(t))
         twist: Array = 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
         return self.motion.commands(t)[:, 0] + twist
@@ -112,7 +112,7 @@ class Turn:
 
     @property
     def rate_miss(self) -> float:
-        """Size of the error of the angular rate at the end."""
+        """Length of the error of the angular rate at the end."""
         return float(np.linalg.norm(self.rate_error(self.motion.edges[-1:])))
 
 
@@ -132,7 +132,7 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     programme : solution of one manoeuvre
         From `minimum_energy`, `minimum_peak`, `minimum_impulse`, `minimum_norm` or `minimum_time`.
     feedforward : bool
-        Whether the gyroscopic torque is added to the channel's.
+        Whether the actuators give the gyroscopic torque in addition to the channel's torque.
 
     Returns
     -------
@@ -184,7 +184,7 @@ def single(programme: Programme) -> Maneuver:
     Raises
     ------
     ValueError
-        If it is a stack of manoeuvres.
+        If the programme is that of a stack of manoeuvres.
     """
     maneuver = programme.maneuver
     if maneuver.shape != ():

@@ -21,16 +21,16 @@ from pontryagin.validation import finite, vectors
 from pontryagin.value import freeze, value_class
 
 TOLERANCE = 1e-13
-"""Local error of the integration, relative and in scaled units."""
+"""The integrator's relative tolerance, and its absolute tolerance in scaled units."""
 
 INSET = 1e-13
-"""Distance from the ends of a smooth stretch, as a share of it, within which the control is not read."""
+"""The control is not evaluated nearer than this share of a smooth stretch to the ends of the stretch."""
 
 CommandRate = Callable[[float, Array], ArrayLike]
-"""From (t, commands) to the rate of change of the commands (n,)."""
+"""A function from (t, commands) to the rate of change of the commands (n,)."""
 
 Torque = Callable[[float, Array, Array, Array], Array]
-"""From (t, attitude, rate, commands) to the torque on the body in body axes, (3,)."""
+"""A function from (t, attitude, rate, commands) to the torque on the body in body axes, (3,)."""
 
 
 @value_class
@@ -42,8 +42,8 @@ class RigidBody:
     ----------
     inertia : (3, 3) array_like
         Inertia tensor J about the centre of mass in body axes: symmetric, positive definite, no principal
-        moment greater than the sum of the other two. The motion is the same if torques and J are both
-        multiplied by one number.
+        moment greater than the sum of the other two. Any consistent unit will do: multiplying both J and the
+        torques by a number leaves the motion as it is.
 
     Raises
     ------
@@ -99,19 +99,19 @@ class RigidBody:
 @value_class
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion of the body, sampled on demand.
+    """A motion of the body, evaluated at any times.
 
-    The commands jump at impulses and are continuous from the right. Motions are compared by their edges and
-    ends.
+    The commands jump at impulses and are continuous from the right. Two motions are equal if their edges and
+    ends are.
 
     Attributes
     ----------
     edges : (p+1,) array
         Ends of the smooth stretches.
     stretches : p solutions of SciPy's integrator
-        The motion on each.
+        The motion on each stretch.
     start, end : (7+n,) arrays
-        Attitude, rate and commands before the first instant's impulse, and after the last one's.
+        Attitude, rate and commands at the start, before any impulse, and at the end, after all impulses.
     """
 
     edges: Array
@@ -160,7 +160,7 @@ class Commands:
     scales : (n,) array
         Typical sizes of z, by which the integrator's absolute tolerance is multiplied.
     breakpoints : sequence of times
-        Where the rate is not smooth.
+        Times at which the rate is not smooth.
     impulses : sequence of (time, jump (n,))
         Jumps of z.
     """
@@ -189,7 +189,7 @@ def simulate(
     attitude, rate : (4,), (3,) array_like
         Quaternion and angular rate at the start.
     commands : Commands
-        Integrated together with the motion.
+        The commands, which are integrated together with the motion.
     torque : function (t, attitude, rate, commands) -> (3,)
         All torque on the body, in body axes.
 

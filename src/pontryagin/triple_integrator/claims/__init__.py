@@ -1,7 +1,7 @@
 """The ledger of Gorelov & Morozova 2012: every formula, number and decidable claim, in the paper's order.
 
-One module per step of the paper. A module transcribes and judges; what is derived comes from
-`pontryagin.triple_integrator.derivation`.
+There is one module for each step of the paper. It holds the printed statements and the verdicts on them;
+derived quantities come from `pontryagin.triple_integrator.derivation`.
 """
 
 from itertools import chain

@@ -202,7 +202,7 @@ def matching_system() -> Evidence:
     ]
 
     def derived() -> list[Any]:
-        # A quadratic equals rho~ T_2 when it does at three instants.
+        # A quadratic is equal to rho~ T_2 if the two agree at three instants.
         gap = chebyshev.dual_in_time() - signed_norm * chebyshev.chebyshev_in_time()
         return [*(gap.subs(tau, instant) for instant in (0, T / 2, T)), (multipliers.T * c)[0] - 1]
 
@@ -254,7 +254,7 @@ def multipliers_of_the_polynomial() -> Evidence:
     printed = {"l_{10}": 16 / F, "l_{20}": -8 * T / F, "l_{30}": T**2 / F, r"\tilde\rho_0": T**2 / F}
 
     def derived() -> Sides:
-        # Read off T_2: its value and its two derivatives at the end, scaled so that l'c = 1.
+        # The multipliers are the value and the derivatives of T_2 at the end, scaled so that l'c = 1.
         polynomial = chebyshev.chebyshev_in_time()
         end = [polynomial.diff(tau, k).subs(tau, T) * (-1) ** k for k in range(3)]
         scale = (sp.Matrix([end[2], end[1], end[0]]).T * c)[0]

@@ -137,7 +137,7 @@ def minimal_element() -> Evidence:
 def conditions_on_the_optimum() -> Evidence:
     def argument() -> Steps:
         square = sp.Symbol("H", positive=True)
-        # Of u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N, the pairing is mu H.
+        # For u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N and the pairing is mu H.
         factor, rest = sp.symbols("mu N", nonnegative=True)
         pairing = factor * square
         norm = factor**2 * square + rest

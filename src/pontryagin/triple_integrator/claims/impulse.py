@@ -103,7 +103,7 @@ def approximating_pulses() -> Evidence:
         return dict(zip(keys, (centre - widthm, centre + widthm, *heights), strict=True))
 
     def consequence() -> Consequence:
-        # As the widths go to 0: 4 and half of -8 at the start, 4 at the end.
+        # In the limit of zero widths the impulses are 4 and half of -8 at the start, and 4 at the end.
         return Consequence(
             "state reached in the limit for the unit turn",
             three_impulses((sp.Integer(4) - 4, sp.S.Zero, sp.Integer(4))),

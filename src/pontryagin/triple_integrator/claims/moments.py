@@ -95,7 +95,7 @@ def response_components() -> Evidence:
     printed = {r"h_1(\tau)": to_go**2 / 2, r"h_2(\tau)": to_go, r"h_3(\tau)": sp.S.One}
 
     def derived() -> Sides:
-        # An impulse at tau from rest, and then the free motion.
+        # From rest: an impulse at tau, followed by the free motion.
         after = channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
         return dict(zip(printed, after, strict=True))
 

@@ -105,7 +105,7 @@ def moment_equalities() -> Evidence:
 )
 def form_of_the_functional() -> Evidence:
     def argument() -> Steps:
-        # On two levels: the functional v -> w'v is the pairing with u = w/lengths, of the conjugate norm.
+        # For two levels the functional v -> w'v is the pairing with u = w/lengths, of the conjugate norm.
         w1, w2 = sp.symbols("w_1 w_2", real=True)
         represented = {v1: w1 / T1, v2: w2 / T2}
         paired = T1 * v1 * (w1 / T1) + T2 * v2 * (w2 / T2)

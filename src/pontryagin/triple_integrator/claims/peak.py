@@ -34,7 +34,7 @@ first, second = sp.symbols("a b", positive=True)
 
 
 def two_switches(level: sp.Expr, earlier: sp.Expr, later: sp.Expr, duration: sp.Expr) -> sp.Matrix:
-    """Moments of the control level, -level, level with switches at two instants tau."""
+    """Moments of the control that is level, -level, level, with switches at two instants tau."""
     return piecewise_moments(
         [(earlier, level), (later - earlier, -level), (duration - later, level)]
     ).applyfunc(sp.expand)

@@ -28,11 +28,11 @@ turn = sp.Symbol("gamma_T", positive=True)
 F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 PULSE = [(R(5, 8), 0), (R(1, 4), 4), (R(1, 8), 0)]
-"""A control of one sign, 4 on [5/8, 7/8] in unit time: total impulse 1."""
+"""A control of one sign in unit time: 4 on [5/8, 7/8], else 0; its total impulse is 1."""
 
 
 def pulse_certificate() -> Steps:
-    """A control of total impulse 1 that no other control can beat, where (4.10) pays 59/48."""
+    """A control whose total impulse 1 is the least possible; the impulses (4.10) have the total 59/48."""
     moments = piecewise_moments(PULSE)
     yield (
         "u = 4 on [5/8, 7/8], T = 1, has c = (13/384, 1/4, 1)",

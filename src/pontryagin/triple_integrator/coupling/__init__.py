@@ -1,4 +1,4 @@
-"""Three channels of one rigid body, with the cross-coupling between them as their disturbance f(t).
+"""Three channels of one rigid body; the cross-coupling between them is the disturbance f(t) of each.
 
 `channels` holds the equations of a body under three programmes; `iteration` finds the programmes whose
 cross-coupled motion reaches the target.

@@ -1,7 +1,7 @@
-"""One body driven by three channels: phi'' = m + f exactly, and f(t) of each channel along a motion.
+"""Equations of one body driven by three channels, phi'' = m + f exactly, and f(t) along a motion.
 
 A channel is a component of the rotation vector phi; its control acceleration is a component of m, with the
-torque M = J m. The cross-coupling f(phi, phi', m) is all that Euler's equations and the kinematics add.
+torque M = J m. The cross-coupling f(phi, phi', m) is all that Euler's equations and the kinematics add to m.
 """
 
 from collections.abc import Callable, Sequence
@@ -42,7 +42,7 @@ class Coupling:
     edges : (p+1,) array
         Ends of the smooth stretches.
     series : (p, degree+1) array
-        Chebyshev coefficients on each.
+        Chebyshev coefficients on each stretch.
     """
 
     edges: Array
@@ -66,9 +66,9 @@ class Channels:
     body : RigidBody
         The body that turns.
     programmes : three solutions
-        Of the channels, in order.
+        Solutions of the channels, in order.
     programmed : tuple of int
-        S. The control acceleration of the others, G, is the one that their given motion requires.
+        The channels S. The control acceleration of the others, G, is the one that their motion requires.
     """
 
     body: RigidBody
@@ -97,7 +97,7 @@ class Channels:
         return [disturbance_of(self.programmes[i].maneuver) for i in self.given]
 
     def drift(self, phi: Array, w: Array) -> Array:
-        """n of phi'' = B^-1 m + n, (..., 3)."""
+        """The part n of phi'' = B^-1 m + n that does not depend on m, (..., 3)."""
         free = self.body.acceleration(w, np.zeros(3))
         return vector_acceleration_drift(phi, w) + _applied(vector_rate_matrix(phi), free)
 
@@ -106,7 +106,7 @@ class Channels:
         return _applied(vector_rate_matrix(phi), m) - m + self.drift(phi, w)
 
     def control_acceleration(self, t: Array, phi: Array, w: Array, commands: Array) -> Array:
-        """m of all channels from that of S, (k, 3); that of G makes their phi'' the given one."""
+        """m of all channels, (k, 3): in S the commands, in G the m that gives phi'' its given value."""
         if not self.given:
             return commands
         m = np.empty(phi.shape)
@@ -152,7 +152,7 @@ class Channels:
         ]
 
     def miss(self, motion: Motion) -> float:
-        """The larger of the angle to the target attitude and T times the error of the rate there."""
+        """The larger of the angle to the target attitude and T times the error of the final angular rate."""
         target, (first, last) = self.ends[1], self.interval
         left = rotation_vector(between(quaternion(target[:, 0]), motion.end[:4]))
         rate_left = motion.end[4:7] - body_rate(target)

@@ -1,12 +1,12 @@
-"""Three channels of one body: the iteration that takes f(t) from the motion until the target is reached.
+"""Programmes for three coupled channels of one body, by an iteration over the cross-coupling f(t).
 
 With phi'' = m + f as in `channels`, the motion of one iterate gives f(t). The moment problem of each
 channel is solved with it as disturbance, the full equations are integrated with the controls found, and
 this is repeated until attitude and rate reach the target.
 
-f(phi, k phi', k^2 m) = k^2 f, so that the iteration in t/T does not depend on the duration T. Along every
-motion x(tf) = Phi x(t0) + g(f) + c, so that an iteration subtracts the miss of the last motion from the
-moments c. For a spherical body and a turn from rest to rest an iteration multiplies the miss by
+Since f(phi, k phi', k^2 m) = k^2 f(phi, phi', m), the iteration in t/T does not depend on the duration T.
+Along every motion x(tf) = Phi x(t0) + g(f) + c, so that an iteration subtracts the miss of the last motion
+from the moments c. For a spherical body and a turn from rest to rest an iteration multiplies the miss by
 `spherical_factor`, which is half the angle for small angles and does not depend on the norm; unequal
 moments of inertia change that factor.
 """
@@ -31,13 +31,13 @@ from pontryagin.validation import finite
 from pontryagin.value import value_class
 
 NOISE = 1e-11
-"""A miss below this is an error of the integrator and says nothing about the iteration."""
+"""A miss below this is an error of the integrator and is no measure of the iteration's convergence."""
 
 GROWN = 100.0
 """A miss (rad) at which the iteration is given up."""
 
 Solver = Callable[[Maneuver], Programme]
-"""What solves the moment problem of one channel, such as `minimum_energy`."""
+"""A solver of the moment problem of one channel, such as `minimum_energy`."""
 
 
 @value_class
@@ -50,15 +50,15 @@ class CoupledManeuver:
     body : RigidBody
         The body that turns.
     programmes : three solutions
-        Of the channels, in order; those programmed here have the cross-coupling as their disturbance.
+        Solutions of the channels, in order; the disturbance of those programmed here is the cross-coupling.
     programmed : tuple of int
         Which channels were programmed; the motion of the others was given.
     misses : (n,) array
         By how much the motion of each iterate misses the target: the larger of the angle between the
-        attitudes (rad) and T times the error of the angular rate. The first is that of the uncoupled
-        programmes.
+        attitudes (rad) and T times the error of the angular rate. The first iterate is the motion under the
+        uncoupled programmes.
     motion : Motion
-        Of the last iterate, by Euler's equations; its commands are m of the programmed channels.
+        Motion of the last iterate, by Euler's equations; its commands are m of the programmed channels.
     """
 
     body: RigidBody
@@ -69,9 +69,9 @@ class CoupledManeuver:
 
     @property
     def factor(self) -> float:
-        """Factor of the miss per iteration: geometric mean over the last three with a miss above rounding.
+        """Factor of the miss per iteration: the geometric mean of the last three factors above rounding.
 
-        0 where the miss of the first iterate was rounding already.
+        It is 0 if the miss of the first iterate is rounding already.
         """
         last = self.misses[self.misses > NOISE][-4:]
         return float((last[-1] / last[0]) ** (1 / (last.size - 1))) if last.size > 1 else 0.0
@@ -185,8 +185,8 @@ def spherical_factor(angle: ArrayLike) -> Array:
     """Factor by which an iteration multiplies the miss of a spherical body's turn from rest to rest.
 
     |1 - x cot x + i x| with x = angle/2: the modulus of the eigenvalues of 1 - B^-1 (dimensionless). It is 1
-    at an angle of 1.895 rad (108.6 degrees); beyond, with nearly equal moments of inertia, an iteration leads
-    away from the target.
+    at an angle of 1.895 rad (108.6 degrees). For larger angles, with nearly equal moments of inertia, the
+    iteration diverges.
 
     A change of the moments c has two parts. One changes the axis of the turn, and is corrected in one
     iteration. The other leaves a rate w at the end, for which the iteration uses phi' = B^-1 w.

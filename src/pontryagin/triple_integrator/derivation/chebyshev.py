@@ -5,7 +5,7 @@ paper     here                meaning
 T_2       chebyshev           2 z^2 - 1, in the paper's time with t0 = 0
 rho~_0    signed_norm         s0 rho_0
 F         F                   16 c1 - 8 T c2 + T^2 c3
-a0 am aT  amplitudes          impulses at 0, T/2 and T, with signs such that all should be positive
+a0 am aT  amplitudes          impulses at 0, T/2, T up to sign; all positive if (4.10) is optimal
 """
 
 from functools import cache
@@ -47,7 +47,7 @@ def dual_in_time() -> sp.Expr:
 
 @cache
 def matching() -> tuple[sp.Expr, ...]:
-    """Coefficients of tau^2, tau and 1 in h0 - rho~ T_2, which must vanish, scaled so that rho~ has -1."""
+    """Coefficients of tau^2, tau and 1 in h0 - rho~ T_2, which must vanish; each is scaled to hold -rho~."""
     raw = sp.Poly(dual_in_time() - signed_norm * chebyshev_in_time(), tau).all_coeffs()
     return tuple(
         sp.expand(-coefficient / coefficient.coeff(signed_norm)) for coefficient in map(sp.expand, raw)
@@ -87,7 +87,7 @@ def impulse_transfer() -> sp.Matrix:
 
 @cache
 def amplitudes() -> dict[sp.Symbol, sp.Expr]:
-    """a0, am and aT that give the control the moments c, (4.10); s0 is its own inverse."""
+    """a0, am and aT that give the control the moments c, (4.10), with 1/s0 = s0."""
     at_rest = impulse_transfer().subs(dict.fromkeys(initial, 0)) / sign
     equations = [sp.expand(got - sign * wanted) for got, wanted in zip(at_rest, c, strict=True)]
     return {a: sp.factor(value) for a, value in sp.solve(equations, list(impulses), dict=True)[0].items()}
@@ -112,7 +112,7 @@ def three_impulses(amplitudes: tuple[sp.Expr, sp.Expr, sp.Expr], duration: sp.Ex
 
 
 def impulses_for(moments: sp.Matrix) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """The impulses s0 a0, -s0 am, s0 aT of (4.10) in unit time, for given moments; s0 drops out."""
+    """The impulses s0 a0, -s0 am, s0 aT of (4.10) in unit time for given moments; s0 cancels."""
     at = {T: 1, **dict(zip(c, moments, strict=True))}
     first, middle, last = (sp.cancel(amplitudes()[a] / sign).subs(at) for a in impulses)
     return first, -middle, last

@@ -1,7 +1,7 @@
 """Where the printed least-impulse solution (4.10) holds, and the cost of its impulses elsewhere.
 
-Directions of c are points of the unit sphere of (6 c1, 2 c2, c3), T = 1; that of a constant control is
-(1, 1, 1)/sqrt(3).
+Directions of c are points of the unit sphere of (6 c1, 2 c2, c3) for T = 1. The direction of a constant
+control is (1, 1, 1)/sqrt(3).
 """
 
 import sympy as sp
@@ -17,7 +17,7 @@ def direction(place: sp.Expr) -> sp.Matrix:
 
 
 def chebyshev_edges() -> list[sp.Matrix]:
-    """Edges of the cone on which the impulses at 0, T/2, T have the signs +, -, + of the polynomial."""
+    """Edges of the cone in which the impulses at 0, T/2, T have the signs +, -, + of the polynomial."""
     half = sp.Rational(1, 2)
     return [direction(sp.Integer(0)), -direction(half), direction(sp.Integer(1))]
 
@@ -44,9 +44,9 @@ def share_of_directions() -> sp.Expr:
 def overpayment() -> sp.Expr:
     """Total of the three impulses (4.10) for the moments of a unit impulse at sigma <= 1/2.
 
-    That total is a norm of c, and the least total impulse is the gauge of the convex hull of the unit
-    impulses, so that their ratio is largest at a unit impulse. It is the Lebesgue function of interpolation
-    at 0, 1/2, 1.
+    The total is a norm of c, and the least total impulse is the gauge of the convex hull of the unit
+    impulses, so that the ratio of the two is largest at a unit impulse. There it is the Lebesgue function of
+    interpolation at 0, 1/2, 1.
     """
     moments = dict(zip((impulse.m0, impulse.m1, impulse.m2), (1, sigma, sigma**2), strict=True))
     amplitudes = impulse.chebyshev_amplitudes().subs(moments)
@@ -55,7 +55,7 @@ def overpayment() -> sp.Expr:
 
 
 def worst_overpayment() -> tuple[sp.Expr, sp.Expr]:
-    """Where in [0, 1/2] the overpayment is largest, and how large: (1/4, 5/4)."""
+    """The sigma in [0, 1/2] of the largest overpayment, and this overpayment: (1/4, 5/4)."""
     total = overpayment()
     place = sp.solve(sp.diff(total, sigma), sigma)[0]
     return place, total.subs(sigma, place)

@@ -64,7 +64,7 @@ def piecewise_moments(pieces: list[tuple[sp.Expr, sp.Expr]]) -> sp.Matrix:
 
 
 def conjugate_norm(q: sp.Expr) -> sp.Expr:
-    """L_q norm of a control of two levels: its largest pairing with a function h of conjugate norm one.
+    """L_q norm of a control with two levels: its largest pairing with a function h of conjugate norm one.
 
     For finite q the best h is a multiple of |u|^(q-1) sign u. For q = oo the extreme h are concentrated on
     one of the levels, with either sign.

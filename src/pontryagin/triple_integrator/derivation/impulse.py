@@ -8,8 +8,8 @@ are the constant 1 and the family
     p(sigma) = 2 (1 - x sigma)^2 - 1,      1 <= x <= 2,
 
 which starts at +1, touches -1 at 1/x and ends at or below +1. So the least total impulse is a maximum of
-closed forms: |mu0|, the two ends of the family, and its stationary point x = mu1/mu2 where that lies
-between them; the same with time reversed.
+closed forms: |mu0|; the values at the two ends of the family and, if it lies between them, at its stationary
+point x = mu1/mu2; and the same values with time reversed.
 """
 
 import sympy as sp
@@ -48,7 +48,7 @@ def pairing(polynomial: sp.Expr) -> sp.Expr:
 
 
 def best_touching_point() -> sp.Expr:
-    """The stationary x of the family's bound: x = mu1/mu2."""
+    """The x at which the bound by the family is stationary: x = mu1/mu2."""
     return sp.solve(sp.diff(pairing(extreme_quadratic()), x), x)[0]
 
 
@@ -58,7 +58,7 @@ def reversed_moments() -> sp.Matrix:
 
 
 def amplitudes(places: list[sp.Expr]) -> sp.Matrix:
-    """Impulses at up to three places in sigma with the first moments mu, as many as there are places."""
+    """Impulses at up to three places in sigma, from as many of the first moments mu as there are places."""
     count = len(places)
     system = sp.Matrix(count, count, lambda i, j: places[j] ** i)
     return system.LUsolve(sp.Matrix([m0, m1, m2][:count])).applyfunc(sp.factor)

@@ -5,10 +5,10 @@ paper     here          meaning
 psi_3*    parabola      the dual function in the paper's time tau
 t1, t2    t1, t2        its zeros, the switching instants
 alpha_m   alpha         half its curvature, alpha_m = l10/2
-tau_m     apex          where it is extreme, (t1 + t2)/2
+tau_m     apex          place of its extremum, (t1 + t2)/2
 Delta_m   half_width    (t2 - t1)/2
 beta_m    depth         minus its value there
-lambda~   slope         multiplier of (3.14), divided by alpha_m; minus one over the level of the control
+lambda~   slope         multiplier of (3.14) over alpha_m; equals -1/(level of the control)
 F         signed_area   S1 - S2 + S3, alpha_m times a polynomial
 """
 
@@ -59,7 +59,7 @@ def vertex() -> dict[sp.Symbol, sp.Expr]:
 
 
 def zeros() -> tuple[sp.Expr, sp.Expr]:
-    """The zeros of (3.8) for alpha and beta of one sign, the earlier one first."""
+    """The zeros of (3.8) if alpha and beta have the same sign, the earlier one first."""
     ratio = sp.Symbol("r", positive=True)
     roots = sp.solve(vertex_form().subs(beta, alpha * ratio), tau)
     ordered = sorted(roots, key=lambda root: root.subs({apex: 0, ratio: 1}))
@@ -74,7 +74,7 @@ def multipliers_from_vertex() -> sp.Matrix:
 
 
 def normalisation() -> sp.Expr:
-    """l'c in terms of the vertex, which must be 1; (3.11), and (3.13) with beta = alpha Delta^2."""
+    """l'c, which must be 1, in terms of the vertex; (3.11), and (3.13) with beta = alpha Delta^2."""
     return (multipliers_from_vertex().T * c)[0]
 
 

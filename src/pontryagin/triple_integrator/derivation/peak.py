@@ -8,10 +8,10 @@ control has all three equal to its level,
 
 determine v, m = a + b and d = a - b. Eliminating m and d leaves one equation in t = 1/v which is convex:
 a quadratic over a positive linear function, plus a cube of that linear function. A convex function that
-is negative at zero has at most one root on either side, and the optimum is the root nearer to zero. (A
-nearer root on the other side would belong to a function of larger level, constant outside one interval of
-the whole line, with the same moments. Its difference from the optimum would change sign at most twice and
-yet be orthogonal to 1, s and s^2, which is impossible.)
+is negative at zero has at most one root on either side, and the optimum is the root nearer to zero. Proof: a
+nearer root on the other side would belong to a function with the same moments and a larger level w, which is
+-w on one interval of the whole line and w elsewhere. Its difference from the optimum would change sign at
+most twice and yet be orthogonal to 1, s and s^2, which is impossible.
 """
 
 import sympy as sp
@@ -41,7 +41,7 @@ def bang_bang_moments() -> sp.Matrix:
 
 
 def centred_moments() -> sp.Matrix:
-    """`bang_bang_moments` in m = a + b, d = a - b: v(1 - 2d(3m^2 + d^2)/4), v(1 - 2md), v(1 - 2d)."""
+    """`bang_bang_moments` by m = a + b, d = a - b: v(1 - 2d(3m^2 + d^2)/4), v(1 - 2md), v(1 - 2d)."""
     return bang_bang_moments().subs({a: (m + d) / 2, b: (m - d) / 2}).applyfunc(sp.simplify)
 
 
@@ -66,7 +66,7 @@ def level_equation() -> sp.Expr:
 
 
 def near_constant_equation() -> sp.Expr:
-    """`level_equation` in y = 1 - k3 t, exact also where the control is constant except for a narrow flip.
+    """`level_equation` in y = 1 - k3 t, accurate also if the control is constant except for a narrow flip.
 
     With e2 = k2 - k3 and w = k1 - k3 - 3 e2/2 no terms of size one cancel when y is small:
     G = w t - y/4 + 3 e2^2 t^2 / (4 y) + y^3 / 16.
@@ -96,7 +96,7 @@ def second_derivative() -> sp.Expr:
 
 
 def dual_bound() -> sp.Expr:
-    """The lower bound on the peak by the dual function (s - a)(s - b), without its modulus."""
+    """The lower bound on the peak by the dual function (s - a)(s - b), with the sign of its pairing."""
     h = (model.s - a) * (model.s - b)
     coefficients = [sp.Poly(sp.expand(h), model.s).coeff_monomial(model.s**i) for i in range(3)]
     value = coefficients[2] * k1 / 3 + coefficients[1] * k2 / 2 + coefficients[0] * k3

@@ -71,14 +71,14 @@ def rotation_matrix(q: sp.Matrix = quaternion) -> sp.Matrix:
 
 
 def quaternion_rate() -> sp.Matrix:
-    """q' = q w / 2: the rate at which q is followed by the turn w h, at h = 0."""
+    """q' = q w / 2: the derivative of q followed by the turn w h with respect to h, at h = 0."""
     h, speed = sp.symbols("h w", positive=True)
     following = product(quaternion, turn_by(rate * h, speed * h))
     return following.diff(h).applyfunc(lambda entry: sp.limit(entry, h, 0))
 
 
 def along(expression: sp.Matrix, component: sp.Symbol) -> sp.Matrix:
-    """Derivative by one component of phi, on which theta = |phi| depends too."""
+    """Derivative with respect to one component of phi, on which theta = |phi| also depends."""
     return expression.diff(component) + expression.diff(angle) * component / angle
 
 

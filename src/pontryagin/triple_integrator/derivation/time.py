@@ -1,8 +1,8 @@
-"""Least time for |u| <= U: a quartic in T for either sign of the control, after the end of section 3.
+"""Least time for |u| <= U, as at the end of section 3: a quartic in T for either sign of the control.
 
 In the level equation of the fixed-time problem the level v = +-1 is now given (units with U = 1), and the
 moments depend on T. The time is never less than |c3|, which x3 alone needs, so the unknown is
-z = T - |c3| >= 0, in which narrow flips of the control keep their digits.
+z = T - |c3| >= 0, which loses no digits when the control has a narrow flip.
 """
 
 import sympy as sp
@@ -28,7 +28,7 @@ def scaled_moments() -> sp.Matrix:
 
 
 def quartic() -> sp.Expr:
-    """G(1/v) for v = +-1, cleared of fractions: a quartic in T whose roots are the candidates."""
+    """G(1/v) for v = +-1 without fractions: a quartic in T, whose roots include the least time."""
     k = scaled_moments()
     equation = peak.level_equation().subs(peak.t, sign)
     equation = equation.subs(dict(zip((peak.k1, peak.k2, peak.k3), k, strict=True)))

@@ -1,4 +1,4 @@
-"""Figures and tables of Gorelov & Morozova 2012: from a solution or a manoeuvre to a picture."""
+"""Figures and tables of Gorelov & Morozova 2012, made from solutions and manoeuvres."""
 
 from pontryagin.triple_integrator.figures import tables
 from pontryagin.triple_integrator.figures.coupling import attempts, attempts_table, coupling_convergence

@@ -1,4 +1,4 @@
-"""Convergence of the iteration over the cross-coupling, and the angles from which on it fails."""
+"""Convergence of the iteration over the cross-coupling, and the angles beyond which it fails."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.value import value_class
 
 TOLERANCE = 1e-6
-"""Largest miss of the target that counts as reached, rad."""
+"""The target counts as reached if the miss is at most this, rad."""
 
 
 @value_class
@@ -71,7 +71,7 @@ def coupling_convergence(tried: Sequence[Attempt]) -> Figure:
     Parameters
     ----------
     tried : sequence of Attempt
-        Returned by `attempts`; those that did not settle are marked in the second panel.
+        Returned by `attempts`; those that did not converge are marked in the second panel.
     """
     figure, (left, right) = subplots(1, 2, height=3.4, width_ratios=(1.15, 1))
     settled = [(attempt.degrees, attempt.turn) for attempt in tried if attempt.turn]

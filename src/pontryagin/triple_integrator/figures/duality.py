@@ -1,4 +1,4 @@
-"""The minimal elements h0 of (1.13) in three norms, with the measure of each."""
+"""The minimal elements h0 of (1.13) in three norms."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 def dual_functions(maneuver: Maneuver) -> Figure:
     """The least dual function h0 with l'c = 1 in the norms conjugate to L2, L-infinity and L1.
 
-    The shading shows what its norm measures: the area for L-infinity, the range for L1.
+    The shading shows what the norm of h0 measures: the area for L-infinity, the range for L1.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def _shade_to_zero(ax: Axes, t: Array, h: Array, colour: str) -> None:
 
 
 def _mark_signs(ax: Axes, t: Array, h: Array, colour: str) -> None:
-    """The sign of the control over each piece."""
+    """Write the sign of the control over each piece."""
     cuts = np.flatnonzero(np.diff(np.sign(h)) != 0)
     pieces = np.split(np.arange(len(t)), cuts + 1)
     for piece in pieces:

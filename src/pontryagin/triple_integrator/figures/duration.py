@@ -19,7 +19,7 @@ COUNT = 1201
 def peak_over_duration(
     x0: ArrayLike, xf: ArrayLike, durations: tuple[float, float], bound: float | None = None
 ) -> Figure:
-    """u0(T) between two states, which falls where the Hamiltonian is positive and rises where it is negative.
+    """u0(T) between two states; it falls where the Hamiltonian is positive and rises where it is negative.
 
     Parameters
     ----------

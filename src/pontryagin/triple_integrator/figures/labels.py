@@ -66,7 +66,7 @@ def value(solution: Solution) -> str:
 
 
 def number(x: float) -> str:
-    """A number in mathtext: four digits, with a power of ten where it needs one."""
+    """A number in mathtext with four digits, and with a power of ten if needed."""
     mantissa, _, exponent = f"{x + 0.0:.4g}".partition("e")
     return mantissa if not exponent else rf"{mantissa}\cdot 10^{{{int(exponent)}}}"
 
@@ -77,7 +77,7 @@ def single(solution: Any) -> Maneuver:
     Raises
     ------
     ValueError
-        If it is the solution of a stack.
+        If the solution is that of a stack.
     """
     maneuver: Maneuver = solution if isinstance(solution, Maneuver) else solution.maneuver
     if maneuver.shape:

@@ -16,10 +16,10 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 @styled
 def convex_level_equation(maneuver: Maneuver) -> Figure:
-    """G(t), t = 1/v, with a root on either side of zero, and the function of the time to go of each root.
+    """G(t), t = 1/v, with a root on either side of zero, and the function of the time to go for each root.
 
-    The function is v on [0, T] minus 2 v on the inner interval. Where that interval reaches beyond [0, T],
-    the function is no control.
+    The function is v on [0, T] minus 2 v on the inner interval. If that interval reaches beyond [0, T], the
+    function is not a control.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def convex_level_equation(maneuver: Maneuver) -> Figure:
     Raises
     ------
     ValueError
-        If it is a stack, the control is constant, or G has one root only.
+        If the manoeuvre is a stack, the control is constant, or G has only one root.
     """
     labels.single(maneuver)
     T = float(maneuver.duration)

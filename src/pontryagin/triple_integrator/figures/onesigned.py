@@ -1,4 +1,4 @@
-"""Programmes of one sign with the same total impulse, and the one that is the limit q -> 1."""
+"""Programmes of one sign with the same total impulse, among them the limit of least L_q norm for q -> 1."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 @styled
 def equally_cheap(maneuver: Maneuver, exponents: Sequence[float] = (2.0, 1.3, 1.03)) -> Figure:
-    """The canonical two impulses, the L_q programmes for q near 1, and the control of greatest entropy.
+    """The two impulses of `minimum_impulse`, L_q programmes for q near 1, the control of greatest entropy.
 
     Parameters
     ----------

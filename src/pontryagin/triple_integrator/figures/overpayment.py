@@ -19,8 +19,8 @@ SIZE = 500
 def printed_impulses() -> Figure:
     """The printed value |F|/T^2, and the total of the printed impulses, over the least total impulse.
 
-    Both are drawn over half the sphere of directions. The value is a lower bound and falls to zero; the
-    impulses reach the target everywhere and cost up to a quarter more than the least.
+    Both are drawn over half the sphere of directions. The value is a lower bound and falls to zero. The
+    impulses reach the target everywhere, but cost up to a quarter more than the least total impulse.
     """
     figure = Figure(figsize=(WIDTH, 3.9), layout="constrained")
     axes = figure.subplots(1, 2)

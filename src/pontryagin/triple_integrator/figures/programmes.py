@@ -1,4 +1,4 @@
-"""Controls and the motions they cause, of one solution or of three side by side."""
+"""Controls and the motions that they cause, for one solution or three side by side."""
 
 from collections.abc import Sequence
 
@@ -57,7 +57,7 @@ def solution_figure(solution: Solution) -> Figure:
     Raises
     ------
     ValueError
-        If it is the solution of a stack.
+        If the solution is that of a stack.
     """
     labels.single(solution)
     figure, axes = subplots(2, 2, height=4.6, sharex=True)

@@ -25,7 +25,7 @@ PLACES = {
     "moment": ((0.2, 0.005),),
 }
 SIZE = 700
-"""Cells along each side of the map."""
+"""Number of cells along each side of the map."""
 
 
 @styled

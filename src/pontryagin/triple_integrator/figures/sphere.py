@@ -1,7 +1,7 @@
 """Equal-area map of the directions of (6 c1, 2 c2, c3), T = 1: half the sphere as a disc.
 
-The direction of a constant control lies at the centre, those of an impulse at the start and at the end to
-its left and right. Opposite directions have opposite programmes, so that half the sphere shows all.
+The direction of a constant control lies at the centre. The directions of an impulse at the start and at the
+end lie to its left and right. Opposite directions have opposite programmes, so that half the sphere suffices.
 """
 
 from functools import cache
@@ -57,7 +57,7 @@ def grid(size: int) -> tuple[Array, NDArray[np.bool_]]:
 
 
 def maneuvers(directions: Array) -> Maneuver:
-    """From rest at zero to the state whose moments are in these directions, T = 1."""
+    """Manoeuvres from rest at zero whose moments have these directions, T = 1."""
     return Maneuver([0, 0, 0], directions / SCALES, 1.0)
 
 
@@ -70,7 +70,7 @@ def arc(first: Array, last: Array, count: int = 200) -> Array:
 
 
 def draw(ax: Axes, directions: Array, **style: Any) -> None:
-    """A curve of directions (k, 3), and its mirror image, where they lie in the disc."""
+    """Draw the parts of a curve of directions (k, 3) and of its mirror image that lie in the disc."""
     for curve in (directions, -directions):
         visible = curve @ frame()[2] >= -1e-9
         points = to_disc(np.where(visible[:, None], curve, frame()[2]))
@@ -78,7 +78,7 @@ def draw(ax: Axes, directions: Array, **style: Any) -> None:
 
 
 def prepare(ax: Axes) -> None:
-    """An empty disc with its rim."""
+    """Prepare an empty disc with its rim."""
     ax.add_patch(Circle((0, 0), 1, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=3))
     ax.set(xlim=(-1.03, 1.03), ylim=(-1.03, 1.03), aspect="equal")
     ax.axis("off")

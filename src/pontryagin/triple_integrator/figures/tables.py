@@ -136,7 +136,7 @@ def times_of_one_bound(x0: ArrayLike, xf: ArrayLike, bound: float, durations: tu
 
 
 def turn_misses(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Columns:
-    """Errors of the body's attitude and rate at the end, with the gyroscopic torque fed forward and not."""
+    """Errors of the body's attitude and rate at the end, with and without gyroscopic feedforward."""
     columns: Columns = {
         "programme": [],
         "gyroscopic torque": [],

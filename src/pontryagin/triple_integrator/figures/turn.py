@@ -14,10 +14,11 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 
 @styled
 def real_turn(body: RigidBody, axis: ArrayLike, maneuver: Maneuver) -> Figure:
-    """A rigid body turned about an axis by each of the three programmes, by Euler's equations.
+    """A rigid body turned about an axis by each of the three programmes, integrated by Euler's equations.
 
     The upper panels show the torque along J e that the channel commands and the gyroscopic torque across the
-    axis; the lower ones the angle between planned and true attitude, with that torque fed forward and not.
+    axis. The lower ones show the angle between planned and true attitude, with and without feedforward of the
+    gyroscopic torque.
 
     Parameters
     ----------

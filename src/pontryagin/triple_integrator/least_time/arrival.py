@@ -1,8 +1,8 @@
-"""The first arrival under |u| <= U: the least admissible root of two quartics in the time, and its proof.
+"""The least time under |u| <= U: the least admissible root of two quartics in the time, and its proof.
 
-The problem is solved in units with U = 1 and the typical time of the transfer as the unit of time; x, u
-and f change sign together where that makes c3 = x3f - x30 >= 0. The unknown is z = T - c3 >= 0, since
-x3 alone needs the time c3.
+The problem is solved in units with U = 1 and the typical time of the transfer as the unit of time. If
+c3 = x3f - x30 is negative, the signs of x, u and f are changed, so that c3 >= 0. The unknown is
+z = T - c3 >= 0, since x3 alone needs the time c3.
 """
 
 from math import fabs, sqrt
@@ -30,13 +30,22 @@ ACCEPT = 2e-15
 """Largest residual of the moments, relative to the size of the data, with which a root is accepted."""
 
 ILL_POSED = 1e-12
-"""Largest residual accepted where no root passes `ACCEPT`: rounding of the data may remove a double root."""
+"""Largest residual accepted if no root passes `ACCEPT`.
+
+Rounding of the data may remove a double root.
+"""
 
 NEARLY_DOUBLE = 1e-9
-"""Largest residual accepted where none passes `ILL_POSED`: nearly equal roots lose half their digits."""
+"""Largest residual accepted if no root passes `ILL_POSED` either.
+
+Nearly equal roots lose half of their digits.
+"""
 
 TOUCHING = 1e-2
-"""A stationary value this small, relative to its terms, may be a root of the data before rounding."""
+"""A stationary point whose value, relative to the quartic's terms, is this small is tried as a double root.
+
+The data may have had a root there before they were rounded.
+"""
 
 NEVER = 1e300
 """The value of z where no root is accepted."""
@@ -73,7 +82,7 @@ def refine(
 ) -> float:
     """Two Newton steps on p3^2 (4 T^2 - p3^2) + 8 p3 w - 12 r2^2, without its coefficients in z.
 
-    Those lose digits to cancellation; p3, r2 and w do not.
+    The coefficients lose digits to cancellation; p3, r2 and w do not.
     """
     for _ in range(2):
         T = c3 + z
@@ -103,7 +112,7 @@ def least_root(
     q2: float,
     q3: float,
 ) -> tuple[float, ...]:
-    """z, a, b, residual of the least root below `limit` that is accepted; z = limit if there is none."""
+    """z, a, b and residual of the least accepted root below `limit`; z = limit if there is none."""
     top = min(limit, upper_bound(q0, q1, q2, q3) * (1.0 + 1e-9))
     low, low_value = 0.0, q0
     if level > 0.0 and c3 > 0.0:
@@ -134,7 +143,7 @@ def least_root(
 
 
 def first_arrival(accept: float, ends: tuple[float, ...], f: float, c3: float) -> tuple[float, ...]:
-    """Level, z, a, b, residual of the least accepted root of either branch."""
+    """Level, z, a, b and residual of the least accepted root of both branches."""
     d1, x20, x30, x2f, x3f, _ = ends
     small = small_parts(0.0, x20, x30, d1, x2f, x3f, f, c3)
     r20, r21, w0, w1, w2 = small
@@ -182,8 +191,8 @@ def lower_bound(
 ) -> float:
     """The time just before which a separating functional proves the target out of reach; |c3| if none does.
 
-    A control with two switches is separated by (s - aT)(s - bT), one with a single switch also by the
-    functional whose other zero lies at the other end of the manoeuvre, and a constant control by those
+    For a control with two switches the functional is (s - aT)(s - bT). For a single switch the functional
+    whose other zero lies at the other end of the manoeuvre is tried too, for a constant control also those
     without a zero inside.
     """
     found = max(

@@ -1,4 +1,4 @@
-"""Roots of q4 z^4 + q3 z^3 + q2 z^2 + q1 z + q0 on z > 0: isolated by stationary points, then Newton.
+"""Positive roots of a quartic q4 z^4 + ... + q0: isolated by its stationary points, then Newton's method.
 
 The quartics of the least time have q4 = 3.
 """
@@ -6,7 +6,7 @@ The quartics of the least time have q4 = 3.
 from math import fabs, sqrt
 
 QUADRATIC = 1e-9
-"""A Newton step this small (relative) leaves an error of its square, which is below rounding."""
+"""Newton's method ends after a relative step this small: the error left, its square, is below rounding."""
 
 THIRD = 1.0 / 3.0
 
@@ -76,7 +76,7 @@ def stationary_points(top: float, q1: float, q2: float, q3: float) -> tuple[floa
 
 
 def sign_changes(q0: float, q1: float, q2: float, q3: float) -> int:
-    """Sign changes among the coefficients: no positive root if 0, exactly one if 1 (Descartes)."""
+    """Sign changes among the coefficients: 0 excludes positive roots, 1 implies exactly one (Descartes)."""
     changes, last = 0, 1.0
     for q in (q3, q2, q1, q0):
         if q * last < 0.0:

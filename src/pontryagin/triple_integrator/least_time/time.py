@@ -24,19 +24,19 @@ class TimeSolution(BangBang):
     Attributes
     ----------
     x0, xf : (..., 3) array
-        Both ends.
+        The states at the start and at the end.
     peak, disturbance : (...) array
-        Bound on |u|, and the constant disturbance.
+        Bound on |u|, and the constant disturbance f.
     duration : (...) array
-        Least time; 0 where the ends agree.
+        Least time; 0 where both states agree.
     levels : (...) array
         Signed level of the control near both ends of a two-switch programme.
     shares : (..., 2) array
         Both switches a >= b as shares of the duration to go; 1 and 0 where they do not happen.
     certificate : Certificate
         Residual of the moments, relative to the data; the duration; and the time just before which a
-        separating functional proves the target out of reach. That proof is local: that nothing arrives
-        earlier still rests on the quartics, which have no smaller admissible root.
+        separating functional proves the target out of reach. This proof is local. That no control arrives
+        at a still earlier time follows from the quartics, which have no smaller admissible root.
     """
 
     x0: Array
@@ -55,13 +55,13 @@ class TimeSolution(BangBang):
         Raises
         ------
         ValueError
-            Where the ends agree: a manoeuvre takes a positive time.
+            If both states agree: a manoeuvre takes a positive time.
         """
         return Maneuver(self.x0, self.xf, self.duration, disturbance=self.disturbance)
 
     @cached_property
     def _motion(self) -> Maneuver:
-        """The manoeuvre, with the duration 1 where the ends agree: only its start is used there."""
+        """The manoeuvre, with the duration 1 where both states agree, since there only its start is used."""
         longer = np.where(self.duration > 0, self.duration, 1.0)
         return Maneuver(self.x0, self.xf, longer, disturbance=self.disturbance)
 
@@ -79,14 +79,14 @@ def minimum_time(
 ) -> TimeSolution:
     """Least time between two states of the triple integrator under |u| <= peak.
 
-    Section 3 calls this problem mutual to the least peak. It is so where one end is an equilibrium;
-    elsewhere the least peak need not fall as the time grows, and the least time is the first at which the
-    least peak meets the bound.
+    Section 3 calls this problem mutual to the least peak. This is true if one of the two states is an
+    equilibrium. Otherwise the least peak need not fall as the time grows, and the least time is the first at
+    which the least peak meets the bound.
 
     Parameters
     ----------
     x0, xf : (..., 3) array_like
-        Ends.
+        The states at the start and at the end.
     peak : (...) array_like
         Bound on |u|, positive.
     disturbance : (...) array_like, optional

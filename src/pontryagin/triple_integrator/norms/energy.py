@@ -18,7 +18,7 @@ from pontryagin.value import value_class
 
 
 def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
-    """Coefficients of 1, s, s^2 in u, scaled residual, norm, lower bound."""
+    """The coefficients of 1, s, s^2 in u, the scaled residual, the norm, and the lower bound."""
     k1, k2, k3 = c1 / T / T / T, c2 / T / T, c3 / T
     scale = max(6.0 * fabs(k1), 2.0 * fabs(k2), fabs(k3))
     if scale == 0.0:
@@ -52,7 +52,7 @@ class EnergySolution(Programme):
     coefficients : (..., 3) array
         u = u0 + u1 s + u2 s^2 in the time to go s.
     certificate : Certificate
-        Residual of the moments, relative to the largest; the norm; the bound |l'c| / sqrt(l'Dl).
+        Residual of the moments, relative to the largest; the norm; and the bound |l'c| / sqrt(l'Dl).
     """
 
     maneuver: Maneuver

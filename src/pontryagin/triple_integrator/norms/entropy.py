@@ -1,4 +1,4 @@
-"""The control of one sign with the greatest entropy, which is the limit of the L_q optimum for q -> 1.
+"""The control of one sign with the greatest entropy, the limit of the least-L_q-norm control for q -> 1.
 
 In the interior of the moment cone every control of one sign with the moments c has the least total impulse
 |c3|, so that problem 3, (1.20), has many solutions. The optimum |h0|^(p-1) in L_q selects one of them as
@@ -32,10 +32,10 @@ CONVERGED = 1e-10
 """Largest residual of the moments of a solution that is returned."""
 
 BOUNDARY = 4e-15
-"""Distance to the boundary of the moment cone, for c3 = 1, below which it is rounding."""
+"""For c3 = 1, a distance of the moments to the boundary of the moment cone below this is rounding."""
 
 CHUNK = 64
-"""How many problems are solved side by side, such that their nodes fit a processor's cache."""
+"""How many problems are solved at once; their quadrature nodes then fit into a processor's cache."""
 
 
 @value_class
@@ -48,12 +48,12 @@ class EntropySolution(QuadraticProgramme):
     maneuver : Maneuver
         The problem that is solved.
     peak : (...) array
-        max |u|, with the sign of u; 0 where c = 0.
+        The u of largest modulus, with its sign; 0 where c = 0.
     exponent : Quadratic
         log(u / peak) in the time to go as a share of T; its largest value is 0.
     certificate : Certificate
         Residual of the moments, relative to the largest of 6 c1/T^3, 2 c2/T^2, c3/T; the total impulse, by a
-        rule that the solver does not use; and the bound |c3|, that of l = (0, 0, 1).
+        quadrature rule that the solver does not use; and the bound |c3|, which l = (0, 0, 1) proves.
     """
 
     maneuver: Maneuver
@@ -78,7 +78,7 @@ class EntropySolution(QuadraticProgramme):
 
     @property
     def entropy(self) -> Array:
-        """Entropy of |u|/|c3| relative to a constant control: at most 0, (...); 0 where c = 0."""
+        """Entropy of |u|/|c3| relative to that of a constant control, (...): at most 0; 0 where c = 0."""
         c1, c2, c3 = np.moveaxis(self.maneuver.moments, -1, 0)
         T = self.maneuver.duration
         still = c3 == 0
@@ -102,21 +102,21 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     Parameters
     ----------
     maneuver : Maneuver
-        One manoeuvre or a stack of them, its moments inside the moment cone: for mu = (c3, c2/T, 2 c1/T^2)
-        mu0 mu2 > mu1^2 and mu0 (mu1 - mu2) > 0; or c = 0.
+        One manoeuvre or a stack of them, with moments inside the moment cone or c = 0. Inside means
+        mu0 mu2 > mu1^2 and mu0 (mu1 - mu2) > 0 for mu = (c3, c2/T, 2 c1/T^2).
 
     Returns
     -------
     EntropySolution
-        The limit of `minimum_norm` for q -> 1, at a distance of order q - 1.
+        The limit of `minimum_norm` for q -> 1; the two differ by a term of order q - 1.
 
     Raises
     ------
     pontryagin.Infeasible
-        If the moments are not inside the cone: then the least total impulse has one control only, the
+        If the moments are not inside the cone: then one control alone has the least total impulse, the
         impulses of `minimum_impulse`.
     pontryagin.NotConverged
-        If the moments are missed by more than 1e-10, so close to the boundary of the cone.
+        If the moments are missed by more than 1e-10, because they lie so close to the boundary of the cone.
 
     Examples
     --------
@@ -162,7 +162,7 @@ def _require_inside(moving: NDArray[np.bool_], c3: Array, mean: Array, square: A
 
 
 def _exponent(w: Array) -> Array:
-    """Coefficients of the exponent whose density has the orthonormal moments w (n, 3), w0 = 1."""
+    """The exponent h whose density exp(h) has the moments w (n, 3), w0 = 1, in the orthonormal basis."""
 
     def derivatives(h: Quadratic, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
         """Scale, gradient and Hessian of log (integral of exp h) - <h, w>."""

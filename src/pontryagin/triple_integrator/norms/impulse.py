@@ -1,4 +1,4 @@
-"""Least total impulse (L1), (1.20), in every regime; (4.10) is one of them.
+"""Least total impulse (L1), (1.20), in every regime of the moments; (4.10) is the solution in one regime.
 
 The least total impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], a maximum of a few
 closed forms; the impulses act where the best p touches its bounds. Here mu = (c3, c2/T, 2 c1/T^2) are the
@@ -27,17 +27,18 @@ from pontryagin.triple_integrator.problem.programme import (
 from pontryagin.value import value_class
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
-"""Where the impulses act: nowhere; anywhere with one sign; at both ends and in the middle with alternating
-signs, (4.10); at the end and inside; at the start and inside."""
+"""The regimes, named by where the impulses act. "zero": nowhere. "moment": anywhere, with one sign.
+"chebyshev": at both ends and in the middle with alternating signs, (4.10). "end": at the end and inside.
+"start": at the start and inside."""
 
 ZERO, MOMENT, CHEBYSHEV, END, START = 0.0, 1.0, 2.0, 3.0, 4.0
 
 ROUNDING = 4e-15
-"""Relative size below which an impulse, or the distance to the boundary of a regime, is rounding."""
+"""Impulses, and distances to the boundary of a regime, below this relative size are due to rounding."""
 
 
 def touching_bound(m0: float, m1: float, m2: float) -> float:
-    """The bound of 2 (1 - x sigma)^2 - 1 at its stationary x = mu1/mu2, or 0 if that is not in [1, 2]."""
+    """The bound by 2 (1 - x sigma)^2 - 1 with the stationary x = mu1/mu2; 0 if this x is not in [1, 2]."""
     square, mixed = m2 * m2, m1 * m2
     if square == 0.0 or mixed < square * (1.0 - ROUNDING) or mixed > 2.0 * square:
         return 0.0
@@ -45,7 +46,7 @@ def touching_bound(m0: float, m1: float, m2: float) -> float:
 
 
 def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
-    """Impulse at the end, impulse inside and its place, for moments on the boundary of the moment cone."""
+    """Impulses at the end and inside, and the inner place, for moments on the boundary of the moment cone."""
     if m0 * m1 <= 0.0:
         return m0, 0.0, 0.5
     return 0.0, m0, min(1.0, m1 / m0)
@@ -209,7 +210,7 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     Returns
     -------
     ImpulseSolution
-        Exact to rounding in every regime; the printed solution (4.10) is that of the regime "chebyshev".
+        It is exact to rounding in every regime; the printed solution (4.10) is that of "chebyshev".
 
     Examples
     --------

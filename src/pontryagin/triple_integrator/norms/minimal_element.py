@@ -24,10 +24,11 @@ from pontryagin.triple_integrator.norms.quadrature import (
 )
 
 CHUNK = 64
-"""How many problems are solved side by side, such that their nodes fit a processor's cache."""
+"""How many problems are solved at once; their quadrature nodes then fit into a processor's cache."""
 
 STEEP = 30.0
-"""Where p - 1 or q - 1 exceeds this, the problem with a third of it is solved first, as a start."""
+"""Where p - 1 or q - 1 exceeds this, the problem with a third of that number is solved first and gives the
+starting point."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ def _chunk(w: Array, q: float) -> tuple[Quadratic, Array]:
 
 
 def derivatives(h: Quadratic, _: NDArray[np.intp], p: float) -> tuple[Array, Array, Array]:
-    """N, gradient and Hessian of N in the orthonormal basis: (n,), (n, 3), (n, 3, 3)."""
+    """N with its gradient and Hessian in the orthonormal basis: (n,), (n, 3), (n, 3, 3)."""
     rule = logistic_rule()
     s, values, weights = h.sample(rule)
     top = np.abs(values).max(axis=(-2, -1), keepdims=True)
@@ -90,7 +91,7 @@ def derivatives(h: Quadratic, _: NDArray[np.intp], p: float) -> tuple[Array, Arr
 
 
 def _add_tails(curved: Array, h: Quadratic, p: float, step: float) -> None:
-    """Add the tails that the rule cuts off at zeros, where |h|^(p-2) decays only like exp(-(p-1) x)."""
+    """Add the tails of |h|^(p-2) that the rule cuts off at zeros, where it decays only like exp(-(p-1) x)."""
     at_zero = h.cuts[1] == 0
     tail = -np.expm1(-(p - 1) * step)
     curved[..., 0] = np.where(at_zero[..., :-1], curved[..., 0] / tail, curved[..., 0])

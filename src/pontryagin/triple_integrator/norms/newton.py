@@ -9,20 +9,20 @@ from pontryagin.arrays import Array
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, orthonormal
 
 Derivatives = Callable[[Quadratic, NDArray[np.intp]], tuple[Array, Array, Array]]
-"""From quadratics (n) and the indices of their problems (n,) to a scale (n,), the gradient (n, 3) and the
-Hessian (n, 3, 3) in the orthonormal basis."""
+"""A function from quadratics (n) and the indices of their problems (n,) to a scale (n,), the gradient (n, 3)
+and the Hessian (n, 3, 3) in the orthonormal basis."""
 
 SMALL = 1e-10
-"""Residual below which an iteration that no longer improves is limited by rounding."""
+"""An iteration that stops improving with a residual below this is limited by rounding and ends."""
 
 
 def minimise(
     derivatives: Derivatives, directions: Array, start: Quadratic, tolerance: float, steps: int = 100
 ) -> tuple[Quadratic, Array]:
-    """Minimise from `start` along directions (n, 3, 2): the best h found, and its residuals (n,).
+    """The best h found by Newton's method from `start` along directions (n, 3, 2), and the residuals (n,).
 
-    The residual is the gradient along the directions over the scale. A problem leaves the iteration when
-    its residual is within the tolerance, or below `SMALL` and no longer falling.
+    A residual is the length of the gradient along the directions over the scale. A problem leaves the
+    iteration when its residual is within the tolerance, or below `SMALL` and no longer falling.
     """
     n = len(directions)
     best, stalled = np.full(n, np.inf), np.zeros(n, dtype=int)
@@ -51,10 +51,10 @@ def minimise(
 def line_search(
     derivatives: Derivatives, h: Quadratic, step: Array, gradient: Array, which: NDArray[np.intp]
 ) -> tuple[Quadratic, Array, Array, Array]:
-    """Follow each step until the function no longer falls half as steeply as at first.
+    """Take each step, or where it goes too far a part of it that ends with at most half of the first slope.
 
-    The function is convex, so its slope along the step only grows, and the slope is known to more digits
-    than the value: where the full step goes too far, the zero of the slope is bracketed.
+    The search uses the slope because it is known to more digits than the value. The function is convex, so
+    that the slope grows along the step; where the full step goes too far, the zero of the slope is bracketed.
     """
     n = len(which)
     first = (gradient * step).sum(axis=-1)

@@ -1,7 +1,7 @@
 """Least L_q norm for any 1 < q < infinity, between least total impulse and least peak, (1.13) and (1.14).
 
-With 1/p + 1/q = 1 and the minimal element h0 of (1.13) the maximum in (1.14) is attained by
-u = rho0^(-p) |h0|^(p-1) sign h0 alone. The solver's time to go is a share of T, as in `minimal_element`.
+With 1/p + 1/q = 1 and the minimal element h0 of (1.13), u = rho0^(-p) |h0|^(p-1) sign h0 is the only control
+that attains the maximum in (1.14). The solver measures the time to go as a share of T, as `minimal_element`.
 """
 
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class NormSolution(QuadraticProgramme):
         h in the time to go as a share of T.
     certificate : Certificate
         Residual of the moments, relative to the largest of 6 c1/T^3, 2 c2/T^2, c3/T; the norm; and the
-        bound l'c / ||l'h||_p. Norm and bound come from a rule that the solver does not use.
+        bound l'c / ||l'h||_p. Norm and bound come from a quadrature rule that the solver does not use.
     """
 
     maneuver: Maneuver
@@ -62,7 +62,7 @@ class NormSolution(QuadraticProgramme):
 
     @property
     def breakpoints(self) -> Array:
-        """Times within one manoeuvre at which u changes sign, (j,): with q > 2 it is not smooth there."""
+        """Times within one manoeuvre at which u changes sign, (j,); for q > 2 u is not smooth there."""
         m = self.maneuver
         return breakpoints(m.tf[..., None] - m.duration[..., None] * self.shape.zeros)
 
@@ -88,16 +88,16 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     Returns
     -------
     NormSolution
-        Its certificate's dual value is l'c / ||l'h||_p for the multipliers found, a lower bound whatever
-        l is.
+        The dual value of its certificate is l'c / ||l'h||_p for the multipliers found; this is a lower bound
+        for every l.
 
     Raises
     ------
     TypeError, ValueError
         If q is not a finite number greater than 1; `minimum_impulse` and `minimum_peak` solve q = 1 and inf.
     pontryagin.NotConverged
-        If the moments or the lower bound are missed by more than 1e-10. This was seen for q - 1 <= 1e-4,
-        and for q = 1e6 next to a constant control.
+        If the moments are missed by more than 1e-10, or the relative gap between norm and lower bound exceeds
+        it. This was seen for q - 1 <= 1e-4, and for q = 1e6 next to a constant control.
 
     Examples
     --------
@@ -132,7 +132,7 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
 
 
 def exponent(q: float) -> float:
-    """q as a float, checked."""
+    """q as a float, checked to be finite and greater than 1."""
     if isinstance(q, bool) or not isinstance(q, Real):
         raise ArgumentTypeError(f"q must be a number, 1 < q < inf, got {q!r}", "q")
     value = float(q)
@@ -155,7 +155,7 @@ def signed_power(h: Array, power: float) -> Array:
 
 @cache
 def from_scaled_moments() -> Array:
-    """From the scaled moments to those in the orthonormal basis."""
+    """The matrix that takes scaled moments to moments in the orthonormal basis."""
     return np.asarray(orthonormal()[:, ::-1] / np.array([3.0, 2.0, 1.0]))
 
 
@@ -179,7 +179,7 @@ def _multipliers(shape: Quadratic, scale: Array, T: Array) -> Array:
 
 
 def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:
-    """l'c / ||l'h||_p, (...): below the L_q norm of any control with these moments, whatever l; 0 for l = 0.
+    """l'c / ||l'h||_p, (...): for every l a lower bound on the L_q norm of all controls with moments c.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:
     q : float
         Exponent of the control's norm.
     multipliers : (..., 3) array_like
-        Any l.
+        Any l; for l = 0 the result is 0.
 
     Examples
     --------

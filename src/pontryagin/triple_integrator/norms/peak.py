@@ -1,7 +1,7 @@
 """Least peak (L-infinity): the level from one convex equation, then both switches of (3.4).
 
 The moments are scaled, k = (6 c1/T^3, 2 c2/T^2, c3/T), so that those of a constant control all equal its
-level. The control is v outside [b, a] and -v inside, in the time to go as a share of T.
+level v. The control is v outside [b, a] and -v inside, where a >= b are times to go as shares of T.
 """
 
 from dataclasses import dataclass
@@ -24,10 +24,10 @@ from pontryagin.triple_integrator.problem.programme import over_stack
 from pontryagin.value import value_class
 
 EDGE = 1e-14
-"""A piece of the control shorter than this share of T is left out: rounding of the moments hides it."""
+"""Pieces of the control shorter than this share of T are left out: the rounded moments do not show them."""
 
 QUADRATIC = 1e-9
-"""A Newton step this small (relative) leaves an error of its square, which is below rounding."""
+"""Newton's method ends after a relative step this small: the error left, its square, is below rounding."""
 
 
 def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
@@ -47,7 +47,7 @@ def solve_level(k1: float, k2: float, k3: float) -> tuple[float, ...]:
 
 
 def root_on_side(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
-    """Root t of the level equation of the sign `side`, |t| <= reach, and y; t = 0 if there is none."""
+    """The root t of the level equation with the sign `side`, |t| <= reach, and y; t = 0 if there is none."""
     y = 1.0 - side * reach * k3
     if side * k3 > 0.9:
         return narrow_root(side, reach, k1, k2, k3)
@@ -65,7 +65,7 @@ def root_on_side(side: float, reach: float, k1: float, k2: float, k3: float) -> 
 
 
 def narrow_root(side: float, reach: float, k1: float, k2: float, k3: float) -> tuple[float, ...]:
-    """The root of `root_on_side` near the pole y = 0, solved for y: exact for a flip of any width."""
+    """The root of `root_on_side` near the pole y = 0, found in terms of y: exact for a flip of any width."""
     e2 = k2 - k3
     w = k1 - k3 - 1.5 * e2
     if e2 == 0.0 and w == 0.0:
@@ -144,7 +144,8 @@ class PeakSolution(BangBang):
     levels : (...) array
         Signed level v of the control near both ends of a two-switch programme.
     shares : (..., 2) array
-        Both switches a >= b as shares of T to go; 1 and 0 where they do not happen, equal if neither does.
+        Both switches a >= b as shares of T to go. A switch that does not happen is 1 (a) or 0 (b); a = b if
+        neither happens.
     certificate : Certificate
         Residual of the moments, relative to the largest; the peak; and the bound by the dual function.
     """
@@ -166,8 +167,8 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     Returns
     -------
     PeakSolution
-        Exact to rounding. The dual value of its certificate is |2 c1 - (a+b) c2 + ab c3| over the integral of
-        |(s - a)(s - b)|, a lower bound for any a and b.
+        The solution is exact to rounding. The dual value of its certificate is |2 c1 - (a+b) c2 + ab c3| over
+        the integral of |(s - a)(s - b)|, which is a lower bound for any a and b.
 
     Examples
     --------

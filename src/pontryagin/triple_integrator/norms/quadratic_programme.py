@@ -1,4 +1,4 @@
-"""Controls that are a function of a quadratic in the time to go, with certificates by quadrature."""
+"""Controls u = function of a quadratic in the time to go, with certificates by quadrature."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -13,10 +13,10 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme
 
 BLOCK = 256
-"""How many problems a certificate evaluates at once."""
+"""How many problems are evaluated at once for a certificate."""
 
 Profile = Callable[[Array], Array]
-"""The control as a share of its peak, from the values of the quadratic."""
+"""A function from the values of the quadratic to the control as a share of its peak."""
 
 
 class QuadraticProgramme(Programme):
@@ -34,7 +34,7 @@ class QuadraticProgramme(Programme):
         return self.peak[..., None] * self._profile(self._quadratic(self._to_go(t)))
 
     def state(self, t: ArrayLike) -> Array:
-        """x at the times t, (k,) -> (..., k, 3), by quadrature to rounding."""
+        """x at the times t, (k,) -> (..., k, 3), by quadrature that is exact to rounding."""
         T = self.maneuver.duration[..., None]
 
         def control(problem: NDArray[np.intp], h: Array) -> Array:
@@ -66,7 +66,7 @@ def scaled_moments(maneuver: Maneuver) -> Array:
 def certify(
     maneuver: Maneuver, shape: Quadratic, peak: Array, profile: Profile, q: float, bound: Array
 ) -> Certificate:
-    """Moments and L_q norm of a control by the graded rule, which no solver uses, beside a lower bound."""
+    """Certificate by a lower bound, and by moments and norm from the graded rule, which no solver uses."""
     T, targets = maneuver.duration, scaled_moments(maneuver).reshape(-1, 3)
     flat, unit, size = shape.reshape(-1), np.empty_like(targets), np.empty(len(targets))
     for start in range(0, len(targets), BLOCK):

@@ -1,4 +1,4 @@
-"""Integrals over [0, 1] of functions of a quadratic: any power of it, zeros and narrow peaks included.
+"""Integrals over [0, 1] of functions of a quadratic, accurate also at its zeros and at narrow peaks.
 
 A quadratic is cut at its zeros and its vertex. On each piece it is monotone and of one sign, so that its
 Bernstein form has coefficients of one sign and loses no digits next to a zero. Singularities and steep
@@ -35,8 +35,9 @@ class Rule(NamedTuple):
 def logistic_rule() -> Rule:
     """Trapezoidal rule in x for the node 1/(1 + exp(-x)).
 
-    In the plane of x a zero at any distance beyond an end of the piece keeps the distance pi from the real
-    axis, and a peak of any width at an end the distance pi/4, so that one step gives 15 digits for all.
+    In the complex plane of x the singularity of a zero beyond an end of the piece, however near, is pi away
+    from the real axis, and that of a peak at an end, however narrow, pi/4. One step size therefore gives 15
+    digits for all.
     """
     step, reach = 0.14, 264
     x = step * np.arange(-reach, reach + 1)
@@ -65,8 +66,8 @@ class Quadratic:
     coefficients : (..., 3) array
         h0, h1, h2.
     discriminant : (...) array
-        h1^2 - 4 h0 h2, kept beside the coefficients: next to a double zero the rounded coefficients do not
-        determine it, and the distance of the zeros is its square root over h2.
+        h1^2 - 4 h0 h2. It is kept beside the coefficients because next to a double zero the rounded
+        coefficients do not determine it; the distance of the zeros is its square root over h2.
     """
 
     coefficients: Array
@@ -79,7 +80,7 @@ class Quadratic:
         return cls(h, h[..., 1] ** 2 - 4 * h[..., 0] * h[..., 2])
 
     def plus(self, change: Array) -> "Quadratic":
-        """Sum with the quadratic of these coefficients; the discriminant is updated, not computed anew."""
+        """Sum with the quadratic of given coefficients; the discriminant is updated, not computed anew."""
         (h0, h1, h2), (d0, d1, d2) = np.moveaxis(self.coefficients, -1, 0), np.moveaxis(change, -1, 0)
         linear = 2 * (h1 * d1 - 2 * (h0 * d2 + h2 * d0))
         return Quadratic(self.coefficients + change, self.discriminant + linear + (d1**2 - 4 * d0 * d2))
@@ -151,7 +152,7 @@ class Quadratic:
 
     @cached_property
     def bernstein(self) -> Array:
-        """Bernstein coefficients of h on the four pieces, (..., 4, 3): of one sign on each."""
+        """Bernstein coefficients of h on the four pieces, (..., 4, 3); those of one piece have one sign."""
         positions, values, slopes = self.cuts
         widths = np.diff(positions, axis=-1)
         first, last = values[..., :-1], values[..., 1:]
@@ -184,7 +185,7 @@ class Quadratic:
 
 @cache
 def orthonormal() -> Array:
-    """Rows: coefficients of 1, s, s^2 in polynomials orthonormal on [0, 1]."""
+    """A matrix (3, 3) whose rows hold the coefficients of 1, s, s^2 in polynomials orthonormal on [0, 1]."""
     powers = np.arange(3)
     return np.linalg.inv(np.linalg.cholesky(1 / (1 + np.add.outer(powers, powers))))
 
@@ -196,13 +197,13 @@ def basis_at(s: Array) -> Array:
 
 
 def first_moments(basis: Array, weights: Array) -> Array:
-    """Sums of weights times basis, (n, 3)."""
+    """Sums of weights times basis functions, (n, 3)."""
     sums: Array = np.einsum("nk,nki->ni", weights.reshape(len(basis), -1), basis)
     return sums
 
 
 def second_moments(basis: Array, weights: Array) -> Array:
-    """Sums of weights times products of basis, (n, 3, 3)."""
+    """Sums of weights times products of two basis functions, (n, 3, 3)."""
     return np.swapaxes(basis * weights.reshape(len(basis), -1, 1), 1, 2) @ basis
 
 
@@ -251,7 +252,7 @@ def moments_beyond(h: Quadratic, s: Array, function: Integrand, block: int = 409
 
 
 def _whole_pieces(flat: Quadratic, function: Integrand) -> Array:
-    """The same integrals over each whole piece, from its own start, (m, 4, 3)."""
+    """The integrals of `moments_beyond` over each whole piece, from the start of that piece, (m, 4, 3)."""
     _, values, weights = flat.sample(logistic_rule())
     widths = np.diff(flat.cuts[0], axis=-1)[..., None]
     owner = np.arange(len(values))
@@ -267,6 +268,6 @@ def _taylor(integrand: Array, distance: Array) -> Array:
 
 
 def _shifted(integrals: Array, gap: Array) -> Array:
-    """Integrals of (gap + distance)^j / j!, j = 2, 1, 0, from those with no gap."""
+    """Integrals with the weights (gap + distance)^j / j!, j = 2, 1, 0, from those with a gap of 0."""
     second, first, zeroth = np.moveaxis(integrals, -1, 0)
     return np.stack([second + gap * first + gap**2 / 2 * zeroth, first + gap * zeroth, zeroth], axis=-1)

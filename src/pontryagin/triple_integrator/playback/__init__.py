@@ -1,4 +1,4 @@
-"""Recordings that replay: one channel under three norms, the turn of a rigid body, coupled channels.
+"""Recordings for playback: one channel under three norms, the turn of a rigid body, coupled channels.
 
 `recordings` lists them, each with the function that writes it; `record_solution` records any one solution.
 Angles are in rad, times in s.
@@ -34,7 +34,7 @@ __all__ = [
 
 
 def recordings() -> dict[str, Callable[[Path], None]]:
-    """The recordings of this paper: name and the function that writes the file."""
+    """The recordings of this paper: for each name the function that writes the file."""
     return {
         "three-norms": three_norms,
         "real-turn-energy": real_turn_energy,

@@ -94,10 +94,10 @@ def _channel(
 
 
 def _spikes(kicks: Sequence[tuple[float, float]], maneuver: Maneuver, t: Array) -> tuple[Array, Array]:
-    """Impulses as a curve: each a spike of its height, 1 % of T wide so that a screen shows it.
+    """Impulses as a curve: each is a spike as high as the impulse, 1 % of T wide so that a screen shows it.
 
-    The player averages values that fall on one pixel, so that every time occurs once and the times t of the
-    other curves are added.
+    The player averages values that fall on one pixel. Therefore every time occurs only once, and the times t
+    of the other curves are included.
     """
     first, last = float(maneuver.t0), float(maneuver.tf)
     offsets = 0.005 * (last - first) * np.array([-1.2, -1.0, 1.0, 1.2])
@@ -110,7 +110,7 @@ def _spikes(kicks: Sequence[tuple[float, float]], maneuver: Maneuver, t: Array) 
 
 
 def _flash(t: Array, kicks: Sequence[tuple[float, float]], duration: float) -> Array:
-    """Length of the arrow that marks impulses, within 3 % of T of each: 3 for the largest, (k,)."""
+    """Length of the arrow that marks an impulse within 3 % of T of it, (k,): 3 for the largest impulse."""
     largest = max(abs(jump) for _, jump in kicks)
     marks = [np.where(np.abs(t - time) <= 0.03 * duration, 3 * jump / largest, 0.0) for time, jump in kicks]
     return np.asarray(np.sum(marks, axis=0))

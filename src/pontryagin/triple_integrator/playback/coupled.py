@@ -41,7 +41,7 @@ def record_coupled(path: Path, coupled: CoupledManeuver) -> None:
     path : Path
         File to write, ending in ``.rrd``.
     coupled : CoupledManeuver
-        With all three channels programmed for the least energy.
+        The manoeuvre, with all three channels programmed for the least energy.
     """
     plain = tuple(
         minimum_energy(Maneuver(m.x0, m.xf, m.tf, m.t0)) for m in (p.maneuver for p in coupled.programmes)

@@ -1,4 +1,4 @@
-"""What the recordings share: the body and how it is drawn, its manoeuvres, and the times of the samples."""
+"""The spacecraft of the recordings: the body, how it is drawn, its manoeuvres, the times of samples."""
 
 from collections.abc import Callable, Sequence
 
@@ -24,7 +24,7 @@ NORMS: dict[str, tuple[Callable[[Maneuver], Programme], str]] = {
     "peak": (minimum_peak, RED),
     "impulse": (minimum_impulse, GREEN),
 }
-"""Solver and colour of each norm."""
+"""The solver and the colour of each norm."""
 
 CHANNEL_COLOURS = (BLUE, RED, GREEN)
 """Colours of the three channels, and of the components of vectors."""

@@ -1,1 +1,1 @@
-"""The manoeuvre, its disturbance, and the motion that a control makes of them, (0.6) to (1.16)."""
+"""The manoeuvre, its disturbance, and controls with the motion that they cause, (0.6) to (1.16)."""

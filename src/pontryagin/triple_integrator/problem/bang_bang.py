@@ -17,14 +17,14 @@ from pontryagin.triple_integrator.problem.programme import (
 
 
 class BangBang(Programme):
-    """A control that is v outside [b, a] and -v inside, in the time to go as a share of T.
+    """A control that is v outside [b, a] and -v inside, where a >= b are times to go as shares of T.
 
     Attributes
     ----------
     levels : (...) array
         The signed level v.
     shares : (..., 2) array
-        Both switches a >= b; 1 and 0 where they do not happen, equal if neither does.
+        Both switches a >= b; a = 1 or b = 0 where one does not happen, a = b if neither does.
     """
 
     levels: Array
@@ -59,10 +59,10 @@ class BangBang(Programme):
 
     @cached_property
     def switch_condition(self) -> Array:
-        """Condition of the switches, (..., 2): how far one moves (share of T) for a relative change of c.
+        """Condition of the switches, (..., 2): displacement (share of T) per relative change of c.
 
-        Large where the control is constant but for a narrow flip: the data then do not determine the
-        place of the flip. Infinite where a switch does not happen.
+        It is large where the control is constant except for a narrow flip, whose place the data then do not
+        determine. It is infinite where a switch does not happen.
         """
         return switch_condition(self.shares)
 
@@ -78,7 +78,7 @@ class BangBang(Programme):
 
     @property
     def _motion(self) -> Maneuver:
-        """The manoeuvre whose motion without control is added to the control's."""
+        """The manoeuvre whose motion without control is added to the motion that the control causes."""
         return self.maneuver
 
     @property
@@ -87,7 +87,7 @@ class BangBang(Programme):
 
 
 def bang_bang(t: Array, switches: Array, first: Array) -> Array:
-    """u = first, changing sign at each switch; at a switch the later value."""
+    """u = first at the start, with a change of sign at each switch; at a switch u has the later value."""
     count = truncated_power(t, switches, 0).sum(axis=-1)
     return first[..., None] * np.where(count % 2 == 0, 1.0, -1.0)
 
@@ -100,13 +100,13 @@ def bang_bang_response(t: Array, t0: Array, switches: Array, first: Array) -> Ar
 
 
 def _happen(shares: Array) -> NDArray[np.bool_]:
-    """Whether the switch at a happens, and the one at b, (..., 2)."""
+    """Whether the switch at a happens, and whether the one at b does, (..., 2)."""
     a, b = shares[..., 0], shares[..., 1]
     return np.stack([(a < 1) & (a > b), (b > 0) & (a > b)], axis=-1)
 
 
 def switch_times(tf: Array, duration: Array, shares: Array) -> Array:
-    """Times of the switches that happen, in order, then nan, (..., 2)."""
+    """Times of the switches that happen, in order, followed by nan for the others, (..., 2)."""
     times = np.where(_happen(shares), tf[..., None] - duration[..., None] * shares, np.nan)
     return np.where(np.isnan(times[..., :1]), times[..., ::-1], times)
 
@@ -126,8 +126,8 @@ def switching_quadratic(shares: Array, duration: Array) -> Array:
 def switch_condition(shares: Array) -> Array:
     """Displacement of each switch of `switch_times` per relative change of the scaled moments, (..., 2).
 
-    From the derivative of the moments by (v, a, b): 1 outside and -1 inside, -2 v (3a^2, 2a, 1) and
-    2 v (3b^2, 2b, 1).
+    It follows from the derivatives of the moments: by v those of the control that is 1 outside [b, a] and -1
+    inside, by a -2 v (3a^2, 2a, 1), by b 2 v (3b^2, 2b, 1).
     """
     a, b = shares[..., 0], shares[..., 1]
     happens = _happen(shares)

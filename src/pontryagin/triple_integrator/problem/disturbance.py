@@ -20,7 +20,7 @@ DEGREE = 24
 """Degree of the Chebyshev series on each panel."""
 
 PANELS = 4096
-"""Most panels into which an interval is cut."""
+"""Largest number of panels into which an interval is cut."""
 
 
 class Expression(Protocol):
@@ -35,14 +35,14 @@ Disturbance = ArrayLike | Callable[[Any], Any] | Expression | None
 """What may be given as the disturbance f: nothing, numbers, a function of time, or an expression in t."""
 
 Integrals = Callable[[Array, Array], Array]
-"""From the times (t, t0), broadcast, to g1 and g2 from t0 to t, (..., 2)."""
+"""A function from the times (t, t0), broadcast, to g1 and g2 from t0 to t, (..., 2)."""
 
 
 def named_after(argument: str, function: FunctionType) -> FunctionType:
-    """The function, or where pickle cannot find it by its name a copy with a name that says why.
+    """The function if pickle finds it by its name, else a copy whose name says why pickle refuses it.
 
-    Plain pickle then refuses the copy with a message that names the argument; cloudpickle, which pickles such
-    functions by value, takes it.
+    Plain pickle refuses the copy with a message that contains this name, and so the argument; cloudpickle,
+    which pickles such functions by value, accepts it.
     """
     found: object = sys.modules.get(function.__module__)
     for part in function.__qualname__.split("."):
@@ -75,7 +75,7 @@ def integrals(disturbance: Disturbance, start: Array, end: Array) -> Integrals:
     Raises
     ------
     TypeError, ValueError
-        If it is of another kind, has a wrong shape, an unknown symbol or a value that is not finite.
+        If it is of another kind, or has a wrong shape, an unknown symbol or a value that is not finite.
     pontryagin.NotConverged
         If it is not resolved to 1e-13, because of a singularity or after 4096 panels.
     """
@@ -179,12 +179,12 @@ def chebyshev_fit(degree: int) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Panels:
-    """A function of time as Chebyshev series on panels, halved until each is resolved to rounding.
+    """A function of time as Chebyshev series on panels, which are halved until each is resolved to rounding.
 
     Attributes
     ----------
     function : callable f(t)
-        It may have an attribute ``edges``: the times at which it is not smooth.
+        The function. It may have an attribute ``edges``: the times at which it is not smooth.
     low, high : float
         Ends of the interval.
     """
@@ -230,7 +230,7 @@ class Panels:
         return float(value)
 
     def _start(self) -> list[tuple[float, float]]:
-        """The first panels, between the ``edges`` of the function where it has them; the last one first."""
+        """The initial panels, in reverse order, cut at the ``edges`` of the function if it has any."""
         inner = [t for t in getattr(self.function, "edges", ()) if self.low < t < self.high]
         edges = [self.low, *sorted(map(float, inner)), self.high]
         return list(pairwise(edges))[::-1]

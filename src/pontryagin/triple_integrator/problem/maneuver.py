@@ -1,4 +1,4 @@
-"""The manoeuvre, (0.6) to (0.9): both ends, the time, the disturbance, and the moments c of (1.10)."""
+"""The manoeuvre, (0.6) to (0.9): both states, both times, the disturbance, and the moments c of (1.10)."""
 
 from copy import copy
 from dataclasses import dataclass, fields
@@ -20,7 +20,7 @@ from pontryagin.value import freeze, value_class
 moments_of_stack = batched(kernels.moments, outputs=3)
 
 NUMBERS = "a number or an array (...)"
-"""What the times, and a disturbance given as numbers, take."""
+"""The error messages' words for what the times, and a disturbance given as numbers, may be."""
 
 
 @value_class
@@ -88,10 +88,10 @@ class Maneuver:
         fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
         freeze(fields)
         self.__dict__.update(fields)
-        _ = self._integrals  # A disturbance of the wrong kind is refused here.
+        _ = self._integrals  # Raises if the disturbance is of the wrong kind.
 
     def __getstate__(self) -> dict[str, Any]:
-        """The fields, with a function that pickle cannot find by its name named after its argument."""
+        """The fields; the disturbance as by `named_after`, so that pickle's refusal of it explains why."""
         force = self.disturbance
         named = named_after("disturbance", force) if isinstance(force, FunctionType) else force
         return {**self._fields(), "disturbance": named, "name": getattr(force, "__qualname__", None)}

@@ -1,4 +1,4 @@
-"""What every solution has: a control with its norm, state and costate at any times, and a certificate."""
+"""The base class of all solutions: a control with norm, state and costate at any times, and a certificate."""
 
 from math import isfinite
 from typing import TYPE_CHECKING, Any
@@ -22,7 +22,7 @@ class Programme:
     control, and implements `control` and `state`.
     """
 
-    if TYPE_CHECKING:  # Read-only for the type checker; at run time dataclass fields or properties.
+    if TYPE_CHECKING:  # Declared for the type checker; subclasses have them as fields or properties.
 
         @property
         def maneuver(self) -> Maneuver:
@@ -82,7 +82,7 @@ def breakpoints(events: Array) -> Array:
 
 
 def normalise(multipliers: Array, moments: Array) -> Array:
-    """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0 and no factor can do it."""
+    """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0, since there no factor gives l'c = 1."""
     pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
     scaled = np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
     return np.asarray(scaled)

@@ -1,6 +1,7 @@
-"""The paper's own numerical routes to the least peak, (3.6) to (3.19), and where they arrive.
+"""The paper's own numerical methods ("routes") for the least peak, (3.6) to (3.19), and whether they find it.
 
-`formulas` compiles what the routes evaluate from the derivation; `routes` follows and judges them.
+`formulas` compiles the formulas that the routes evaluate from the derivation; `routes` runs the routes and
+compares their results with the certified least peak.
 """
 
 from pontryagin.triple_integrator.search.routes import (

@@ -15,7 +15,7 @@ from pontryagin.triple_integrator.derivation.model import T, c
 
 @cache
 def area_from_zeros() -> Callable[..., tuple[Any, ...]]:
-    """(t1, t2, c1, c2, c3, T) -> F of (3.6) with l from (3.5), its derivatives by t1 and t2, and c0."""
+    """The function (t1, t2, c1, c2, c3, T) -> F of (3.6) with l from (3.5), dF/dt1, dF/dt2, and c0."""
     t1, t2 = parabola.t1, parabola.t2
     area = sp.cancel(parabola.objective((t1, t2), c, T))
     c0 = sp.expand(1 / parabola.multipliers_from_zeros()[0]).subs(tf, T)
@@ -25,7 +25,7 @@ def area_from_zeros() -> Callable[..., tuple[Any, ...]]:
 
 @cache
 def zeros_from_multiplier() -> Callable[..., tuple[Any, ...]]:
-    """(lambda~, c1, c2, c3, T) -> t1 and t2 of (3.19), and alpha_m of (3.16)."""
+    """The function (lambda~, c1, c2, c3, T) -> t1 and t2 of (3.19), and alpha_m of (3.16)."""
     curve = parabola.curve()
     apex, half_width = curve[parabola.apex], curve[parabola.half_width]
     outputs = {
@@ -38,7 +38,7 @@ def zeros_from_multiplier() -> Callable[..., tuple[Any, ...]]:
 
 @cache
 def domain_conditions() -> Callable[..., tuple[Any, ...]]:
-    """(c1, c2, c3, T) -> coefficients in lambda~ of the numerators of t1 and T - t2 over T + lambda~ c3."""
+    """(c1, c2, c3, T) -> numerators of t1 and T - t2 over T + lambda~ c3, as coefficients of lambda~."""
     curve = parabola.curve()
     apex, half_width = curve[parabola.apex], curve[parabola.half_width]
     span = T + parabola.slope * c[2]

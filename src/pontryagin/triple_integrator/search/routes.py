@@ -1,11 +1,11 @@
-"""The paper's own numerical routes to the least peak, (3.6) to (3.19), and where they arrive.
+"""The paper's own numerical methods ("routes") for the least peak, (3.6) to (3.19), and whether they find it.
 
 The routes look for the zeros t1 < t2 of the dual function. F = S1 - S2 + S3 is the integral of its modulus
 if 0 <= t1 < t2 <= T and the curvature alpha is positive; elsewhere F has no such meaning, and where c0 of
 (3.5) vanishes it is infinite. Within that domain |F| is stationary at the optimum only, because the norm is
 convex on the plane l'c = 1; a search that fails has therefore left the domain, or met its boundary or a
 pole. Where t1 > t2 there are points with F = 0 for every c, so that (3.6) without its bounds has no
-meaningful minimum, and a free search is right only if it stays near its start.
+meaningful minimum, and an unconstrained search is right only if it stays near its start.
 """
 
 from collections import Counter
@@ -24,21 +24,21 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.value import value_class
 
 ROUTES = ("zeros", "zeros within", "multiplier", "multiplier modulus", "multiplier within")
-"""The routes. "zeros" and "zeros within" minimise |F| over t1 and t2 from T/4 and 3T/4, free (BFGS) or
-within 0 <= t1 <= t2 <= T (SLSQP). "multiplier" and "multiplier modulus" minimise F as printed, or |F|, over
-lambda~ by Brent's method from 0. "multiplier within" minimises |F| over all lambda~ that put both zeros
+"""The routes. "zeros" and "zeros within" minimise |F| over t1 and t2 from T/4 and 3T/4, unconstrained (BFGS)
+or within 0 <= t1 <= t2 <= T (SLSQP). "multiplier" and "multiplier modulus" minimise F as printed, or |F|,
+over lambda~ by Brent's method from 0. "multiplier within" minimises |F| over all lambda~ that put both zeros
 within the manoeuvre, on a grid and then from its best three points."""
 
 REASONS = ("singular", "sign", "crossed", "outside", "boundary", "early")
-"""Why a search fails; the first that applies. "singular": it runs to c0 = 0. "sign": the curvature has the
-wrong sign, beyond c0 = 0. "crossed": t1 > t2. "outside": a zero lies outside the manoeuvre. "boundary": a
-zero lies at an end, or both agree. "early": it stopped before the minimum."""
+"""Why a search fails; the first reason that applies. "singular": it runs to c0 = 0. "sign": the curvature has
+the wrong sign, on the other side of c0 = 0. "crossed": t1 > t2. "outside": a zero lies outside the manoeuvre.
+"boundary": a zero lies at an end, or both zeros agree. "early": it stopped before the minimum."""
 
 AGREES = 1e-6
-"""Relative difference up to which a level found counts as the certified least one."""
+"""A level found counts as the least peak if it differs from the certified one by at most this share."""
 
 GRID = 201
-"""How many points the grid of "multiplier within" has."""
+"""Number of points of the grid of "multiplier within"."""
 
 
 @value_class
@@ -53,15 +53,15 @@ class SearchResult:
     peak : float
         1/|F|, the route's u0; nan where F is infinite.
     switch_times : (2,) array
-        Its t1 and t2.
+        The route's t1 and t2.
     curvature : float
-        Its alpha_m by (3.13), which makes l'c = 1.
+        The route's alpha_m by (3.13), which makes l'c = 1.
     curvature_by_multiplier : float
-        Its alpha_m by the corrected (3.16) for the routes over lambda~; else nan. It equals `curvature` at
-        the least peak, unless F does not depend on lambda~ (c2 = c3 = 0, as in example 2): then lambda~ is
-        arbitrary, and so is this number.
+        The route's alpha_m by the corrected (3.16) for the routes over lambda~; else nan. It equals
+        `curvature` at the least peak, unless F does not depend on lambda~ (c2 = c3 = 0, as in example 2):
+        then lambda~ is arbitrary, and so is this number.
     evaluations : int
-        How often F was evaluated; a value with its gradient counts once.
+        How often F was evaluated; a value and its gradient together count once.
     reason : str
         Empty if `peak` is the least peak, as certified by `minimum_peak`; else one of ``REASONS``.
     """
@@ -90,7 +90,7 @@ class Survey:
     directions : (n, 3) array
         Unit vectors (6 c1/T^3, 2 c2/T^2, c3/T).
     results : dict of str to tuple of SearchResult
-        By route, one for each direction.
+        For each route, by its name, one result for each direction.
     """
 
     directions: Array
@@ -114,7 +114,7 @@ class Survey:
 
 
 def search(maneuver: Maneuver, route: str) -> SearchResult:
-    """Follow one of the paper's routes to the least peak of one manoeuvre, and judge its result.
+    """Run one of the paper's routes to the least peak of one manoeuvre, and judge its result.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
 
 
 def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> Survey:
-    """Follow the routes for random directions of (6 c1/T^3, 2 c2/T^2, c3/T), uniform on the sphere.
+    """Run the routes for random directions of (6 c1/T^3, 2 c2/T^2, c3/T), uniform on the sphere.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> S
 
 
 def _formulas() -> ModuleType:
-    """The compiled formulas, imported late because they need SymPy and a derivation."""
+    """The compiled formulas, imported only when needed because they load SymPy and the derivation."""
     from pontryagin.triple_integrator.search import formulas as route_formulas
 
     return route_formulas
@@ -246,10 +246,11 @@ def _by_multiplier(c: Array, route: str) -> tuple[Array, float, int]:
 
 
 def multiplier_range(c: Array) -> tuple[float, float]:
-    """All lambda~ with 0 <= t1 < t2 <= T that can be optimal, for T = 1: an interval around 0.
+    """The interval of lambda~, around 0, that holds the optimum and has 0 <= t1 < t2 <= T, for T = 1.
 
-    Both conditions are concave quadratics in lambda~ that are positive at 0, over T + lambda~ c3 > 0. The
-    optimal |lambda~| is the inverse of the least peak, which is at least max |k|.
+    The conditions t1 >= 0 and t2 <= T are that two concave quadratics in lambda~, positive at 0, over
+    T + lambda~ c3 > 0 are not negative. The optimal |lambda~| is the inverse of the least peak, which is at
+    least max |k|.
     """
     reach = 1.0 / float(np.abs(c * np.array([6.0, 2.0, 1.0])).max())
     limits = [-reach, reach]
@@ -262,7 +263,7 @@ def multiplier_range(c: Array) -> tuple[float, float]:
 
 
 def _least_on_a_grid(value: Callable[[Array], Array], low: float, high: float) -> tuple[float, int]:
-    """Place of the least value on [low, high], refined from the three lowest minima on a grid."""
+    """Place of the least value on [low, high], from the grid's three lowest minima, and evaluations used."""
     x = np.linspace(low, high, GRID)
     y = value(x)
     y = np.where(np.isfinite(y), y, np.inf)
