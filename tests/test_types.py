@@ -86,6 +86,7 @@ def answers(tmp_path_factory):
     return lines
 
 
+@pytest.mark.slow
 def test_a_users_script_has_no_type_error(answers):
     errors = [f"{SCRIPT.splitlines()[line - 1]}: {text}" for line, said in answers.items() for text in said]
     assert [text for text in errors if "Revealed type" not in text] == []

@@ -98,6 +98,7 @@ def test_the_tally():
     assert not any(isinstance(e.evidence, Refutation | Misprint) for e in OWN if e.verdict == "holds")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("epsilon", worked.EPSILONS)
 def test_the_extremals_survive_a_finer_integration_and_miss_none(epsilon):
     found = worked.roots(epsilon)

@@ -40,6 +40,7 @@ def assert_refused(result, begins, status=2):
     assert result.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("example", "arguments", "solution"),
     [

@@ -13,6 +13,7 @@ from pontryagin.averaging.derivation import averaged, optimum, principle, ripple
 A1, A2 = principle.a
 
 
+@pytest.mark.slow
 def test_the_costates_follow_from_the_first_variation():
     H = principle.hamiltonian()
     expected = sp.Matrix([-H.diff(x) for x in (*principle.a, principle.psi)])
@@ -45,6 +46,7 @@ def test_the_phase_costate_solves_the_level_to_second_order():
     assert sp.simplify(left) == 0
 
 
+@pytest.mark.slow
 def test_the_averaged_system_keeps_its_integral_and_its_hamiltonian():
     assert averaged.homogeneity() == 0
     assert set(averaged.mean_and_derivative_commute()) == {0}
@@ -75,6 +77,7 @@ def test_orders_fall_by_three():
 speeds = st.floats(0.5, 3.0)
 
 
+@pytest.mark.slow
 @given(
     v0=speeds, gap=st.floats(0.1, 2.0), k=st.floats(0.3, 2.0), share=st.floats(-1.0, 0.6), up=st.booleans()
 )

@@ -42,6 +42,7 @@ def labelled(figure):
     assert len(svg_of(figure)) > 5000
 
 
+@pytest.mark.slow
 def test_figure_1_is_h_at_the_end_its_mean_and_the_roots():
     figure = figures.end_condition(EPSILONS)
     labelled(figure)
@@ -70,6 +71,7 @@ def test_figure_2_is_the_cost_of_both_families_and_its_stationary_points():
                 assert np.all(sign * (near - cost) > -1e-3)
 
 
+@pytest.mark.slow
 def test_a_landscape_shows_every_extremal(rippled):
     solution, found = rippled
     figure = figures.landscape(solution, (0.1,))
@@ -99,6 +101,7 @@ def test_the_spiral_begins_and_ends_at_its_energies():
         assert_allclose(line.get_ydata()[[0, -1]], [-0.5, -0.35], atol=1e-8)
 
 
+@pytest.mark.slow
 def test_the_control_of_the_braked_body_runs_on_its_ellipse_and_the_printed_one_does_not():
     figure = figures.braking([1.0, 0.4, 2.0], [1.3, 0.55, 0.7], 1.6, 0.1)
     labelled(figure)
@@ -110,6 +113,7 @@ def test_the_control_of_the_braked_body_runs_on_its_ellipse_and_the_printed_one_
     assert flown[1][0] == pytest.approx(np.hypot(1.0, 0.4)) and flown[1][-1] < 1e-5
 
 
+@pytest.mark.slow
 def test_errors_are_drawn_over_their_slopes():
     figure = figures.error_slopes()
     axis = figure.axes[0]
@@ -134,6 +138,7 @@ def columns(table):
     return sizes.pop()
 
 
+@pytest.mark.slow
 def test_the_table_of_counts_holds_what_is_found_and_predicted():
     table = tables.root_counts(EPSILONS)
     assert columns(table) == 2

@@ -22,6 +22,8 @@ from pontryagin.averaging.playback import attitude
 from pontryagin.averaging.playback.pair import Pair
 from pontryagin.display.recording import read_back
 
+pytestmark = pytest.mark.slow
+
 
 def recorded(pair, path):
     playback.record_solution(pair.averaged, pair.exact, path)

@@ -33,6 +33,7 @@ def extremal():
     return Extremal(problem, cold_start(problems.setting(problem)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", PROBLEMS, ids=LABELS)
 def test_the_residual_of_every_form_vanishes_at_the_extremal_and_its_jacobian_is_exact(problem, extremal):
     scaled, duration, h = extremal.problem.scaled, extremal.flight.duration, 1e-6

@@ -35,6 +35,7 @@ def write_turn(path):
         turn.event("events", 0.5, "first impulse")
 
 
+@pytest.mark.slow
 def test_a_trail_is_written_segment_by_segment(target):
     points = np.outer(T, [1.0, 2.0, 3.0])
     layout = [[Scene("way", "way", share=2.0, trails=("way/flown",), grid=False)]]

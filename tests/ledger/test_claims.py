@@ -62,6 +62,7 @@ def test_any_other_print_changes_the_verdict(entry):
                 evidence.finding()
 
 
+@pytest.mark.slow
 @of([entry for entry in JUDGED if isinstance(entry.evidence, Misprint)])
 def test_a_corrected_print_is_no_misprint(entry):
     corrected = replace(entry.evidence, printed=entry.evidence.derivation())

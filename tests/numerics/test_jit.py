@@ -70,6 +70,7 @@ def test_small_work_runs_plain_until_the_kernel_is_compiled():
     assert values.tolist() == [0.0, 2.0, 4.0]
 
 
+@pytest.mark.slow
 def test_an_edited_kernel_is_not_served_stale(tmp_path, monkeypatch):
     count = jit.COMPILE_FROM
     for factor in (2, 3):

@@ -68,6 +68,7 @@ def test_what_is_not_defined_is_nan_and_the_rest_is_not():
     assert np.isfinite(values[0]) and np.isnan(values[1])
 
 
+@pytest.mark.slow
 @given(st.floats(-0.95, 0.95), st.floats(0.0, 0.9))
 def test_between_switches_gauss_is_exact_to_rounding(c, r):
     """|cos x - c| / (1 - r cos x) against mpmath, split where it is not smooth."""

@@ -62,6 +62,7 @@ def test_the_tally():
     )
 
 
+@pytest.mark.slow
 def test_the_tables_hold_39_numbers_and_the_remarks_name_those_off_by_more_than_half_a_unit():
     rows = [entry for entry in ENTRIES if re.match(r"table \d", entry.label)]
     off = {label: share for entry in rows for label, share in entry.evidence.deviations().items()}

@@ -46,6 +46,7 @@ def test_the_linearised_flow_is_the_tangent_of_the_true_flow():
     assert_allclose(np.column_stack(columns), numbers(derivation.transition(sp.Float(span))), atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("time", [0, 0.25, 1.7, np.pi, -3.0, 7.5])
 def test_the_transition_is_the_matrix_exponential(time):
     assert_allclose(numbers(derivation.linearised()), LINEAR)

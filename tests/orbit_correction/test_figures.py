@@ -110,6 +110,7 @@ class TestImpulses:
 
 
 class TestGrowth:
+    @pytest.mark.slow
     def test_curves_are_in_the_order_of_their_sets(self):
         ax = figures.gauge_over_impulses(Z0, most=9).axes[0]
         drawn = {line.get_label(): dict(zip(*line.get_data(), strict=True)) for line in ax.lines}
@@ -193,6 +194,7 @@ class TestTables:
                 values = columns[name][start : start + 3]
                 assert values[row] <= min(values) * (1 + 1e-9)
 
+    @pytest.mark.slow
     def test_the_rows_of_proofs(self):
         columns = tables.gauges([correct(Z0, thrust=name) for name in THRUSTS])
         assert columns["impulses"] == [6, 5, 5] and max(columns["gap"]) < 1e-12

@@ -17,6 +17,8 @@ from pontryagin.orbit_correction.playback.remaining import remaining
 from pontryagin.orbit_correction.printed import Z0
 from pontryagin.orbit_correction.system.satellite import LINEAR
 
+pytestmark = pytest.mark.slow
+
 PLANS = {"orbit-correction": correct(Z0), "orbit-correction-square": correct(Z0, thrust="box")}
 
 

@@ -82,6 +82,7 @@ def read_everything(value: Any) -> None:
         getattr(value, name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
 @pytest.mark.parametrize("name", MADE)
 def test_copies_and_pickles_are_equal(name, again):

@@ -245,6 +245,7 @@ def test_at_a_thrust_not_along_n_the_derivative_of_n_has_an_additional_term():
     assert (extra - sp.Matrix([0, 0, r * torque[0] / c])).applyfunc(sp.simplify).is_zero_matrix
 
 
+@pytest.mark.slow
 def test_16_and_17_give_the_law_for_the_thrust_at_the_end():
     at_end = terminal.law().subs(transversality.end_values())
     assert sp.simplify(terminal.hamiltonian_at_a_meeting() - at_end) == 0

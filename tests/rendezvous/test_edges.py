@@ -81,10 +81,12 @@ class TestCost:
         )
         assert diving.certificate.cost < 1e-10
 
+    @pytest.mark.slow
     def test_the_revolutions_are_the_integral_of_c_over_r_squared(self, diving):
         angle = simpson(lambda t: diving.state(t)[:, 2] / diving.state(t)[:, 0] ** 2, diving)
         assert diving.revolutions == pytest.approx(angle / (2 * math.pi), rel=1e-9)
 
+    @pytest.mark.slow
     def test_the_certificate_detects_a_wrong_cost(self, leap, monkeypatch):
         monkeypatch.setattr(
             "pontryagin.rendezvous.reduced.certificate.energy", lambda flight: energy(flight) * (1 + 1e-6)
@@ -139,6 +141,7 @@ class TestSearch:
         with pytest.raises(NotConverged):
             solve(replace(LEAP, target=Orbit(1.5, 0.1, [0, 1, 0, 0], 0.6), duration=0.3))
 
+    @pytest.mark.slow
     def test_a_solution_of_a_shorter_duration_is_continued_to_the_longer_one(self, leap):
         scaled = LEAP.scaled
         setting = Setting(scaled, scaled.ratio, math.inf, duration=scaled.duration)
@@ -164,6 +167,7 @@ class TestValues:
             with pytest.raises(ValueError, match="read-only"):
                 orbit.attitude[:] = 0
 
+    @pytest.mark.slow
     def test_times_may_have_any_shape(self, leap):
         t = np.linspace(0, 6, 6).reshape(2, 3)
         along = solve_in_elements(LEAP)

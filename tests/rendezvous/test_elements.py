@@ -79,6 +79,7 @@ def thrust(t):
     return np.array([np.sin(2 * t), 0.7, -np.cos(t)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [[0.1, 1.0, 0.3], [0.4, 0.3, -0.2]])
 def test_1_agrees_with_newton_s_law_under_thrust(speed):
     position = np.array([0.9, -0.2, 0.3])

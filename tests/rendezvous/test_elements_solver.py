@@ -66,10 +66,12 @@ def test_the_driving_force_is_that_of_the_derived_rates():
         assert all(sp.expand(at_random(part)) == 0 for part in difference[:2])
 
 
+@pytest.mark.slow
 def test_the_momentum_of_the_turn_is_constant_under_any_thrust():
     assert sp.expand(principle.rate_of(principle.turn_momentum())) == 0
 
 
+@pytest.mark.slow
 def test_the_hamiltonian_and_the_phase_costate_sum_to_a_constant():
     whole = principle.rate_of(principle.hamiltonian() + principle.phase_costate())
     assert sp.expand(at_random(whole)) == 0
@@ -84,6 +86,7 @@ def test_the_gradient_of_the_relation_does_not_change_the_thrust():
     assert sp.expand(turn.dot(turn) - gradient.dot(gradient)) == 0
 
 
+@pytest.mark.slow
 def test_the_terminal_law_is_that_of_pimkina_and_chelnokov():
     law = principle.switching().dot(sapunkov.force) - principle.running_cost
     assert sp.expand(at_random(principle.terminal_law() - law)) == 0
@@ -139,6 +142,7 @@ def test_states_on_the_first_axis_have_elements():
 # --- shooting --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("duration", [None, 5.0])
 @pytest.mark.parametrize(
     "law",

@@ -84,6 +84,7 @@ class TestSeries:
         assert [patch.get_x() for patch in axes[0].patches] == [0.0]
         assert axes[0].patches[0].get_width() == pytest.approx(space().switch_times[0])
 
+    @pytest.mark.slow
     def test_the_hamiltonian_is_constant(self):
         flight = space().flight
         times = np.linspace(0, flight.duration, 101)
@@ -220,6 +221,7 @@ def test_the_tables_hold_the_numbers_of_the_solutions():
 
 
 class TestElements:
+    @pytest.mark.slow
     def test_the_start_of_each_case_is_described(self):
         assert elements._with_start("circle-energy")[1] == "cold"
         assert elements._with_start("ellipse-mixed")[1] == "carried (cold: 0.0393)"

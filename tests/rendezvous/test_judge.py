@@ -105,6 +105,7 @@ def test_direct_results_are_read_as_they_were_written(tmp_path, monkeypatch):
     assert judge.direct_results() == KEPT
 
 
+@pytest.mark.slow
 def test_the_direct_method_reproduces_a_kept_result():
     pytest.importorskip("casadi")
     again = judge.solve_directly(case("circle-energy"))

@@ -114,6 +114,7 @@ def test_the_certificate_detects_a_wrong_costate(taylor):
     assert not certify(wrong, (0.0, 1.0), free=False).holds(1e-8)
 
 
+@pytest.mark.slow
 def test_a_meeting_ahead_of_the_target_violates_only_the_condition_on_the_attitude():
     """In one plane and with a circular target orbit, (5), (15), (16) and H = 0 hold anywhere on the orbit."""
     free = Rendezvous(CRAFT, orbit(0, eccentricity=0.0), 0.002, 1.0, math.inf)

@@ -125,6 +125,7 @@ def test_publishing_removes_what_the_notebook_no_longer_draws(checkout):
     assert [item.file for item in assemble.items([result])] == ["figures/01-figures/line.svg"]
 
 
+@pytest.mark.slow
 def test_what_a_cell_writes_to_stderr_is_told_and_not_shown(checkout):
     path = checkout.notebook(
         "01-warns", "# Warns", "import sys; print('out'); print('careful', file=sys.stderr)"
@@ -135,6 +136,7 @@ def test_what_a_cell_writes_to_stderr_is_told_and_not_shown(checkout):
     assert "out" in shown and "careful" not in shown.split("```")[-2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cell", ["object()", "print(object())"])
 def test_a_printed_address_fails_the_build_at_its_cell(checkout, cell):
     result = execute(checkout.workspace, checkout.notebook("01", "# Title", cell))

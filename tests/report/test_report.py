@@ -226,6 +226,7 @@ def test_two_figures_of_one_name_are_refused(checkout):
         assemble.items([result])
 
 
+@pytest.mark.slow
 def test_a_notebook_without_a_title_is_refused(checkout):
     result = execute(checkout.workspace, checkout.notebook("01", "1 + 1"))
     with pytest.raises(assemble.Unprintable, match=r"notebooks/01\.ipynb, cell 1"):

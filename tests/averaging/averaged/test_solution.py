@@ -22,6 +22,7 @@ def turning():
     return rotor(1.5, 3.0, mass=1 + sp.cos(X) / 3, potential=-sp.cos(X), peak=1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("example", ["orbit", "turning"])
 def test_the_phase_is_the_integral_of_the_frequency(example, request):
     solution = request.getfixturevalue(example)

@@ -116,6 +116,7 @@ def rotor_rates(energy, force=0.0):
 FORCES = {"none": sp.S.Zero, "mean zero": sp.sin(X), "drag": sp.sin(X) - V / 5}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("force", FORCES)
 @pytest.mark.parametrize(("a0", "a1"), [(1.0, 3.0), (3.0, 1.0)])
 def test_the_rotors_least_time_is_a_quadrature_over_the_energy(force, a0, a1):

@@ -44,6 +44,7 @@ def test_a_rotor_without_symmetry_has_the_extremals_predicted():
     assert abs(len(solution.exact(0.05)) - window(solution).count(0.05)) < 2
 
 
+@pytest.mark.slow
 def test_the_precession_of_a_body_meets_four_roots_a_turn():
     found = window(spin_down([1.0, 0.4, 2.0], [1.0, 0.5, 0.7], 1.6))
     assert found.roots == pytest.approx(4)

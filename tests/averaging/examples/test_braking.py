@@ -44,6 +44,7 @@ def test_the_control_lies_on_its_ellipse_against_the_rates(flight):
     assert_allclose(flight.control[:, 2], 0)
 
 
+@pytest.mark.slow
 def test_the_body_stops_within_order_epsilon_of_the_averaged_time():
     mean = float(spin_down(*BODY).duration)
     off = [abs(brake(*BODY, epsilon).tau[-1] - mean) for epsilon in (0.08, 0.02)]

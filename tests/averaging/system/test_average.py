@@ -39,6 +39,7 @@ SYSTEMS = {
 }
 
 
+@pytest.mark.slow
 @given(st.integers(0, 4), st.integers(0, 4))
 def test_closed_means_of_powers_are_their_integrals(i, j):
     power = sp.cos(x) ** i * sp.sin(x) ** j
@@ -165,6 +166,7 @@ def test_least_time_makes_h0_homogeneous_of_degree_one(name, factor):
     assert h.gradient[0, half:] @ z[half:] == pytest.approx(h.value[0] + 1, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_keplers_closed_form_is_the_quadrature_of_its_own_system():
     solution = kepler(-0.5, 0.8, -0.3, 0.1)
     numbers = (np.array(-0.3), np.array(0.1))

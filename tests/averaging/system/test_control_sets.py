@@ -41,6 +41,7 @@ def price(name, u):
     return u @ weight[name] @ u if name in weight else 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SETS)
 @given(s=directions, seed=st.integers(0, 10_000))
 def test_the_maximiser_belongs_to_the_set_attains_the_support_and_nothing_does_better(name, s, seed):

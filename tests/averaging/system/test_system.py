@@ -31,6 +31,7 @@ def test_the_hamiltonian_splits_the_rates_at_the_control():
     assert list(system.gain) == [sp.cos(x), 1] and list(system.drift) == [a, -b]
 
 
+@pytest.mark.slow
 @given(st.tuples(*[coordinates] * 6), st.floats(-3, 3))
 def test_no_control_does_better_than_the_maximiser(values, other):
     system = PhaseSystem(**GOOD | {"control_set": Box([2])}, phase_rate=u * sp.sin(x))

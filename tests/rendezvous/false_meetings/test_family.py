@@ -55,6 +55,7 @@ def axis_of(nu: np.ndarray, problem: Rendezvous) -> np.ndarray:
 
 @pytest.mark.parametrize("degrees", DEGREES)
 class TestFamily:
+    @pytest.mark.slow
     def test_every_member_satisfies_the_printed_conditions(self, degrees):
         assert family(degrees).printed.max() < 1e-12
 
@@ -73,6 +74,7 @@ class TestFamily:
             target = target_by_kepler(problem.scaled, member.flight.duration).reshape(2, 3)
             assert np.allclose(Rotation.from_rotvec(member.angle * axis).apply(target), end, atol=1e-9)
 
+    @pytest.mark.slow
     def test_false_meeting_finds_the_member_of_the_family(self, degrees):
         for member in family(degrees).members[1:]:
             alone = false_meeting(member.problem, member.angle, true_meeting(degrees))

@@ -143,6 +143,7 @@ def test_the_full_equations_reach_the_target(solve):
     assert_allclose(m, 0, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solve", [minimum_energy, minimum_impulse])
 def test_each_programme_is_the_optimum_of_its_channel_along_the_motion(solve):
     coupled = couple(BODY, rest_to_rest(ENDS, t0=-1.0), solve)
@@ -163,6 +164,7 @@ def test_ends_in_motion_are_met():
     assert_allclose(coupled.state([1.0])[:, 0], ends, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_the_coupling_is_what_the_angle_gains_on_the_control():
     coupled = couple(BODY, rest_to_rest(ENDS), minimum_energy)
     t, step = np.array([0.3, 0.9, 1.6]), 1e-4

@@ -84,6 +84,7 @@ def test_the_optimum_solves_all_four_conditions(case):
     assert abs(parabola.signed_area().subs(full)) == R(1, abs(height))
 
 
+@pytest.mark.slow
 @given(switching)
 @settings(max_examples=10, deadline=None)
 def test_the_level_is_the_root_of_largest_modulus(case):

@@ -1,5 +1,6 @@
 """Least peak: the derived formulas are identities, convex, and agree with the quartic."""
 
+import pytest
 import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
@@ -85,6 +86,7 @@ def test_the_stable_form_of_the_theory_is_the_quartic():
     assert vanishes(stable - QUARTIC)
 
 
+@pytest.mark.slow
 def test_the_start_solves_the_equation_without_its_cube():
     truncated = peak.near_constant_equation().subs(t, 1 / k3) - y**3 / 16
     at = {w: sp.Rational(1, 7), e2: sp.Rational(2, 5), k3: sp.Rational(3, 4)}
@@ -106,6 +108,7 @@ def test_the_integral_of_the_modulus(p, q):
     assert abs(exact - numeric) < 1e-12
 
 
+@pytest.mark.slow
 @given(
     st.sampled_from([-2, -1, 1, 3]),
     st.fractions(0, 1, max_denominator=40),

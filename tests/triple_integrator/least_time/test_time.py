@@ -130,6 +130,7 @@ def test_three_times_meet_one_bound_when_neither_end_is_an_equilibrium():
     assert not minimum_time(*THREE_TIMES, CROSSED).duration >= crossings[1]
 
 
+@pytest.mark.slow
 @given(signs, places(), states(), st.floats(0.3, 3.0))
 def test_bang_bang_data_of_every_structure_arrive_no_later(level, switches, x0, T):
     """For narrow flips, one switch or none the known transfer is an upper bound, up to rounding."""

@@ -146,6 +146,7 @@ def test_units_do_not_matter(m, amplitude, clock):
     )
 
 
+@pytest.mark.slow
 def test_narrow_and_flat_densities():
     """The moments are next to those of one impulse inside, and of two impulses at the ends."""
     for square in (0.25 + 1e-8, 0.5 - 1e-2):

@@ -164,6 +164,7 @@ def test_q_two_is_the_least_energy(m):
     assert_allclose(s.costate(t), energy.costate(t), rtol=1e-9, atol=1e-9 * np.abs(s.multipliers).max())
 
 
+@pytest.mark.slow
 @few
 @given(maneuvers())
 def test_the_power_mean_grows_with_q_between_both_ends(m):

@@ -60,6 +60,7 @@ def test_smooth_forces_to_1e_12(name, kind):
     assert_allclose(integrals(given_as, START, END)(END, START), exact, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROUGH)
 @pytest.mark.parametrize("kind", ["expression", "callable"])
 def test_rough_forces_to_1e_12(name, kind):
