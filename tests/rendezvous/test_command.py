@@ -87,7 +87,7 @@ class TestAnswers:
         assert output["others"]["cost"] == [other.cost for other in leap.others]
         assert output["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
         assert output["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
-        assert output["searched"]["ends"] == leap.searched.ends and len(leap.searched.ends) == 2
+        assert output["searched"]["ends"] == list(leap.searched.ends) and len(leap.searched.ends) == 2
         t = np.linspace(0, 6, 5)
         assert output["samples"]["t"] == t.tolist()
         for name in ("state", "costate", "control"):

@@ -131,7 +131,7 @@ class TestSearch:
     def test_the_starts_that_did_not_converge_are_counted(self, leap):
         starts = np.vstack([leap.initial_costate, np.full(6, 40.0)])
         (found, *_) = multistart(LEAP, starts)
-        assert found.searched.given_up == ["1 of 2 starts, from which no meeting was reached"]
+        assert found.searched.given_up == ("1 of 2 starts, from which no meeting was reached",)
         assert multistart(LEAP, starts[1:]) == ()
 
     @pytest.mark.slow

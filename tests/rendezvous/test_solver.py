@@ -16,7 +16,7 @@ from pontryagin.rendezvous.reduced.certificate import certify
 from pontryagin.rendezvous.reduced.conditions import Setting, end_thrust, equations
 from pontryagin.rendezvous.reduced.flight import fly
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solve import extremals
 from pontryagin.rendezvous.reduced.start import cold_start
@@ -153,7 +153,7 @@ def least_time(degrees: float):
     given = problem(degrees, time_weight=1, energy_weight=0, peak=0.1)
     scaled = given.scaled
     loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
-    (root, *_) = extremals(loose, Search())
+    (root, *_) = extremals(loose, SearchLog())
     return given, bounded(SHOOTING, Setting(scaled, scaled.ratio, scaled.peak), loose, root)
 
 

@@ -23,6 +23,7 @@ from pontryagin.averaging.exact.shooting import (
     Shot,
 )
 from pontryagin.errors import NotConverged
+from pontryagin.value import value_class
 
 FEWEST, MOST = 8, 64
 """Least and largest number of members in a turn."""
@@ -47,7 +48,8 @@ Member = tuple[Array, Array, Shot, Array]
 """theta, unknowns, shot and Jacobian of one member, (1, ...) each."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Family:
     """Members (s) of the family, by rising theta.
 

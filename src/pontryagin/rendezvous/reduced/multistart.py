@@ -229,8 +229,8 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     if best is None:
         return ()
     lost = f"{len(starts) - len(found)} of {len(starts)} starts, from which no meeting was reached"
-    log = Search(durations=[setting.duration or 0.0], given_up=[lost])
-    return (replace(best, others=tuple(others), searched=log), *others)
+    searched = Search(durations=(setting.duration or 0.0,), given_up=(lost,))
+    return (replace(best, others=tuple(others), searched=searched), *others)
 
 
 def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:
