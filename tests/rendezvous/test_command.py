@@ -13,11 +13,8 @@ from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.io.files import repository
 from pontryagin.rendezvous import (
-    Chaser,
     Orbit,
-    Rendezvous,
     schema,
-    solve,
     transcript,
 )
 from pontryagin.rendezvous.problem.cases import (
@@ -60,13 +57,6 @@ def write(tmp_path):
         return path
 
     return written
-
-
-@pytest.fixture(scope="module")
-def leap():
-    target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
-    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
-    return solve(Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0))
 
 
 class TestAnswers:

@@ -1,4 +1,4 @@
-"""The kept results of the direct method and of small weights of time belong to the present cases."""
+"""The kept results of the direct method belong to the present cases."""
 
 import csv
 from dataclasses import replace
@@ -7,10 +7,6 @@ import numpy as np
 import pytest
 
 from pontryagin.io.files import figures_folder
-from pontryagin.rendezvous import (
-    small_weight,
-    solve,
-)
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.figures.tables import excess, nearest
 from pontryagin.rendezvous.judge import table as judge
@@ -22,9 +18,17 @@ from pontryagin.rendezvous.problem.cases import (
 )
 
 KEPT = judge.direct_results()
+
+
 ENERGY = {name: KEPT[name] for name in cases()}
+
+
 FUEL = {name: KEPT[name] for name in fuel_cases()}
+
+
 QUICK = ("circle-energy", "ellipse-mixed", "mixed")
+
+
 SIGN_CHANGES = {"ellipse"}
 """Cases in which the error of the direct cost changes sign between the meshes."""
 
@@ -110,28 +114,3 @@ def test_the_direct_method_reproduces_a_kept_result():
     pytest.importorskip("casadi")
     again = judge.solve_directly(case("circle-energy"))
     assert np.allclose(again.costs, KEPT["circle-energy"].costs, rtol=1e-9)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("weight", [1e-1, 1e-2, 1e-3])
-def test_the_rows_of_small_weights_are_reproduced(weight):
-    kept = next(one for one in small_weight.rows() if one.time_weight == weight)
-    again = small_weight.row(solve(small_weight.problem(weight)))
-    assert (again.duration, again.cost) == pytest.approx((kept.duration, kept.cost), rel=1e-9)
-    assert again.condition == pytest.approx(kept.condition, rel=1e-2)
-
-
-def test_condition_number_and_residual_grow_as_the_weight_of_time_falls():
-    rows = small_weight.rows()[2:]
-    condition, residual = (
-        np.array([getattr(one, name) for one in rows]) for name in ("condition", "residual")
-    )
-    assert np.all(condition[1:] > 5 * condition[:-1]) and np.all(residual[1:] > residual[:-1])
-    assert np.all(residual < 1e-14 * condition)
-
-
-def test_rows_of_small_weights_are_read_as_they_were_written(tmp_path, monkeypatch):
-    kept = small_weight.rows()
-    monkeypatch.setattr(small_weight, "FILE", tmp_path / "small_weight.csv")
-    small_weight.write(kept)
-    assert small_weight.rows() == kept
