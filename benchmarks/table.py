@@ -21,24 +21,30 @@ NOTES = (
 """Explanations that hold for all tables."""
 
 
+def by_heading(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
+    """The columns of a table, from rows that hold a value under each heading."""
+    return {heading: [row[heading] for row in rows] for heading in rows[0]}
+
+
 def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
     """The rows as columns; each time also as a multiple of our own times for the same problem."""
     ours = {(row.problem, row.method): row.timing.typical for row in rows}
-
-    def ratio(row: Row, method: str) -> float:
-        return row.timing.typical / ours[row.problem, method]
-
-    return {
-        "problem": [row.problem for row in rows],
-        "method": [row.method for row in rows],
-        "problems": [row.count for row in rows],
-        "microseconds": [1e6 * row.timing.typical for row in rows],
-        "fastest round": [1e6 * row.timing.least for row in rows],
-        "times our call": [ratio(row, CALL) for row in rows],
-        "times our stack": [ratio(row, STACK) for row in rows],
-        "worst relative error": [row.error for row in rows],
-        "solved": [row.solved for row in rows],
-    }
+    return by_heading(
+        [
+            {
+                "problem": row.problem,
+                "method": row.method,
+                "problems": row.count,
+                "microseconds": 1e6 * row.timing.typical,
+                "fastest round": 1e6 * row.timing.least,
+                "times our call": row.timing.typical / ours[row.problem, CALL],
+                "times our stack": row.timing.typical / ours[row.problem, STACK],
+                "worst relative error": row.error,
+                "solved": row.solved,
+            }
+            for row in rows
+        ]
+    )
 
 
 def machine() -> dict[str, str]:
