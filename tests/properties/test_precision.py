@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from independent import exact_peak, exactly
+from independent import bang_bang_moments, exact_peak, exactly
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 from strategies import maneuver_with, moments, states, wide
 
@@ -92,8 +92,7 @@ def test_the_energy_to_the_last_digits(c):
 def test_nearly_constant_controls_perturbed_in_the_last_bits(width, place, disturb):
     """The quartic has a triple root at the constant control, yet the peak keeps all its digits near it."""
     b = place * (1 - width)
-    a = b + width
-    c = np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])
+    c = bang_bang_moments(1.0, b + width, b)
     c = c + np.spacing(c) * disturb
     solution = minimum_peak(maneuver_with(c))
     assert_allclose(float(solution.norm), float(exact_peak(c, digits=90)), rtol=1e-13)
