@@ -5,12 +5,11 @@ import io
 import platform
 import re
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from benchmarks.contest import CALL, STACK, Row
-from benchmarks.peers import PEERS
+from benchmarks.peers import PEERS, installed
 
 NOTES = (
     "Times are processor time of one thread, medians of rounds in which all contestants take turns;",
@@ -54,7 +53,7 @@ def machine() -> dict[str, str]:
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
         "threads": "1",
         "Python": platform.python_version(),
-        **{package: _version(package) for package in packages},
+        **{package: installed(package) or "absent" for package in packages},
     }
 
 
@@ -64,13 +63,6 @@ def _processor() -> str:
         return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
     except (OSError, StopIteration):
         return platform.processor() or "unknown processor"
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "absent"
 
 
 def text(value: Any) -> str:

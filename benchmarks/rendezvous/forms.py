@@ -1,7 +1,7 @@
 """Operations and times of the right-hand sides with 16, 14, 11 and 10 equations."""
 
 from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 import numpy as np
 import sympy as sp
@@ -86,12 +86,6 @@ def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], i
     integrator = systems.compiled(size, mode, derivatives)
     rest = systems.identity(size).ravel() if derivatives else np.empty(0)
     state, parameters = np.concatenate([start, rest]), systems.parameters(size, scaled, SCALES[mode], start)
-
-    def fly() -> Any:
-        integrator.time = 0.0
-        integrator.state[:] = state
-        integrator.pars[:] = parameters
-        return integrator.propagate_until(duration)
-
-    steps = fly()[3]
-    return one_call(fly), int(steps), integrator.state[: len(start)].copy()
+    fly = partial(systems.carried, integrator, state, parameters, duration)
+    _, steps, end = fly()
+    return one_call(fly), steps, end[: len(start)]

@@ -23,15 +23,19 @@ from pontryagin.triple_integrator.derivation.parabola import (
 )
 
 R = sp.Rational
-switching = st.tuples(
-    st.fractions(R(1, 20), R(9, 20), max_denominator=40),
-    st.fractions(R(11, 20), R(19, 20), max_denominator=40),
-    st.sampled_from([-3, -1, 2, 5]),
+
+
+def shares(low, high):
+    """Fractions of the unit time, as SymPy's numbers."""
+    return st.fractions(low, high, max_denominator=40).map(lambda x: R(x.numerator, x.denominator))
+
+
+switching = given(
+    early=shares(R(1, 20), R(9, 20)),
+    late=shares(R(11, 20), R(19, 20)),
+    height=st.sampled_from([-3, -1, 2, 5]),
 )
-
-
-def exact(value):
-    return R(value.numerator, value.denominator)
+few = settings(max_examples=10, deadline=None)
 
 
 def bang_bang(early, late, height):
@@ -57,10 +61,9 @@ def test_the_zeros_are_zeros():
         assert sp.simplify(parabola.vertex_form().subs(tau, zero)) == 0
 
 
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_areas_are_integrals(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_areas_are_integrals(early, late, height):
     numbers = {alpha: height, apex: (early + late) / 2, half_width: (late - early) / 2, T: 1}
     grid = np.linspace(0, 1, 20_001)
     h = float(height) * (grid - float(early)) * (grid - float(late))
@@ -69,10 +72,9 @@ def test_the_areas_are_integrals(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_optimum_solves_all_four_conditions(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_optimum_solves_all_four_conditions(early, late, height):
     moments = bang_bang(early, late, height)
     at = {T: 1, slope: -R(1, height), **dict(zip(c, moments, strict=True))}
     curve = {key: value.subs(at) for key, value in parabola.curve().items()}
@@ -85,10 +87,9 @@ def test_the_optimum_solves_all_four_conditions(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_level_is_the_root_of_largest_modulus(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_level_is_the_root_of_largest_modulus(early, late, height):
     at = {T: 1, **dict(zip(c, bang_bang(early, late, height), strict=True))}
     roots = sp.Poly(parabola.level_polynomial().subs(at), level).real_roots()
     assert height in roots
