@@ -54,8 +54,8 @@ def adjoint_vectors() -> Slip:
     remark="The recursion gives a family of adjoint vectors (that is what the proof shows). For smooth "
     "sets it is the only family up to a factor for each k. Other families need not obey the "
     "recursion, because the normals at a point form a cone: for A(k) = I, unit discs and x0 = "
-    "−2e1, the vectors ψ(0) = e1 and ψ(1) = 2e1 are adjoint but do not obey it. If U(1) is a lens and x*(1) its "
-    "corner, not even the direction of ψ(1) is fixed.",
+    "−2e1, the vectors ψ(0) = e1 and ψ(1) = 2e1 are adjoint but do not obey it. If U(1) is a "
+    "lens and x*(1) its corner, not even the direction of ψ(1) is fixed.",
 )
 def adjoint_recursion() -> Conditional:
     def argument() -> Steps:

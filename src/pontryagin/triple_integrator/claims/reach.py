@@ -132,7 +132,7 @@ def free_motion_where_f_is_zero() -> Evidence:
     "this completes the solution of problem 3 for arbitrary ends",
     verdict="false",
     remark="The three impulses are optimal only where a0, am, aT ≥ 0. For the moments of u = 4 on [5/8, "
-    "7/8], T = 1, they cost 59/48, and u costs 1. The complete solution has three cases: in the "
+    "7/8], T = 1, they cost 59/48, while this u costs 1. The complete solution has three cases: in the "
     "moment cone any u ≥ 0 with these moments is optimal, on the Chebyshev cone impulses at 0, "
     "T/2 and T are, and for all other c two impulses, one of them at an end.",
 )
@@ -183,7 +183,7 @@ def half_of_example_2() -> Evidence:
     "general solutions for arbitrary ends have been obtained for q = 1, 2 and ∞",
     verdict="false",
     remark="It is not true for q = 1: for the moments of u = 4 on [5/8, 7/8], T = 1, (4.10) costs 59/48, "
-    "and u costs 1. It is true for q = 2, with (2.3) corrected, and for q = ∞, as a structure "
+    "while this u costs 1. It is true for q = 2, with (2.3) corrected, and for q = ∞, as a structure "
     "and an equation to solve. For q = 1 the paper's solution is right only on the cone a0, am, "
     "aT ≥ 0.",
 )
