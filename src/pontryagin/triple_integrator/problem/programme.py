@@ -122,9 +122,10 @@ def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
-        where = f", got one beyond it at index {lost}" if lost else ""
+        where = f" at index {lost}" if lost else ""
         raise ArgumentValueError(
-            f"xf must give, with x0 and tf - t0, a control within the range of floating-point numbers{where}",
+            "xf must give, with x0 and tf - t0, a control within the range of floating-point numbers, "
+            f"got one beyond it{where}",
             "xf",
         )
     return numbers
