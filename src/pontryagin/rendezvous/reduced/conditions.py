@@ -132,7 +132,7 @@ class Mismatch:
 def mismatch(flight: Flight, goal: Array) -> Mismatch:
     """Residuals of (5) and (6) with a goal (7,) of r, v1, c and lambda0~ o lambda in the target's place."""
     inputs = np.concatenate([flight.end[SEEN], flight.costates[3:], goal])
-    values, slopes = jacobian(lambda x: kernels.mismatch(*x[:10], flight.chart, *x[10:]), inputs)
+    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x[:10], flight.chart, *x[10:]]), inputs)
     by_end = np.zeros((6, 12))
     by_end[:, SEEN] = slopes[:, :7]
     by_start = by_end @ flight.slopes

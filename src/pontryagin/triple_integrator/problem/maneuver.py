@@ -69,7 +69,7 @@ class Maneuver:
         disturbance: Disturbance = None,
     ) -> None:
         start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
-        first, last = (finite(name, time, NUMBERS) for name, time in (("t0", t0), ("tf", tf)))
+        first, last = finite("t0", t0, NUMBERS), finite("tf", tf, NUMBERS)
         force: tuple[int, ...] = ()
         if isinstance(disturbance, np.ndarray | list | tuple):
             numbers = finite("disturbance", disturbance, NUMBERS)
@@ -86,8 +86,10 @@ class Maneuver:
             wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
             raise ArgumentValueError(f"tf must be later than t0, got {wrong}", "tf")
         fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
-        freeze(fields)
         self.__dict__.update(fields)
+        for array in (start, end, last, first):
+            array.setflags(write=False)
+        freeze(disturbance)
         _ = self._integrals  # Raises if the disturbance is of the wrong kind.
 
     def __getstate__(self) -> dict[str, Any]:
