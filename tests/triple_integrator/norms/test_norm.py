@@ -48,6 +48,7 @@ def assert_same_control(found, expected, q):
 @few
 @given(moving, exponents)
 def test_the_control_has_the_required_moments(m, q):
+    """The moment equalities (1.11)."""
     found = moments_of(minimum_norm(m, q))
     assert_allclose(found / moment_scale(m), m.moments / moment_scale(m), atol=2e-9)
 
@@ -106,7 +107,7 @@ def test_the_bound_is_the_pairing_over_the_conjugate_norm():
 @few
 @given(moving, exponents)
 def test_hoelders_inequality_is_an_equality(m, q):
-    """|u|^q is proportional to |psi_3|^p, and u has the sign of psi_3."""
+    """(1.14): |u|^q is proportional to |psi_3|^p, and u has the sign of psi_3."""
     s = minimum_norm(m, q)
     t = np.linspace(float(m.t0), float(m.tf), 23)
     u, h = s.control(t) / s.peak, s.costate(t)[:, 2]
