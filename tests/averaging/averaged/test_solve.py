@@ -331,7 +331,7 @@ def test_near_the_separatrix_where_the_frequency_vanishes():
 
 
 def test_a_drift_that_exceeds_the_control_makes_a_target_unreachable():
-    with pytest.raises(Infeasible, match="drift opposes every control and exceeds it"):
+    with pytest.raises(Infeasible, match="drift leads away from it, and no control outweighs"):
         rotor(1.0, 4.0, force=-V, peak=1.0)
     with pytest.raises(Infeasible, match="at a = 2 "):
         rotor(1.0, 2.0, force=-V / 2, peak=1.0)
@@ -347,7 +347,9 @@ def test_a_frequency_that_vanishes_on_the_way_is_refused():
     )
     assert solve_averaged(through, [1.5]).certificate.holds(1e-10)
     for start in (0.5, -3.0, 1.0):
-        with pytest.raises(ValueError, match=r"omega must be positive all the way, got .* at a = "):
+        with pytest.raises(
+            ValueError, match=r"omega must be positive along the whole trajectory, got .* at a = "
+        ):
             solve_averaged(through, [start])
 
 

@@ -62,7 +62,7 @@ def test_where_the_averaged_problem_ends_before_the_roots_do_it_says_so():
     ("solution", "message"),
     [
         (smooth_example([1.0, 1.2], 2.0, ripple=0.5), "that of one problem"),
-        (rotor(2.0, 4.0, peak=1.0, potential=sp.cos(X)), "leave a choice of the end"),
+        (rotor(2.0, 4.0, peak=1.0, potential=sp.cos(X)), "leave the control a choice of the end"),
         (smooth_example(1.0, 2.0), "depends on the phase"),
     ],
 )

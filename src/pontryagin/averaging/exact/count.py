@@ -88,12 +88,23 @@ def window(solution: AveragedSolution) -> Window:
     (35, ('no further root', 'no further root'))
     """
     if solution.duration.shape or solution.kappa != 0:
-        raise ArgumentValueError("solution must be that of one problem, at kappa = 0", "solution")
+        got = (
+            f"a stack of shape {shape}"
+            if (shape := solution.duration.shape)
+            else f"kappa = {solution.kappa:g}"
+        )
+        raise ArgumentValueError(f"solution must be that of one problem, at kappa = 0, got {got}", "solution")
     if fixed_ending(canonical(solution.system)):
-        message = "solution must leave a choice of the end, unlike the least time of one slow variable"
+        message = (
+            "solution must leave the control a choice of the end's anomaly, got the least time with one slow "
+            "variable, which leaves none"
+        )
         raise ArgumentValueError(message, "solution")
     if np.ptp(_at_end(solution)) <= LEVEL * float(solution.cost / solution.duration):
-        message = "solution must end where h* depends on the phase: here there is one extremal"
+        message = (
+            "solution must end where h* depends on the phase, got one whose h* does not: "
+            "there is one extremal only"
+        )
         raise ArgumentValueError(message, "solution")
 
     @cache

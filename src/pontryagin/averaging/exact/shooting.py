@@ -168,7 +168,10 @@ class Shooting:
             if (np.abs(step) <= 4e-16 * (1 + np.abs(y0))).all():
                 break
         else:
-            raise NotConverged("H = 0 has no solution for the phase's costate", float(np.abs(step).max()))
+            raise NotConverged(
+                "Newton's method found no costate of the phase with H = 0 at the start",
+                float(np.abs(step).max()),
+            )
         fixed = np.broadcast_to(self.start, (count, n))
         return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
 
