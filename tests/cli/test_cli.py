@@ -329,7 +329,7 @@ class TestBatch:
                 HEADER,
                 "line 3: x30 takes a number, got 'much'",
             ),
-            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: 5 entries under 9 columns"),
+            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: has 5 entries, but the header has 9"),
             ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got 1.0 and 1.0"),
             ([[*ROWS[1][:8], "nan"]], HEADER, "line 2: tf takes a number"),
             (ROWS, ["name", "y10", *HEADER[2:]], "line 1: column x10 is missing"),

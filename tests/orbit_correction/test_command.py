@@ -140,7 +140,11 @@ class TestBatch:
         ("rows", "header", "line"),
         [
             ([["a", "0", "much", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: dv_R takes a number"),
-            ([["a", "0", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: 3 entries under 4 columns"),
+            (
+                [["a", "0", "0"]],
+                ("name", "dr", "dv_R", "dv_T"),
+                "line 2: has 3 entries, but the header has 4",
+            ),
             ([["0", "0"]], ("dr", "dv_R"), "line 1: column dv_T is missing"),
             ([], ("dr", "dv_R", "dv_T"), "line 2: the file holds no problem"),
         ],

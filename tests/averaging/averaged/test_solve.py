@@ -191,6 +191,7 @@ CARRIAGES = {
 @pytest.mark.parametrize("name", CARRIAGES)
 @pytest.mark.parametrize("kappa", [0.0, -0.2])
 def test_the_flow_from_the_start_meets_target_transversality_and_level(name, kappa):
+    """The flow of (2.11) meets the conditions (2.4) and (2.12) at the end."""
     system = CARRIAGES[name]
     solution = solve_averaged(system, [0.5, 0.3], kappa=kappa)
     xi, eta = flown(solution)

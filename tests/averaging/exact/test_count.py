@@ -32,6 +32,7 @@ def test_the_window_of_the_rippled_example_is_known_in_closed_form():
 
 @pytest.mark.parametrize("epsilon", [0.1, 0.03, 0.01])
 def test_as_many_extremals_are_found_as_the_window_predicts(epsilon):
+    """Extremals lie near all members kappa of the window, (2.13), not only near that of (2.7)."""
     expected = window(RIPPLED).count(epsilon)
     found = RIPPLED.exact(epsilon)
     assert abs(len(found) - expected) < 2

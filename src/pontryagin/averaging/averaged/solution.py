@@ -99,7 +99,7 @@ class AveragedSolution:
         return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
-        """psi_0 + integral of omega d tau / epsilon, with an error of O(1), as (..., k).
+        """psi_0 + integral of omega d tau / epsilon, (2.5), with an error of O(1), as (..., k).
 
         Raises
         ------

@@ -122,7 +122,7 @@ def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | Non
 
 
 def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
-    """Bracket and polish every root of y1; returns the family with the members added on the way.
+    """Bracket and polish every root of y1, (2.2); returns the family with the members added on the way.
 
     Raises
     ------
