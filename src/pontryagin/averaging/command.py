@@ -81,7 +81,7 @@ def solve(
         File, typer.Option(metavar="FILE", help="With --epsilon: record the motion for rerun, as .rrd.")
     ] = None,
     batch: Annotated[
-        File, typer.Option(metavar="FILE", help="Solve the problems of a CSV file, one in each row.")
+        File, typer.Option(metavar="FILE", help="CSV file with one problem in each row.")
     ] = None,
     out: Annotated[
         str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")

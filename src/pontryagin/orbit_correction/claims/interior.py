@@ -28,7 +28,8 @@ def interior_state(system: ExactSystem) -> sp.Matrix:
 
 @claim(
     "(5)",
-    "the case x0 in int X(N_min, 0) without X(N_min − 1, 0): together with the boundary it is every case",
+    "the case that x0 lies in int X(N_min, 0) but not in X(N_min − 1, 0); the only other case is "
+    "x0 on the boundary of X(N_min, 0)",
     verdict="holds",
 )
 def interior_points() -> Proof:
@@ -70,7 +71,8 @@ def no_normal_inside() -> Proof:
     "Lemma 6",
     "if optimal controls from an inner point obey (6), then ψ0 = 0",
     verdict="holds",
-    remark="With Arg max for arg max: at ψ0 = 0 the maximum is attained everywhere, and (6) says nothing.",
+    remark="True with Arg max, the set of all maximum points, in place of arg max: for ψ0 = 0 every "
+    "control attains the maximum, so that (6) says nothing about the controls.",
 )
 def zero_costate_inside() -> Proof:
     def argument() -> Steps:
@@ -93,7 +95,11 @@ def zero_costate_inside() -> Proof:
     return Proof(argument, display=r"\psi_0 = 0")
 
 
-@claim("(6)", "the maximum principle with the recursion from ψ(0) = ψ0", verdict="holds")
+@claim(
+    "(6)",
+    "the maximum principle, with the costates of the recursion that starts at ψ(0) = ψ0",
+    verdict="holds",
+)
 def principle_with_recursion() -> Proof:
     def argument() -> Steps:
         for system in family():

@@ -19,7 +19,7 @@ R = sp.Rational
     "before (7): α",
     "α = μ(x0, X(N_min, 0)), the Minkowski functional, is below 1 in case (5)",
     verdict="holds",
-    remark="The reference [22] for it is not in the list, which ends at 21.",
+    remark="The paper's reference [22] for this functional is missing: its list ends at 21.",
 )
 def minkowski_functional() -> Proof:
     def argument() -> Steps:
@@ -38,7 +38,7 @@ def minkowski_functional() -> Proof:
     return Proof(argument, display=r"\alpha = \mu(x_0, X(N_{\min}, 0)) < 1")
 
 
-@claim("(7)", "the system with αU(k) for U(k)", verdict="holds")
+@claim("(7)", "the system (1) with αU(k) in place of U(k)", verdict="holds")
 def scaled_system() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -58,7 +58,7 @@ def scaled_system() -> Proof:
     "Lemma 7, i)",
     "the 0-controllable sets of (7) are αX(N, k)",
     verdict="holds",
-    remark="In the proof once X(N, t) for X(N, k).",
+    remark="The proof once prints X(N, t) where X(N, k) is meant.",
 )
 def scaled_sets() -> Equality:
     keys = [rf"x(1)\ (N = {N})" for N in (0, 1, 2, 3)]
@@ -71,7 +71,12 @@ def scaled_sets() -> Equality:
     )
 
 
-@claim("Lemma 7, ii)", "they lie in X(N, k)", verdict="holds", remark="By α < 1, 0 ∈ X(N, k) and convexity.")
+@claim(
+    "Lemma 7, ii)",
+    "the 0-controllable sets of (7) lie in X(N, k)",
+    verdict="holds",
+    remark="This follows from α < 1, 0 ∈ X(N, k) and the convexity of X(N, k).",
+)
 def scaled_sets_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -108,7 +113,7 @@ def on_the_scaled_boundary() -> Proof:
 
 @claim(
     "proof of Lemma 7: ε",
-    "with ε = 1/α' − 1/α, α' < α: x0/α + εx0 = x0/α', and α times it is x0 + εαx0",
+    "for α' < α and ε = 1/α' − 1/α the vector x0/α + εx0 is x0/α', and α times it is x0 + εαx0",
     verdict="holds",
 )
 def stretched_state() -> Equality:
@@ -157,8 +162,8 @@ def which_boundary() -> Slip:
     "Theorem 4",
     "α times the arg max, with −ψ(k) normal to X_α at x'(k), is optimal for system (1)",
     verdict="holds",
-    remark="α stays the gauge of x'(k) in X(N_min − k, k) along the trajectory. From an inner point the "
-    "optimal control is not unique: this one has the least peak.",
+    remark="Along the trajectory the gauge of x'(k) in X(N_min − k, k) remains α. From an inner point "
+    "the optimal control is not unique: this one has the least peak.",
 )
 def optimal_from_inside() -> Proof:
     def argument() -> Steps:
@@ -188,8 +193,9 @@ def optimal_from_inside() -> Proof:
     "system (7) satisfies the conditions of the maximum principle for boundary points, so its control is "
     "the optimal one",
     verdict="conditional",
-    remark="It is optimal for (1), and the only one for (7). For (1) it is one of many: A = I, unit discs, "
-    "x0 = −3/2 e1, is brought to 0 by 3/4 e1 twice, and by e1 and e1/2.",
+    remark="This control is optimal for (1), and the only optimal one for (7). For (1) it is one of "
+    "many: with A = I and unit discs, x0 = −3/2 e1 is brought to 0 by 3/4 e1 twice, and also by "
+    "e1 and then e1/2.",
 )
 def conditions_of_the_scaled_system() -> Conditional:
     def argument() -> Steps:
