@@ -54,7 +54,7 @@ def rotor(
         Naming the argument: an unknown symbol, an energy that does not exceed the potential's maximum (omega
         vanishes on the way), a mass, peak or k that is not positive, both or none of peak and k.
     Infeasible
-        If the mean drift opposes every control and exceeds it on the way.
+        If the mean drift leads away from the target somewhere on the way, and no control outweighs it.
 
     Examples
     --------
