@@ -44,7 +44,7 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
         If the frequency is not positive along the whole way, the running cost is not positive on average, or
         an input is not finite or wrongly shaped.
     Infeasible
-        If the target cannot be reached: the mean drift leads away from it, and no control outweighs the drift.
+        If the target cannot be reached: the mean drift leads away from it, and no control outweighs it.
     NotConverged
         If no extremal was found, with the residual of the equations or the distance left to the target.
 
