@@ -7,7 +7,6 @@ import sympy as sp
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
 from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
@@ -218,8 +217,8 @@ def system_for_the_costate() -> Conditional:
 
     def counterexample() -> Steps:
         for system in family()[:2]:
-            psi, state = system.costates[0], interior_state(system)
-            yield f"{named(system)}: x0 with gauge α = {share_of(system)} is inside", share_of(system) < 1
+            psi, state = system.costates[0], system.inner_state()
+            yield f"{named(system)}: x0 with gauge α = {system.inner_gauge} is inside", system.inner_gauge < 1
             for other in (psi, -psi):
                 total = sum(parts(system, other), sp.zeros(*psi.shape))
                 yield (
@@ -229,7 +228,7 @@ def system_for_the_costate() -> Conditional:
             yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
             both = [
                 size * sum(parts(system, p), sp.zeros(*psi.shape))
-                for p, size in ((psi, share_of(system)), (-psi, -share_of(system)))
+                for p, size in ((psi, system.inner_gauge), (-psi, -system.inner_gauge))
             ]
             yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
 
