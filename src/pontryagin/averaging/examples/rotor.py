@@ -67,7 +67,8 @@ def rotor(
     if (peak is None) == (k is None):
         got = "neither" if peak is None else "both"
         raise ArgumentValueError(f"exactly one of peak and k must be given, got {got}", "peak")
-    chosen = {"peak": positive("peak", peak)} if k is None else {"k": positive("k", k)}
+    given = {name: value for name, value in (("peak", peak), ("k", k)) if value is not None}
+    chosen = {name: positive(name, value) for name, value in given.items()}
     begin = finite("a0", a0, "a number or an array (...)")
     end = finite("a1", a1, "a number or an array (...)")
     common_shape(a0=begin.shape, a1=end.shape, **{name: value.shape for name, value in chosen.items()})
