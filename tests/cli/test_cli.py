@@ -181,7 +181,7 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("arguments", "begins"),
         [
-            (options(x0="0,0"), "--x0 takes 3 numbers with commas between, got '0,0'"),
+            (options(x0="0,0"), "--x0 takes 3 numbers separated by commas, got '0,0'"),
             (options(x0="0,nan,0"), "--x0 takes"),
             (options(xf="1,two,3"), "--xf takes"),
             (options(x0=None), "--x0 is missing"),
@@ -195,8 +195,8 @@ class TestRefusals:
             (options(norm="L2"), "--norm takes"),
             (options(norm="nan"), "--norm takes"),
             (options(norm=None), "--norm is missing"),
-            (options(peak="1"), "--norm does not go with --peak"),
-            (options(peak="1", norm=None), "--duration does not go with --peak"),
+            (options(peak="1"), "--norm cannot be combined with --peak"),
+            (options(peak="1", norm=None), "--duration cannot be combined with --peak"),
             (options(peak="0", norm=None, duration=None), "--peak takes a positive number"),
             (
                 options(peak="1", norm=None, duration=None, disturbance="t"),
@@ -210,10 +210,10 @@ class TestRefusals:
                 "--plot takes a file name ending in .svg or .pdf or .png, got a.gif",
             ),
             (options(record="a.mp4"), "--record takes a file name ending in .rrd"),
-            (options(samples="3"), "--samples goes with --json only"),
+            (options(samples="3"), "--samples needs --json"),
             (options(samples="-3"), "Invalid value for '--samples'"),
-            (options(out="a.csv"), "--out goes with --batch only"),
-            (options(batch="a.csv"), "--duration does not go with --batch"),
+            (options(out="a.csv"), "--out needs --batch"),
+            (options(batch="a.csv"), "--duration cannot be combined with --batch"),
             (options(colour="red"), "No such option: --colour"),
             ([*options(), "again"], "Got unexpected extra argument"),
             (["--x0"], "Option '--x0' requires an argument"),
@@ -302,11 +302,11 @@ class TestBatch:
                 HEADER,
                 "line 3: x30 takes a number, got 'much'",
             ),
-            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: 5 entries under 9 columns"),
+            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: has 5 entries, but the header has 9"),
             ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got t0 = 1.0 and tf = 1.0"),
             ([[*ROWS[1][:8], "nan"]], HEADER, "line 2: tf takes a number"),
             (ROWS, ["name", "y10", *HEADER[2:]], "line 1: column x10 is missing"),
-            ([], HEADER, "line 2: there is no problem"),
+            ([], HEADER, "line 2: the file holds no problem"),
         ],
     )
     def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):

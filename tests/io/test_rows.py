@@ -34,7 +34,7 @@ def test_vectors_become_columns_and_truth_values_words(read):
 
 
 def test_a_file_without_rows_names_what_a_row_holds(read):
-    with pytest.raises(ValueError, match="line 2: there is no state"):
+    with pytest.raises(ValueError, match="line 2: the file holds no state"):
         read("E\n", ["E"], holds="state")
 
 
@@ -45,10 +45,10 @@ def test_a_possible_column_is_read_if_it_is_there(read):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "line 1: column E is missing, takes E, K"),
+        ("", "line 1: column E is missing, needs E, K"),
         ("E\n1\n", "line 1: column K is missing"),
-        ("E,K\n", "line 2: there is no problem"),
-        ("E,K\n1,2\n1\n", "line 3: 1 entries under 2 columns"),
+        ("E,K\n", "line 2: the file holds no problem"),
+        ("E,K\n1,2\n1\n", "line 3: has 1 entries, but the header has 2"),
         ("E,K\n1,much\n", "line 2: K takes a number, got 'much'"),
     ],
 )

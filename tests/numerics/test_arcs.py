@@ -131,9 +131,9 @@ def height(of, t, z, p):
 def test_switches_without_end_are_given_up(taylor):
     flow = relay(taylor)
     few = SwitchedFlow(flow.arc, flow.following, jumps=True, most=5)
-    with pytest.raises(NotConverged, match="switches too often"):
+    with pytest.raises(NotConverged, match="switches more than 5 times"):
         follow(few, start(flow, 1.0, [0.01, 0.0]), 1.0, 0.0, 50.0)
-    with pytest.raises(NotConverged, match="switches too often"):
+    with pytest.raises(NotConverged, match="switches more than 5 times"):
         follow_on_grid(few, start(flow, 1.0, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
 
 

@@ -57,7 +57,7 @@ def test_samples_are_the_linear_motion_and_its_costate(thrust):
             assert_allclose(expected, state, atol=1e-15)
     costate = [expm(-LINEAR.T * t) @ plan.initial_costate for t in report["t"]]
     assert_allclose(report["costate"], costate, atol=1e-14)
-    assert_refused(solve("--z0", Z0, "--samples", 3), "--samples goes with --json only")
+    assert_refused(solve("--z0", Z0, "--samples", 3), "--samples needs --json")
 
 
 def test_without_options_it_is_the_paper_s_example():
@@ -97,8 +97,8 @@ def test_files_are_drawn_and_recorded(tmp_path):
         (["--z0", Z0, "--thrust", "cone"], "--thrust takes ball, disc, box, got 'cone'"),
         (["--z0", Z0, "--plot", "a.gif"], "--plot takes a file name ending"),
         (["--z0", Z0, "--record", "a.mp4"], "--record takes a file name ending"),
-        (["--z0", Z0, "--out", "a.csv"], "--out goes with --batch only"),
-        (["--z0", Z0, "--batch", "a.csv"], "--z0 does not go with --batch"),
+        (["--z0", Z0, "--out", "a.csv"], "--out needs --batch"),
+        (["--z0", Z0, "--batch", "a.csv"], "--z0 cannot be combined with --batch"),
         (["--batch", "none.csv"], "--batch cannot read none.csv"),
     ],
 )
@@ -133,9 +133,9 @@ class TestBatch:
         ("rows", "header", "line"),
         [
             ([["a", "0", "much", "0"]], HEADER, "line 2: dv_R takes a number"),
-            ([["a", "0", "0"]], HEADER, "line 2: 3 entries under 4 columns"),
+            ([["a", "0", "0"]], HEADER, "line 2: has 3 entries, but the header has 4"),
             ([["0", "0"]], ("dr", "dv_R"), "line 1: column dv_T is missing"),
-            ([], ("dr", "dv_R", "dv_T"), "line 2: there is no problem"),
+            ([], ("dr", "dv_R", "dv_T"), "line 2: the file holds no problem"),
         ],
     )
     def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):
