@@ -8,6 +8,7 @@ from pontryagin.averaging.derivation import averaged, optimum
 
 @pytest.mark.slow
 def test_the_averaged_system_keeps_its_integral_and_its_hamiltonian():
+    """The integral (2.10) along (2.3), H0 along (2.11)."""
     assert averaged.homogeneity() == 0
     assert set(averaged.mean_and_derivative_commute()) == {0}
     assert averaged.along(averaged.integral(), averaged.standard_rates()) == 0
@@ -19,6 +20,7 @@ def test_the_averaged_system_keeps_its_integral_and_its_hamiltonian():
 
 
 def test_the_main_result_and_what_follows_from_it():
+    """(2.14), (2.15) and (2.16)."""
     assert optimum.lagrange_identity() == 0
     assert optimum.cost_by_the_end() == 0
     slope = averaged.kappa * optimum.Psi.diff(averaged.kappa)

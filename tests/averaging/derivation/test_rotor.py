@@ -18,6 +18,7 @@ FORCE = sp.Rational(1, 4) + sp.cos(rotor.x) / 5
 
 @pytest.mark.slow
 def test_a_rotor_follows_the_averaged_energy_with_the_power_of_the_force():
+    """The rotor (3.1) is integrated by SciPy."""
     speed = sp.lambdify([rotor.a, rotor.x], rotor.speed(MASS, POTENTIAL))
     acceleration = sp.lambdify(
         [rotor.x, rotor.v, rotor.epsilon, rotor.u], rotor.acceleration(MASS, POTENTIAL, FORCE)

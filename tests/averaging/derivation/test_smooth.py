@@ -25,6 +25,7 @@ CONDITION = sp.lambdify(
 
 @given(st.floats(0.2, 3), st.floats(0.2, 3), st.floats(0.1, 4), st.integers(-9, 9))
 def test_the_smooth_example_is_a_minimum_in_kappa(start, end, price, shift):
+    """J0 is least, (2.9), among the roots of the condition (2.12), as (2.15) says near kappa = 0."""
     if abs(start - end) < 0.05:
         return
     gap, kappa = start - end, shift / 40

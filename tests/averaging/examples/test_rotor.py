@@ -27,6 +27,7 @@ NAN, INFINITE = float("nan"), float("inf")
         ),
         ({"a1": [2.0, 1.0]}, ValueError, "a1 must exceed the potential's maximum 1, .* got 1"),
         ({"a1": INFINITE}, ValueError, "a1 must be .* finite"),
+        ({"a1": [3.0, 4.0], "peak": [1.0] * 3}, ValueError, "peak: the leading shapes do not broadcast"),
         ({"mass": sp.cos(X)}, ValueError, "mass must be positive for every x, got -1"),
         ({"mass": 0}, ValueError, "mass must be positive"),
         ({"mass": "1 + cos(x)"}, TypeError, "mass must be a SymPy expression or a number"),

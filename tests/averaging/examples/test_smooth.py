@@ -16,7 +16,7 @@ NAN, INFINITE = float("nan"), float("inf")
         ((1.0, 2.0, 0.0), "k must be positive"),
         ((NAN, 2.0), "v0 must be .* finite"),
         ((1.0, 2.0, 1.0, INFINITE), "ripple must be .* finite"),
-        (([1.0, 2.0], [1.0, 2.0, 3.0]), "do not broadcast"),
+        (([1.0, 2.0], [1.0, 2.0, 3.0]), "v1: the leading shapes do not broadcast"),
     ],
 )
 def test_the_smooth_example_names_what_is_wrong(arguments, message):

@@ -17,6 +17,7 @@ NAN, INFINITE = float("nan"), float("inf")
         (([1.0, 2.0, 3.0], [1, 1], 0.5), r"semiaxes must be an array \(\.\.\., 3\)"),
         (([1.0, 2.0, 3.0], [1, 1, 1], 1.0), "ratio must differ from 1"),
         (([1.0, 2.0, 3.0], [1, 1, 1], -0.5), "ratio must be positive"),
+        (([[1.0, 2.0, 3.0]] * 2, [1, 1, 1], [0.5] * 3), "ratio: the leading shapes do not broadcast"),
     ],
 )
 def test_spin_down_names_what_is_wrong(arguments, message):

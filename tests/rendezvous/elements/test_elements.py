@@ -42,7 +42,7 @@ def test_states_on_the_first_axis_have_elements():
 
 
 def test_elements_that_are_no_orbit_are_refused():
-    with pytest.raises(ValueError, match="A and B must not both vanish"):
+    with pytest.raises(ValueError, match="A and B must not both be zero"):
         Elements([0] * 4, [0] * 4)
     with pytest.raises(ValueError, match="got -1"):
         Elements([1, 0, 0, 0], [0, 1, 0, 0])

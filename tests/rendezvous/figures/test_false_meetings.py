@@ -18,7 +18,7 @@ class TestFalseMeetings:
     @pytest.mark.slow
     def test_the_gap_drawn_is_the_distance_missed(self):
         for ax, member in zip(figures.false_meetings(self.family()).axes, self.family().members, strict=True):
-            gap = next(line for line in ax.lines if line.get_label() == "missed by").get_xydata()
+            gap = next(line for line in ax.lines if line.get_label() == "distance missed").get_xydata()
             assert np.linalg.norm(gap[1] - gap[0]) == pytest.approx(member.distance, abs=1e-9)
         assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
 
@@ -34,7 +34,7 @@ class TestFalseMeetings:
         end = places["craft at $t_k$"]
         rotated, orbit = (
             np.linalg.norm(places[label] - end, axis=1).min()
-            for label in ("that orbit as turned", "orbit of the target")
+            for label in ("target's orbit, turned", "orbit of the target")
         )
         assert rotated < 0.03 < 0.05 < orbit
         assert np.linalg.norm(end - places["target at $t_k$"]) > 0.2

@@ -39,5 +39,7 @@ class TestRevolutions:
         assert min(np.abs(np.subtract(one, wanted)).max() for one in found) < 2e-6
 
     def test_a_branch_of_a_bounded_problem_is_refused(self):
-        with pytest.raises(ValueError, match=r"must be of a problem without a bound, got a peak of 0\.08"):
+        with pytest.raises(
+            ValueError, match=r"must be of a problem without a bound on the thrust, got a peak of 0\.08"
+        ):
             branch(solved("mixed-bounded"), 1, (5.0, 15.0), 1.0)

@@ -18,7 +18,7 @@ from rendezvous_problems import FALLING, LEAP, in_units, starts
 def test_the_starts_that_did_not_converge_are_counted(leap):
     starts = np.vstack([leap.initial_costate, np.full(6, 40.0)])
     (found, *_) = multistart(LEAP, starts)
-    assert found.searched.given_up == ("1 of 2 starts, from which no meeting was reached",)
+    assert found.searched.given_up == ("no meeting was reached from 1 of the 2 starts",)
     assert multistart(LEAP, starts[1:]) == ()
 
 

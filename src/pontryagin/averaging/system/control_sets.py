@@ -82,7 +82,8 @@ class Quadratic:
         matrix = self._matrix(dimension)
         if matrix.shape != (dimension, dimension):
             raise refusal(
-                f"Quadratic: weight must be a number or ({dimension}, {dimension}), got shape {matrix.shape}"
+                f"Quadratic: weight must be a number or a matrix of shape ({dimension}, {dimension}), "
+                f"got shape {matrix.shape}"
             )
         entries = np.stack(numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
         for values in entries.reshape(-1, dimension, dimension):
