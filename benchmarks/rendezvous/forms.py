@@ -10,7 +10,7 @@ from benchmarks.clock import repeated, take_turns
 from benchmarks.rendezvous import problems, systems
 from benchmarks.rendezvous.systems import SYSTEMS
 from pontryagin.arrays import Array
-from pontryagin.numerics.equations import heyoka_system
+from pontryagin.numerics.symbolic import heyoka_system
 from pontryagin.rendezvous.derivation.principle import Mode
 
 REFERENCE = "inclined-energy"
