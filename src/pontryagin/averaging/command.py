@@ -5,14 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin.averaging import (
-    schema,
-    transcript,
-)
-from pontryagin.averaging.schema import (
-    EXAMPLES,
-    ExampleSchema,
-)
+from pontryagin.averaging import schema, transcript
+from pontryagin.averaging.schema import EXAMPLES, ExampleSchema
 from pontryagin.io import json_io, rows
 from pontryagin.terminal import console
 

@@ -11,7 +11,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.modes import Modes
+from pontryagin.averaging.exact.modes import Modes
 from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid
 from pontryagin.numerics.flow import STEPS, Flow, Integrator, integrator
 from pontryagin.numerics.lanes import Ends, stacked
