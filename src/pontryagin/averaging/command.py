@@ -7,11 +7,9 @@ import typer
 
 from pontryagin.averaging import schema, transcript
 from pontryagin.averaging.schema import EXAMPLES, ExampleSchema
-from pontryagin.io import json_io, rows
+from pontryagin.io import rows
 from pontryagin.terminal import console
-
-Text = str | None
-File = Path | None
+from pontryagin.terminal.console import File, Json, Out, Text
 
 
 def solve(
@@ -26,7 +24,8 @@ def solve(
     v0: Annotated[Text, typer.Option("--v0", metavar="V", help="smooth: speed at the start.")] = None,
     v1: Annotated[Text, typer.Option("--v1", metavar="V", help="smooth: speed at the end.")] = None,
     ripple: Annotated[
-        Text, typer.Option(metavar="R", help="smooth: amplitude of the force R cos x; 0 unless given.")
+        Text,
+        typer.Option(metavar="R", help="smooth: amplitude of the force R cos x; 0 unless given."),
     ] = None,
     a0: Annotated[Text, typer.Option("--a0", metavar="A", help="rotor: energy at the start.")] = None,
     a1: Annotated[Text, typer.Option("--a1", metavar="A", help="rotor: energy at the end.")] = None,
@@ -41,10 +40,12 @@ def solve(
     ] = None,
     peak: Annotated[Text, typer.Option(metavar="U", help="rotor: bound on |u|, for the least time.")] = None,
     k: Annotated[
-        Text, typer.Option("--k", metavar="K", help="rotor, smooth (1): cost of slow time beside u^2.")
+        Text,
+        typer.Option("--k", metavar="K", help="rotor, smooth (1): cost of slow time beside u^2."),
     ] = None,
     omega0: Annotated[
-        Text, typer.Option("--omega0", metavar="X,Y,Z", help="spin-down: angular velocity, body axes.")
+        Text,
+        typer.Option("--omega0", metavar="X,Y,Z", help="spin-down: angular velocity, body axes."),
     ] = None,
     semiaxes: Annotated[
         Text, typer.Option(metavar="X,Y,Z", help="spin-down: those of the control's ellipsoid.")
@@ -56,7 +57,7 @@ def solve(
     phase: Annotated[
         Text, typer.Option(metavar="PSI", help="With --epsilon: phase at the start; 0 unless given.")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    json: Json = False,
     plot: Annotated[
         File, typer.Option(metavar="FILE", help="Draw slow variables and control: .svg, .pdf, .png.")
     ] = None,
@@ -64,9 +65,7 @@ def solve(
         File, typer.Option(metavar="FILE", help="With --epsilon: record the motion: .rrd for rerun.")
     ] = None,
     batch: Annotated[File, typer.Option(metavar="FILE", help="Problems from a CSV file, a row each.")] = None,
-    out: Annotated[
-        str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
-    ] = "-",
+    out: Out = "-",
 ) -> None:
     """Time-optimal control of nonlinear oscillations by averaging, beside the exact extremals.
 
@@ -120,10 +119,7 @@ def solve(
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
     report = transcript.transcript(problem, solution, small, start, exact)
-    if json:
-        typer.echo(json_io.to_json(report))
-    else:
-        console.show(chosen.title, transcript.shown(report), transcript.conclusion(report))
+    console.answer(json, chosen.title, report, transcript.conclusion(report), transcript.shown(report))
 
 
 def _chosen(example: str | None, given: schema.Given, phase: str | None) -> ExampleSchema:

@@ -88,8 +88,16 @@ class Quadratic:
                 raise refusal(f"Quadratic: weight must be positive definite, got {values.tolist()}")
 
 
+class Bounded:
+    """A set of controls that are bounded and cost nothing."""
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Zero, whatever the control."""
+        return sp.Integer(0)
+
+
 @dataclass(frozen=True)
-class Ball:
+class Ball(Bounded):
     """|u| <= radius.
 
     Examples
@@ -109,17 +117,13 @@ class Ball:
         """Radius times s / |s|."""
         return sp.sympify(self.radius) * _unit(s)
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The radius must be positive."""
         require_positive("Ball: radius", [self.radius], numbers)
 
 
 @dataclass(frozen=True)
-class Ellipsoid:
+class Ellipsoid(Bounded):
     """sum of (u_i / l_i)^2 <= 1.
 
     Parameters
@@ -148,10 +152,6 @@ class Ellipsoid:
     def _scaled(self, s: Sequence[sp.Expr]) -> list[sp.Expr]:
         return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The semiaxes must be positive, one for each control."""
         require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
@@ -159,7 +159,7 @@ class Ellipsoid:
 
 
 @dataclass(frozen=True)
-class Box:
+class Box(Bounded):
     """|u_i| <= l_i.
 
     Parameters
@@ -178,19 +178,14 @@ class Box:
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
-        return sp.Add(
-            *(sp.sympify(l) * _of_one(sp.Abs, part) for l, part in zip(self.bounds, s, strict=True))
-        )
+        return sp.Add(*self._each(sp.Abs, s))
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """l_i sign(s_i)."""
-        return sp.Matrix(
-            [sp.sympify(l) * _of_one(sp.sign, part) for l, part in zip(self.bounds, s, strict=True)]
-        )
+        return sp.Matrix(self._each(sp.sign, s))
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
+    def _each(self, function: type[sp.Function], s: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.sympify(l) * _of_one(function, part) for l, part in zip(self.bounds, s, strict=True)]
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The bounds must be positive, one for each control."""
@@ -243,7 +238,7 @@ class BoundedQuadratic:
 
 
 @dataclass(frozen=True)
-class Custom:
+class Custom(Bounded):
     """Any compact convex set, given by its support function.
 
     Parameters
@@ -274,10 +269,6 @@ class Custom:
         value = self.support(free)
         at = dict(zip(free, s, strict=True))
         return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
-
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""
