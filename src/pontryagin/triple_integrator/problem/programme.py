@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,17 +23,23 @@ class Programme(ABC):
 
     Attributes
     ----------
-    maneuver : Maneuver
-        The problem that is solved.
     certificate : Certificate
         Residual of the moments, primal value and dual value, each (...).
-    multipliers : (..., 3) array
-        l0 of the minimal element h0 = l0'h(s), with l0'c = 1; zeros where c = 0.
     """
 
-    maneuver: Maneuver
     certificate: Certificate
-    multipliers: Array
+
+    if TYPE_CHECKING:  # At run time a property here would hide the fields that some subclasses have.
+
+        @property
+        @abstractmethod
+        def maneuver(self) -> Maneuver:
+            """The problem that is solved."""
+
+        @property
+        @abstractmethod
+        def multipliers(self) -> Array:
+            """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
 
     @property
     def norm(self) -> Array:
