@@ -35,7 +35,7 @@ STEPS = 100_000
 @functools.cache
 def has_heyoka() -> bool:
     """Whether heyoka can be imported; if not, warn once per process."""
-    if not installed("heyoka", "flows use SciPy's DOP853, slower"):
+    if not installed("heyoka", "trajectories are integrated by SciPy's DOP853, which is slower"):
         return False
     import heyoka
 
@@ -162,7 +162,7 @@ class Integrator(ABC):
         longest: float,
         resume: bool,
     ) -> tuple[Array, Reached]:
-        """The states at the times, of no use without times, and where the arc ended."""
+        """The states at the times (without times of no use), and where the arc ended."""
 
 
 @functools.lru_cache(maxsize=64)
@@ -252,7 +252,8 @@ class _Taylor(Integrator):
             states = states[np.isfinite(states).all(axis=1)]
         event = event_of(outcome)
         if event is None and outcome != hy.taylor_outcome.time_limit:
-            raise NotConverged(f"the Taylor integrator stopped: {outcome}", float(end - taylor.time))
+            message = f"the Taylor integrator stopped before the end: {outcome}"
+            raise NotConverged(message, float(end - taylor.time))
         return states, Reached(float(taylor.time), taylor.state.copy(), event)
 
 
@@ -290,7 +291,8 @@ class _RungeKutta(Integrator):
                 atol=self._tolerance / 10,
             )
         if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
-            raise NotConverged(f"the Runge-Kutta integrator stopped: {found.message}", end - begin)
+            message = f"the Runge-Kutta integrator stopped before the end: {found.message}"
+            raise NotConverged(message, end - begin)
         if found.status == 1:
             instants, there = found.t_events or [], found.y_events or []
             i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))

@@ -7,8 +7,8 @@ import pytest
 import sympy as sp
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
-from scipy.optimize import linprog
 
+from independent import grid_impulse, grid_peak
 from pontryagin.triple_integrator.derivation import channel, duality, model
 from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.model import T, s
@@ -27,26 +27,9 @@ def integrated(state, duration, program, force):
 
 
 @cache
-def grid_peak(moments, count=200):
-    """Least peak of controls that are constant on the cells of a grid in unit time, by HiGHS."""
-    edges = np.linspace(0, 1, count + 1)
-    powers = [np.diff(edges ** (k + 1)) / ((k + 1) * d) for k, d in ((2, 2), (1, 1), (0, 1))]
-    equalities = np.column_stack([np.array(powers), np.zeros(3)])
-    bounds = np.vstack([np.column_stack([sign * np.eye(count), -np.ones(count)]) for sign in (1, -1)])
-    cost = np.append(np.zeros(count), 1)
-    answer = linprog(
-        cost, bounds, np.zeros(2 * count), equalities, moments, [(None, None)] * count + [(0, None)]
-    )
-    return answer.fun
-
-
-@cache
-def grid_impulse(moments, count=2000):
-    """Least total impulse at the instants of a grid in unit time, by HiGHS."""
-    instants = np.linspace(0, 1, count + 1)
-    rows = np.array([instants**2 / 2, instants, np.ones(count + 1)])
-    answer = linprog(np.ones(2 * count + 2), A_eq=np.hstack([rows, -rows]), b_eq=moments, bounds=(0, None))
-    return answer.fun
+def on_a_grid(moments):
+    """Least peak and least total impulse on grids of unit time, by HiGHS."""
+    return grid_peak(moments, cells=200), grid_impulse(moments, cells=2000)
 
 
 def test_a_rotation_keeps_lengths_its_axis_and_composes():
@@ -60,10 +43,12 @@ def test_a_rotation_keeps_lengths_its_axis_and_composes():
 
 
 def test_the_rate_of_rotation_is_the_rate_of_the_angle():
+    """(0.1): the angular rate is the rate of the angle."""
     assert channel.rate_of_rotation() == channel.gamma(channel.t).diff(channel.t)
 
 
 def test_eulers_equation_couples_one_channel_to_the_rates_of_the_others():
+    """(0.3): the cross-coupling joins the disturbances."""
     applied, external = sp.symbols("M d")
     j1, j2, j3 = sp.symbols("J_1:4", positive=True)
     w2, w3 = sp.symbols("omega_2:4", real=True)
@@ -74,6 +59,7 @@ def test_eulers_equation_couples_one_channel_to_the_rates_of_the_others():
 @pytest.mark.parametrize("program", [sp.S.Zero, sp.Integer(3), 2 - 5 * tau + tau**3])
 @pytest.mark.parametrize("force", [sp.S.Zero, R(1, 2) - 3 * tau**2])
 def test_driving_is_integrating_the_state_equations(program, force):
+    """(0.6) and (1.1) against SciPy's integration."""
     start = sp.Matrix([R(1, 2), -1, 2])
     end = channel.drive(start, R(3, 2), program, force)
     reference = integrated([0.5, -1, 2], 1.5, program + 0 * tau, force + 0 * tau)
@@ -89,17 +75,20 @@ def test_driving_is_causal_and_stops_where_it_is_taken_up_again():
 
 
 def test_a_kick_moves_only_the_third_state():
+    """(0.4): an impulse of the control is a jump of the torque."""
     state = sp.Matrix(sp.symbols("x y z"))
     assert channel.kick(state, 5) - state == sp.Matrix([0, 0, 5])
 
 
 def test_the_transition_matrix_composes():
+    """(1.4): Phi(a) Phi(b) = Phi(a + b)."""
     a, b = sp.symbols("a b")
     product = model.transition(a) * model.transition(b) - model.transition(a + b)
     assert product.applyfunc(sp.expand) == sp.zeros(3)
 
 
 def test_the_required_moments_are_those_of_any_control_that_gets_there():
+    """(1.6), (1.7), (1.9) and (1.10), and (1.8) for the disturbance."""
     program = sp.symbols("u_0") + sp.symbols("u_1") * tau + sp.symbols("u_2") * tau**4
     force = sp.symbols("f_0") + sp.symbols("f_1") * tau
     end = channel.drive(channel.initial, T, program, force)
@@ -109,6 +98,7 @@ def test_the_required_moments_are_those_of_any_control_that_gets_there():
 
 
 def test_the_transfer_meets_both_ends():
+    """(0.2) and (0.5), which are (0.8) and (0.9), as vectors (1.2)."""
     path = channel.transfer(sp.Symbol("f"))
     assert (path.subs(tau, 0) - channel.initial).applyfunc(sp.simplify) == sp.zeros(3, 1)
     assert (path.subs(tau, T) - channel.final).applyfunc(sp.simplify) == sp.zeros(3, 1)
@@ -118,6 +108,7 @@ def test_the_transfer_meets_both_ends():
     "coefficients", [(1, 0, 0), (2, -1, R(3, 16)), (-3, 1, 1), (0, 2, -1), (0, 0, -2), (4, -5, R(1, 2))]
 )
 def test_peak_and_area_of_a_quadratic_are_those_of_a_fine_sampling(coefficients):
+    """The norms of the dual problems (3.1), (3.2) and (4.1)."""
     h = duality.dual_function_of(sp.Matrix(coefficients))
     grid = np.linspace(0, 1.5, 300_001)
     values = np.abs(np.polyval([float(coefficients[0]) / 2, *map(float, coefficients[1:])], grid))
@@ -136,15 +127,15 @@ CASES = [(1, 0, 0), (0, 0, 1), (R(1, 3), -R(1, 5), R(2, 7)), (-1, R(1, 2), 2)]
 @pytest.mark.parametrize("moments", CASES)
 @pytest.mark.parametrize("multipliers", [(1, -R(1, 2), R(3, 32)), (0, 0, 1), (3, -1, R(1, 7))])
 def test_no_dual_function_bounds_more_than_the_best_control_on_a_grid(moments, multipliers):
+    """(1.13): no h with l'c = 1 proves more than the least norm."""
     c, l = sp.Matrix(moments), sp.Matrix(multipliers)
-    numbers = tuple(float(m) for m in moments)
-    assert float(duality.peak_bound(l, c, sp.S.One)) <= grid_peak(numbers) + 1e-6
-    assert float(duality.impulse_bound(l, c, sp.S.One)) <= grid_impulse(numbers) + 1e-9
+    peak, impulse = on_a_grid(tuple(float(m) for m in moments))
+    assert float(duality.peak_bound(l, c, sp.S.One)) <= peak + 1e-6
+    assert float(duality.impulse_bound(l, c, sp.S.One)) <= impulse + 1e-9
 
 
 def test_the_bounds_of_the_unit_turn_are_tight():
-    assert_allclose(grid_peak((1.0, 0, 0)), 32, rtol=1e-9)
-    assert_allclose(grid_impulse((1.0, 0, 0)), 16, rtol=1e-9)
+    assert_allclose(on_a_grid((1.0, 0, 0)), [32, 16], rtol=1e-9)
     turn = sp.Matrix([1, 0, 0])
     assert duality.peak_bound(sp.Matrix([1, -R(1, 2), R(3, 32)]), turn, sp.S.One) == 32
     assert duality.impulse_bound(sp.Matrix([16, -8, 1]), turn, sp.S.One) == 16
@@ -152,6 +143,7 @@ def test_the_bounds_of_the_unit_turn_are_tight():
 
 @pytest.mark.parametrize("q", [sp.S.One, R(3, 2), sp.S(2), sp.S(3), sp.oo])
 def test_the_conjugate_norm_is_the_norm(q):
+    """The norms of (1.18), (1.19) and (1.20), and two between them."""
     values = {duality.levels[0]: -2, duality.levels[1]: R(3, 2)}
     values |= {duality.lengths[0]: R(1, 4), duality.lengths[1]: 2}
     u, n = np.array([-2, 1.5]), np.array([0.25, 2])

@@ -23,15 +23,19 @@ from pontryagin.triple_integrator.derivation.parabola import (
 )
 
 R = sp.Rational
-switching = st.tuples(
-    st.fractions(R(1, 20), R(9, 20), max_denominator=40),
-    st.fractions(R(11, 20), R(19, 20), max_denominator=40),
-    st.sampled_from([-3, -1, 2, 5]),
+
+
+def shares(low, high):
+    """Fractions of the unit time, as SymPy's numbers."""
+    return st.fractions(low, high, max_denominator=40).map(lambda x: R(x.numerator, x.denominator))
+
+
+switching = given(
+    early=shares(R(1, 20), R(9, 20)),
+    late=shares(R(11, 20), R(19, 20)),
+    height=st.sampled_from([-3, -1, 2, 5]),
 )
-
-
-def exact(value):
-    return R(value.numerator, value.denominator)
+few = settings(max_examples=10, deadline=None)
 
 
 def bang_bang(early, late, height):
@@ -40,6 +44,7 @@ def bang_bang(early, late, height):
 
 
 def test_the_multipliers_put_the_zeros_where_they_are_and_are_normalised():
+    """The multipliers (3.5) of the parabola (3.3)."""
     found = dict(zip(multipliers, parabola.multipliers_from_zeros(), strict=True))
     h = parabola.parabola().subs(found)
     assert sp.simplify(h.subs(tau, t1)) == sp.simplify(h.subs(tau, t2)) == 0
@@ -47,20 +52,22 @@ def test_the_multipliers_put_the_zeros_where_they_are_and_are_normalised():
 
 
 def test_vertex_and_multipliers_are_inverse_to_each_other():
+    """(3.8) and (3.9) against (3.10)."""
     there = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
     for symbol, value in parabola.vertex().items():
         assert sp.simplify(value.subs(tf, T).subs(there) - symbol) == 0
 
 
 def test_the_zeros_are_zeros():
+    """The zeros of (3.8)."""
     for zero in parabola.zeros():
         assert sp.simplify(parabola.vertex_form().subs(tau, zero)) == 0
 
 
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_areas_are_integrals(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_areas_are_integrals(early, late, height):
+    """S1 - S2 + S3, by (3.7) in the form (3.12), is the integral of the modulus."""
     numbers = {alpha: height, apex: (early + late) / 2, half_width: (late - early) / 2, T: 1}
     grid = np.linspace(0, 1, 20_001)
     h = float(height) * (grid - float(early)) * (grid - float(late))
@@ -69,10 +76,10 @@ def test_the_areas_are_integrals(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_optimum_solves_all_four_conditions(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_optimum_solves_all_four_conditions(early, late, height):
+    """(3.15), (3.16) and (3.17) on the curve (3.18), (3.19); (3.13) is (3.11) with the zeros."""
     moments = bang_bang(early, late, height)
     at = {T: 1, slope: -R(1, height), **dict(zip(c, moments, strict=True))}
     curve = {key: value.subs(at) for key, value in parabola.curve().items()}
@@ -85,10 +92,9 @@ def test_the_optimum_solves_all_four_conditions(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_level_is_the_root_of_largest_modulus(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_level_is_the_root_of_largest_modulus(early, late, height):
     at = {T: 1, **dict(zip(c, bang_bang(early, late, height), strict=True))}
     roots = sp.Poly(parabola.level_polynomial().subs(at), level).real_roots()
     assert height in roots
@@ -96,6 +102,7 @@ def test_the_level_is_the_root_of_largest_modulus(case):
 
 
 def test_the_gradient_is_a_gradient():
+    """The derivatives of (3.14) by difference quotients."""
     point = {alpha: R(2, 3), apex: R(5, 7), half_width: R(3, 11), T: R(13, 9), parabola.price: R(-1, 4)}
     point |= dict(zip(c, (R(1, 2), R(-2, 3), R(4, 5)), strict=True))
     for symbol, derivative in parabola.gradient().items():
@@ -106,6 +113,7 @@ def test_the_gradient_is_a_gradient():
 
 @pytest.mark.parametrize("places", [(R(1, 5), R(2, 3)), (-R(1, 2), R(1, 3)), (R(1, 4), R(3, 2)), (-2, -1)])
 def test_the_objective_never_falls_below_the_optimum(places):
+    """(3.6): its least modulus is rho0 of (3.1) and (3.2)."""
     moments = bang_bang(R(1, 6), R(3, 5), 4)
     assert abs(parabola.objective(places, moments, sp.S.One)) > R(1, 4)
     assert abs(parabola.objective((R(1, 6), R(3, 5)), moments, sp.S.One)) == R(1, 4)

@@ -1,26 +1,16 @@
-"""Least energy: the parabola reaches the target, all other controls cost more, and the bound proves it."""
+"""Least energy: the parabola costs less than all other controls, and the bound proves it."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from numpy.testing import assert_allclose
 
-from independent import propagate
 from pontryagin.triple_integrator import Maneuver, minimum_energy
 from strategies import maneuver_with, maneuvers, moments, multipliers
 
 
-@given(maneuvers())
-def test_the_control_steers_the_true_state_to_the_target(maneuver):
-    solution = minimum_energy(maneuver)
-    reached, largest = propagate(maneuver, lambda t: float(solution.control(t)[0]))
-    assert_allclose(reached, maneuver.xf, atol=1e-10 * (1 + largest.max()))
-    assert solution.certificate.holds(1e-12)
-
-
 @given(moments(), multipliers)
 def test_any_other_control_with_the_same_moments_costs_more(c, polynomial):
-    """u + w with w orthogonal to 1, s, s^2 has the energy |u|^2 + |w|^2; Gauss quadrature is exact here."""
+    """(1.18): u + w, w orthogonal to 1, s, s^2, has the energy |u|^2 + |w|^2; Gauss quadrature is exact."""
     solution = minimum_energy(maneuver_with(c))
     nodes, weights = np.polynomial.legendre.leggauss(8)
     t, weights = (nodes + 1) / 2, weights / 2
@@ -44,7 +34,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(maneuvers())
 def test_the_control_is_the_minimal_element_over_its_square(maneuver):
-    """u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless c = 0."""
+    """(2.2): u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless c = 0."""
     solution = minimum_energy(maneuver)
     t = np.linspace(maneuver.t0, maneuver.tf, 7)
     assert_allclose(solution.multipliers @ maneuver.moments, float(maneuver.moments.any()), rtol=1e-10)
@@ -55,16 +45,8 @@ def test_the_control_is_the_minimal_element_over_its_square(maneuver):
 
 
 def test_rest_to_rest_over_one_radian():
-    """u = 60 (6 s^2 - 6 s + 1): its square integrates to 720."""
+    """(2.5) for the ends (2.4): u = 60 (6 s^2 - 6 s + 1), whose square integrates to 720."""
     solution = minimum_energy(Maneuver([0, 0, 0], [1, 0, 0], 1.0))
     assert_allclose(solution.control([0, 0.5, 1]), [60, -30, 60], rtol=1e-13)
     assert_allclose(solution.norm, np.sqrt(720), rtol=1e-14)
     assert solution.breakpoints.shape == (0,)
-
-
-@pytest.mark.parametrize("exponent", [-290, -160, -100, 100, 160, 290])
-def test_tiny_and_huge_moments_scale_exactly(exponent):
-    ends = np.array([1.0, -0.25, 0.5])
-    unit, scaled = (minimum_energy(Maneuver(np.zeros(3), ends * size, 1.0)) for size in (1.0, 2.0**exponent))
-    assert scaled.norm == unit.norm * 2.0**exponent
-    assert_allclose(scaled.multipliers * 2.0**exponent, unit.multipliers, rtol=1e-14)

@@ -23,7 +23,11 @@ R = sp.Rational
 n = sp.Symbol("n", integer=True, positive=True)
 
 
-@claim("after (2.16): Hamiltonian", "(2.11) is Hamilton's, and ωκ + (ηf0) constant", verdict="holds")
+@claim(
+    "after (2.16): Hamiltonian",
+    "(2.11) is a Hamiltonian system, along which ωκ + (ηf0) is constant",
+    verdict="holds",
+)
 def averaged_hamiltonian() -> Evidence:
     def argument() -> Steps:
         H = averaged.averaged_hamiltonian()
@@ -40,11 +44,11 @@ def averaged_hamiltonian() -> Evidence:
 
 @claim(
     "after (2.16): optimal κ",
-    "the optimal κ is 0, and τ1(0) the root of (2.12) there",
+    "the optimal κ is 0, and τ1(0) is the root of (2.12) at κ = 0",
     verdict="conditional",
-    remark="True where (2.15) and (2.16) hold, as in the smooth example. κ = 0 may be a local maximum, and "
-    "(2.12) may have several roots there, only one of them optimal: the example after (2.13) has τ1 = 1, 2 "
-    "and 3, the second a maximum.",
+    remark="True where (2.15) and (2.16) hold, as in the smooth example. But κ = 0 may be a local maximum, "
+    "and (2.12) may have several roots at κ = 0, only one of them optimal: the example after (2.13) "
+    "has τ1 = 1, 2 and 3, the second a maximum.",
 )
 def optimal_kappa() -> Evidence:
     def argument() -> Steps:
@@ -72,7 +76,7 @@ def optimal_kappa() -> Evidence:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("after (2.16): (ηf0)", "at the optimum (ηf0) = 0 all along", verdict="holds")
+@claim("after (2.16): (ηf0)", "at the optimum (ηf0) = 0 along the whole motion", verdict="holds")
 def zero_level() -> Evidence:
     def argument() -> Steps:
         yield "h0 = −ωκ along a member", vanishes(averaged.h0 + averaged.omega * averaged.integral())
@@ -84,9 +88,9 @@ def zero_level() -> Evidence:
 
 @claim(
     "after (2.16): order",
-    "the order falls by one by (2.10), and of the 2n + 2 by three in all",
+    "(2.10) lowers the order by one; in all, the order 2n + 2 is lowered by three",
     verdict="holds",
-    remark="q by H* = 0, ψ by averaging, one more by (ηf0) = 0.",
+    remark="q is removed by H* = 0, ψ by averaging, and one more variable by (ηf0) = 0.",
 )
 def order() -> Evidence:
     def argument() -> Steps:
@@ -106,7 +110,7 @@ def order() -> Evidence:
     "after (2.16): quadrature",
     "with one degree of freedom a quadrature and an equation for τ1(0) are left",
     verdict="holds",
-    remark="For one slow variable and the cost, on which no rate depends.",
+    remark="One degree of freedom means one slow variable and the cost, on which no rate depends.",
 )
 def quadrature() -> Evidence:
     def argument() -> Steps:
@@ -145,10 +149,10 @@ def apart_from_the_phase() -> Evidence:
 
 @claim(
     "(2.17)",
-    "u = u0*(a, ψ, η*) with ψ as it turns is the first approximation, J* = J0(0)",
+    "u = u0*(a, ψ, η*), with ψ the phase of the actual motion, is the first approximation, and J* = J0(0)",
     verdict="holds",
-    remark="With the true phase ψ. The phase of (2.5) is off by O(1) and will not do where u0* depends on "
-    "it.",
+    remark="The control needs the true phase ψ. The phase of (2.5) is off by O(1) and cannot replace it "
+    "where u0* depends on it.",
 )
 def first_approximation() -> Evidence:
     def argument() -> Steps:

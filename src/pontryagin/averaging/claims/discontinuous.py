@@ -32,9 +32,9 @@ CHIRP = sp.sin(t + x * sp.sqrt(t))
 
 @claim(
     "end of section 2: discontinuous controls",
-    "the approach can serve where u* jumps, of the order of 1/ε times",
+    "the approach can be used where u* jumps, with a number of jumps of the order of 1/ε",
     verdict="holds",
-    remark="Shown on a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
+    remark="Shown on the example a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
 )
 def jumping_controls() -> Evidence:
     def argument() -> Steps:
@@ -58,9 +58,9 @@ def jumping_controls() -> Evidence:
 
 @claim(
     "end of section 2: small q",
-    "q ~ ε changes control and cost by the order of ε",
+    "a costate q of the order ε changes control and cost by the order of ε",
     verdict="holds",
-    remark="Where the control jumps it is the instants that move, by the order of ε in the phase.",
+    remark="Where the control jumps, the instants of the jumps move, by the order of ε in the phase.",
 )
 def small_phase_costate() -> Evidence:
     def argument() -> Steps:
@@ -118,12 +118,12 @@ def gronwall() -> sp.Expr:
 
 @claim(
     "end of section 2: theorem [12]",
-    "averaging for discontinuous X: |x − ξ| < η up to t = L/ε for ε small enough",
+    "averaging theorem for discontinuous X: |x − ξ| < η up to t = L/ε for ε small enough",
     verdict="conditional",
-    remark="True where the second limit is uniform in r_k too. For each r_k by itself it follows from the "
-    "first and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = 0, and x moves from 2 to "
-    "about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in t, as division by ψ' gives, has "
-    "the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
+    remark="True where the second limit is uniform in r_k too. If it is taken for each r_k by itself, it "
+    "follows from the first limit and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = "
+    "0, while x moves from 2 to about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in "
+    "t, as division by ψ' gives, has the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
 )
 def averaging_theorem() -> Evidence:
     def argument() -> Steps:
@@ -177,7 +177,7 @@ def averaging_theorem() -> Evidence:
 
 @claim(
     "end of section 2: no order",
-    "the theorem does not give |x − ξ| ~ ε",
+    "the theorem does not show that |x − ξ| is of the order ε",
     verdict="holds",
 )
 def no_order() -> Evidence:
@@ -193,11 +193,11 @@ def no_order() -> Evidence:
 
 @claim(
     "end of section 2: sharper estimate",
-    "with ∫Z dt differentiable in x and |N| ≤ d0/T, |x − ξ| ≤ dε",
+    "if ∫Z dt is differentiable in x and |N| ≤ d0/T, then |x − ξ| ≤ dε",
     verdict="conditional",
-    remark="True where the derivative of ∫Z dt by x is bounded, as it is for X periodic in t. It need not "
-    "be: X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
-    "|x − ξ| is of the order √ε.",
+    remark="True where the derivative of ∫Z dt with respect to x is bounded, as it is for X periodic in t. "
+    "It need not be bounded: X = ∂S/∂t, S = sin(t + x√t), satisfies all the conditions, those of the "
+    "theorem uniformly in r_k, and |x − ξ| is of the order √ε.",
 )
 def sharper_estimate() -> Evidence:
     def argument() -> Steps:

@@ -127,8 +127,8 @@ def focal_parameter() -> Evidence:
     "after (3.4): e",
     "the eccentricity, strictly between 0 and 1 for E < 0, K > 0",
     verdict="conditional",
-    remark="True unless E = −1/(2K²), the least energy there is for K. That is the circle: e = 0, γ is not "
-    "defined and (3.6) divides by zero. There use e cos γ, e sin γ for e, γ.",
+    remark="True unless E = −1/(2K²), the least energy for the given K. The orbit is then a circle: e = 0, γ "
+    "is not defined and (3.6) divides by zero. There e cos γ and e sin γ have to replace e and γ.",
 )
 def eccentricity() -> Evidence:
     def argument() -> Steps:
@@ -169,9 +169,9 @@ def arbitrary_constants() -> Evidence:
 
 @claim(
     "after (3.4): period",
-    "the motion is bounded and periodic, its period depends on the energy only",
+    "the motion is bounded and periodic, and its period depends on the energy only",
     verdict="holds",
-    remark="For E < 0.",
+    remark="This holds for E < 0.",
 )
 def bounded_and_periodic() -> Evidence:
     def argument() -> Steps:

@@ -32,7 +32,7 @@ def closed(form: sp.Expr) -> sp.Expr:
     "before (2.14): dJ0",
     "dJ0/dκ = −(η1 dξ1/dκ)",
     verdict="holds",
-    remark="With η1 = −(g' + αM'); as (2.4) is printed, the right-hand side would be 0.",
+    remark="This holds with η1 = −(g' + αM'); with (2.4) as printed, the right-hand side would be 0.",
 )
 def cost_by_the_end() -> Evidence:
     def argument() -> Steps:
@@ -46,7 +46,11 @@ def cost_by_the_end() -> Evidence:
     return Proof(argument, display=r"dJ_0/d\kappa = -(\eta_1 d\xi_1/d\kappa)")
 
 
-@claim("before (2.14): dξ1", "dξ1/dκ by the end's time and along the family", verdict="holds")
+@claim(
+    "before (2.14): dξ1",
+    "dξ1/dκ is the sum of a term from the end time and a term along the family",
+    verdict="holds",
+)
 def end_by_the_chain_rule() -> Evidence:
     key = r"\frac{d\xi_1}{d\kappa}"
     time, end = sp.symbols("tau tau_1", real=True)
@@ -100,7 +104,7 @@ def main_result() -> Evidence:
 
 @claim(
     "after (2.14): stationary",
-    "κ = 0 is stationary, and under (2.13) the only such point",
+    "κ = 0 is a stationary point of J0, and under (2.13) the only one",
     verdict="holds",
     remark="Where (2.13) fails away from κ = 0, J0 is stationary there too.",
 )
@@ -156,7 +160,11 @@ def second_derivative() -> Evidence:
     )
 
 
-@claim("(2.16)", "sufficient for the least J0 over the whole range of κ", verdict="holds")
+@claim(
+    "(2.16)",
+    "the condition is sufficient for κ = 0 to give the least J0 over the whole range of κ",
+    verdict="holds",
+)
 def global_minimum() -> Evidence:
     def argument() -> Steps:
         left = kappa * Psi - sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
@@ -181,7 +189,7 @@ def global_minimum() -> Evidence:
     )
 
 
-@claim("after (2.16): J0", "J0(κ) by parts from (2.14)", verdict="holds")
+@claim("after (2.16): J0", "J0(κ) follows from (2.14) by integration by parts", verdict="holds")
 def cost_by_parts() -> Evidence:
     key = r"J_0(\kappa) - J_0(0)"
     inner = sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))

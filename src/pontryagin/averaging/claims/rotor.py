@@ -40,7 +40,7 @@ def equation_of_the_rotor() -> Evidence:
     "with x₁' < x' < x₂' the frequency stays between x₁' and x₂', away from 0",
     verdict="holds",
     remark="ω is the harmonic mean of x' over the angle. x' > 0 at the start is not enough: the bounds need "
-    "a > max V all the way, so a0 and a1 both above V₂.",
+    "a > max V along the whole motion, so that a0 and a1 must both lie above V₂.",
 )
 def frequency_is_bounded() -> Evidence:
     def argument() -> Steps:
@@ -57,7 +57,7 @@ def frequency_is_bounded() -> Evidence:
     return Proof(argument, display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty")
 
 
-@claim("after (3.1): integration", "at ε = 0: energy a, and t + γ = ∫dx/x'", verdict="holds")
+@claim("after (3.1): integration", "at ε = 0 the energy a is constant, and t + γ = ∫dx/x'", verdict="holds")
 def unperturbed_motion() -> Evidence:
     def derived() -> dict[str, sp.Expr]:
         lagrangian = MASS * v**2 / 2 - POTENTIAL
@@ -78,7 +78,7 @@ def unperturbed_motion() -> Evidence:
 
 @claim(
     "after (3.1): standard form",
-    "energy and rotating phase: a' = εx'(u + f), ψ' = ω(a) + O(ε)",
+    "in energy and rotating phase the system is a' = εx'(u + f), ψ' = ω(a) + O(ε)",
     verdict="holds",
 )
 def standard_form() -> Evidence:

@@ -7,7 +7,6 @@ import sympy as sp
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Conditional, Equality, Proof, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
 from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
@@ -22,9 +21,9 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
 
 @claim(
     "Lemma 9",
-    "−x0 as a sum over ψ0: the equation for the initial costate",
+    "the equation for the initial costate ψ0, with −x0 as a sum of N_min vectors that depend on ψ0",
     verdict="holds",
-    remark="With H~(k) as corrected.",
+    remark="True with the corrected H~(k).",
 )
 def equation_for_the_costate() -> Equality:
     systems = family()
@@ -42,7 +41,7 @@ def equation_for_the_costate() -> Equality:
     )
 
 
-@claim("(8)", "x0 has one decomposition into boundary points of the E_k", verdict="holds")
+@claim("(8)", "x0 is in exactly one way a sum of boundary points x^k of the E_k", verdict="holds")
 def decomposition_into_ellipsoids() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -67,7 +66,7 @@ def decomposition_into_ellipsoids() -> Proof:
     return Proof(argument, display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k")
 
 
-@claim("(9)", "−ψ0 is normal at x0 and at all x^k", verdict="holds")
+@claim("(9)", "−ψ0 is normal to X(N_min, 0) at x0, and to every E_k at x^k", verdict="holds")
 def common_normal() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -114,7 +113,7 @@ def rays() -> Proof:
     )
 
 
-@claim("after (9): one ray", "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
+@claim("after (9): one ray", "hence N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
 def one_ray() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -145,7 +144,7 @@ def parts_as_support_points() -> Proof:
     )
 
 
-@claim("after (10): x^k", "x^k by Lagrange's multipliers", verdict="holds")
+@claim("after (10): x^k", "x^k as a function of ψ0, by Lagrange's multipliers", verdict="holds")
 def parts_by_multipliers() -> Equality:
     X, _, _ = plane()
     psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
@@ -188,9 +187,10 @@ def homogeneous_of_degree_zero() -> Proof:
     "(11)",
     "with (ψ0, ψ0) = 1 the system has exactly one solution",
     verdict="conditional",
-    remark="True for x0 on the boundary of X(N_min, 0), as Lemma 9 assumes: n + 1 equations for n unknowns "
-    "agree there and only there. For the inner points of section 5, the worked example among them, there is "
-    "no solution; with α as a factor and a further unknown there are two, (ψ, α) and the spurious (−ψ, −α).",
+    remark="True for x0 on the boundary of X(N_min, 0), as Lemma 9 assumes: there, and only there, the n "
+    "+ 1 equations for n unknowns are consistent. For the inner points of section 5, among them "
+    "the z0 of the worked example, the system has no solution. With α as a further unknown, as a "
+    "factor of the sum, it has two: (ψ, α) and the spurious (−ψ, −α).",
 )
 def system_for_the_costate() -> Conditional:
     def argument() -> Steps:
@@ -217,8 +217,8 @@ def system_for_the_costate() -> Conditional:
 
     def counterexample() -> Steps:
         for system in family()[:2]:
-            psi, state = system.costates[0], interior_state(system)
-            yield f"{named(system)}: x0 with gauge α = {share_of(system)} is inside", share_of(system) < 1
+            psi, state = system.costates[0], system.inner_state()
+            yield f"{named(system)}: x0 with gauge α = {system.inner_gauge} is inside", system.inner_gauge < 1
             for other in (psi, -psi):
                 total = sum(parts(system, other), sp.zeros(*psi.shape))
                 yield (
@@ -228,7 +228,7 @@ def system_for_the_costate() -> Conditional:
             yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
             both = [
                 size * sum(parts(system, p), sp.zeros(*psi.shape))
-                for p, size in ((psi, share_of(system)), (-psi, -share_of(system)))
+                for p, size in ((psi, system.inner_gauge), (-psi, -system.inner_gauge))
             ]
             yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
 

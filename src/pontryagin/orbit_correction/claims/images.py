@@ -25,10 +25,10 @@ def transformed() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
 
 @claim(
     "Lemma 3",
-    "a nonsingular A maps boundary to boundary, normals by A^−T, and the class U_2 into itself",
+    "a nonsingular A maps the boundary of X to that of AX, A^−T maps the normals, and AX belongs to U_2",
     verdict="holds",
-    remark="The proof of ii) shows that A^−T N(x, X) lies in N(Ax, AX); the other inclusion is the same "
-    "with A^−1.",
+    remark="The proof of ii) shows that A^−T N(x, X) lies in N(Ax, AX). The other inclusion follows in "
+    "the same way, with A^−1 for A.",
 )
 def nonsingular_images() -> Proof:
     def argument() -> Steps:
@@ -93,7 +93,7 @@ def segments_under_a_map() -> Equality:
     "Lemma 4",
     "the sum of two sets of U_2 belongs to U_2",
     verdict="holds",
-    remark="Its printed proof has a gap, see the entry on it.",
+    remark="The printed proof has a gap: see the entry on its parts, below.",
 )
 def sums_stay_strictly_convex() -> Proof:
     def argument() -> Steps:
@@ -117,9 +117,9 @@ def sums_stay_strictly_convex() -> Proof:
 
 @claim(
     "proof of Lemma 4: balls",
-    "a ball about x1 plus a ball about x2 holds the ball of the smaller radius about x1 + x2",
+    "the sum of a ball about x1 and a ball about x2 contains the ball of the smaller radius about x1 + x2",
     verdict="holds",
-    remark="O_r(x0) is written as a part of a space L that is not introduced: R^n is meant.",
+    remark="The paper defines O_r(x0) as a part of a space L that it does not introduce; R^n is meant.",
 )
 def sums_of_balls() -> Proof:
     def argument() -> Steps:
@@ -146,7 +146,11 @@ def sums_of_balls() -> Proof:
     )
 
 
-@claim("proof of Lemma 4: segment", "λy1 + (1 − λ)y2 is the sum of the middles of the parts", verdict="holds")
+@claim(
+    "proof of Lemma 4: segment",
+    "λy1 + (1 − λ)y2 is the sum of λx11 + (1 − λ)x12 and λx21 + (1 − λ)x22",
+    verdict="holds",
+)
 def segments_of_a_sum() -> Equality:
     parts = sp.Matrix(2, 2, sp.symbols("x11 x12 x21 x22"))
     key = r"\lambda y^1 + (1-\lambda)y^2"
@@ -164,8 +168,8 @@ def segments_of_a_sum() -> Equality:
     "for y1 = x11 + x21 and y2 = x12 + x22 both λx11 + (1 − λ)x12 and λx21 + (1 − λ)x22 are inner points",
     verdict="conditional",
     remark="True where x11 ≠ x12 and x21 ≠ x22. From y1 ≠ y2 only one of the two follows: for two unit "
-    "discs, y1 = e1 + e2 and y2 = e1 − e2, the first is e1, on the boundary. The lemma stands: x + int X2 "
-    "is open.",
+    "discs, y1 = e1 + e2 and y2 = e1 − e2, the first point is e1, which lies on the boundary. "
+    "Lemma 4 is true all the same, because x + int X2 is open.",
 )
 def parts_inside() -> Conditional:
     def argument() -> Steps:

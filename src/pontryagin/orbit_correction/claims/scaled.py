@@ -6,7 +6,6 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.derivation import summands
 from pontryagin.orbit_correction.derivation.summands import alpha
 
@@ -19,36 +18,36 @@ R = sp.Rational
     "before (7): α",
     "α = μ(x0, X(N_min, 0)), the Minkowski functional, is below 1 in case (5)",
     verdict="holds",
-    remark="The reference [22] for it is not in the list, which ends at 21.",
+    remark="The paper's reference [22] for this functional is missing: its list ends at 21.",
 )
 def minkowski_functional() -> Proof:
     def argument() -> Steps:
         for system in family():
-            p, state, N = -system.costates[0], interior_state(system), system.steps
+            p, state, N = -system.costates[0], system.inner_state(), system.steps
             yield (
                 f"{named(system)}: x0/α lies in X(N, 0)",
-                state / share_of(system) == system.boundary_state(),
+                state / system.inner_gauge == system.boundary_state(),
             )
             yield (
                 "and no smaller α does: (p, x0) = α s(p)",
-                p.dot(state) == share_of(system) * system.support(p, N),
+                p.dot(state) == system.inner_gauge * system.support(p, N),
             )
-            yield "0 < α < 1", 0 < share_of(system) < 1
+            yield "0 < α < 1", 0 < system.inner_gauge < 1
 
     return Proof(argument, display=r"\alpha = \mu(x_0, X(N_{\min}, 0)) < 1")
 
 
-@claim("(7)", "the system with αU(k) for U(k)", verdict="holds")
+@claim("(7)", "the system (1) with αU(k) in place of U(k)", verdict="holds")
 def scaled_system() -> Proof:
     def argument() -> Steps:
         for system in family():
-            scaled = [share_of(system) * u for u in system.controls()]
-            states = system.fly(interior_state(system), scaled)
+            scaled = [system.inner_gauge * u for u in system.controls()]
+            states = system.fly(system.inner_state(), scaled)
             yield f"{named(system)}: the α-fold controls bring x0 to 0", states[-1].is_zero_matrix
             levels = [U.level(u) for U, u in zip(system.U, scaled, strict=True)]
             yield (
                 "and lie on the boundaries of αU(k), inside U(k)",
-                levels == [share_of(system) ** 2] * system.steps,
+                levels == [system.inner_gauge**2] * system.steps,
             )
 
     return Proof(argument, display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in \alpha U(k)")
@@ -58,7 +57,7 @@ def scaled_system() -> Proof:
     "Lemma 7, i)",
     "the 0-controllable sets of (7) are αX(N, k)",
     verdict="holds",
-    remark="In the proof once X(N, t) for X(N, k).",
+    remark="The proof once prints X(N, t) where X(N, k) is meant.",
 )
 def scaled_sets() -> Equality:
     keys = [rf"x(1)\ (N = {N})" for N in (0, 1, 2, 3)]
@@ -71,19 +70,24 @@ def scaled_sets() -> Equality:
     )
 
 
-@claim("Lemma 7, ii)", "they lie in X(N, k)", verdict="holds", remark="By α < 1, 0 ∈ X(N, k) and convexity.")
+@claim(
+    "Lemma 7, ii)",
+    "the 0-controllable sets of (7) lie in X(N, k)",
+    verdict="holds",
+    remark="This follows from α < 1, 0 ∈ X(N, k) and the convexity of X(N, k).",
+)
 def scaled_sets_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
             for k in range(system.steps):
                 p, left = -system.costates[k], system.steps - k
-                point = share_of(system) * system.point(p, left, k)
-                mixed = share_of(system) * system.point(p, left, k) + (1 - share_of(system)) * sp.zeros(
+                point = system.inner_gauge * system.point(p, left, k)
+                mixed = system.inner_gauge * system.point(p, left, k) + (1 - system.inner_gauge) * sp.zeros(
                     *p.shape
                 )
                 yield (
                     f"{named(system)}: a point of αX({left}, {k}) is a mixture of one of X and 0",
-                    (point == mixed and 0 < share_of(system) < 1),
+                    (point == mixed and 0 < system.inner_gauge < 1),
                 )
                 yield "and inside the half-space of X", p.dot(point) < system.support(p, left, k)
 
@@ -93,12 +97,12 @@ def scaled_sets_inside() -> Proof:
 def state_on_the_scaled_boundary() -> Steps:
     """x0 is the support point of the scaled set."""
     for system in family():
-        p, state = -system.costates[0], interior_state(system)
+        p, state = -system.costates[0], system.inner_state()
         yield (
             f"{named(system)}: (p, x0) is the support function of αX(N, 0)",
-            (p.dot(state) == share_of(system) * system.support(p, system.steps)),
+            (p.dot(state) == system.inner_gauge * system.support(p, system.steps)),
         )
-        yield "and x0 is its support point", state == share_of(system) * system.point(p, system.steps)
+        yield "and x0 is its support point", state == system.inner_gauge * system.point(p, system.steps)
 
 
 @claim("Lemma 7, iii)", "x0 is on the boundary of X_α(N_min, 0)", verdict="holds")
@@ -108,7 +112,7 @@ def on_the_scaled_boundary() -> Proof:
 
 @claim(
     "proof of Lemma 7: ε",
-    "with ε = 1/α' − 1/α, α' < α: x0/α + εx0 = x0/α', and α times it is x0 + εαx0",
+    "for α' < α and ε = 1/α' − 1/α the vector x0/α + εx0 is x0/α', and α times it is x0 + εαx0",
     verdict="holds",
 )
 def stretched_state() -> Equality:
@@ -139,11 +143,11 @@ def which_boundary() -> Slip:
     def counterexample() -> Steps:
         for system in family():
             p = -system.costates[0]
-            state = interior_state(system)
-            stretched = state / share_of(system)
+            state = system.inner_state()
+            stretched = state / system.inner_gauge
             yield (
-                f"{named(system)}: x0/α, α = {share_of(system)}, is still in X(N, 0), so x0 is inside",
-                (share_of(system) < 1 and p.dot(stretched) == system.support(p, system.steps)),
+                f"{named(system)}: x0/α, α = {system.inner_gauge}, is still in X(N, 0), so x0 is inside",
+                (system.inner_gauge < 1 and p.dot(stretched) == system.support(p, system.steps)),
             )
 
     return Slip(
@@ -157,15 +161,15 @@ def which_boundary() -> Slip:
     "Theorem 4",
     "α times the arg max, with −ψ(k) normal to X_α at x'(k), is optimal for system (1)",
     verdict="holds",
-    remark="α stays the gauge of x'(k) in X(N_min − k, k) along the trajectory. From an inner point the "
-    "optimal control is not unique: this one has the least peak.",
+    remark="Along the trajectory the gauge of x'(k) in X(N_min − k, k) remains α. From an inner point "
+    "the optimal control is not unique: this one has the least peak.",
 )
 def optimal_from_inside() -> Proof:
     def argument() -> Steps:
         for system in family():
-            size, p = share_of(system), -system.costates[0]
+            size, p = system.inner_gauge, -system.costates[0]
             controls = [size * U.point(q) for U, q in zip(system.U, system.costates[1:], strict=True)]
-            states = system.fly(interior_state(system), controls)
+            states = system.fly(system.inner_state(), controls)
             yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
             yield "N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)
             yield (
@@ -188,13 +192,14 @@ def optimal_from_inside() -> Proof:
     "system (7) satisfies the conditions of the maximum principle for boundary points, so its control is "
     "the optimal one",
     verdict="conditional",
-    remark="It is optimal for (1), and the only one for (7). For (1) it is one of many: A = I, unit discs, "
-    "x0 = −3/2 e1, is brought to 0 by 3/4 e1 twice, and by e1 and e1/2.",
+    remark="This control is optimal for (1), and the only optimal one for (7). For (1) it is one of "
+    "many: with A = I and unit discs, x0 = −3/2 e1 is brought to 0 by 3/4 e1 twice, and also by "
+    "e1 and then e1/2.",
 )
 def conditions_of_the_scaled_system() -> Conditional:
     def argument() -> Steps:
         for system in family():
-            size = share_of(system)
+            size = system.inner_gauge
             yield f"{named(system)}: α > 0, so αU(k) is an ellipsoid with 0 inside", size > 0
             yield (
                 "x0 is on its boundary of N steps and not in N − 1",

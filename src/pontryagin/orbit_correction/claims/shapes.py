@@ -23,7 +23,7 @@ def shape_inverse(system: ExactSystem, k: int) -> sp.Matrix:
 
 @claim(
     "section 6: U(k)",
-    "(u, Hu) ≤ 1 with H positive definite is a set of U_2, for (u, Hu) is strictly convex",
+    "the set (u, Hu) ≤ 1 with H positive definite belongs to U_2, because (u, Hu) is strictly convex",
     verdict="holds",
 )
 def ellipsoids_are_strictly_convex() -> Proof:
@@ -190,7 +190,7 @@ def shape_of_a_summand() -> Misprint:
     "after Lemma 8: X(N, 0)",
     "X(N, 0) is the sum of E_1, ..., E_N",
     verdict="holds",
-    remark="With E_k as corrected.",
+    remark="True with the corrected E_k.",
 )
 def sum_of_ellipsoids() -> Proof:
     def argument() -> Steps:

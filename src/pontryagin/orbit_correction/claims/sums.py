@@ -17,7 +17,11 @@ E1 = sp.Matrix([1, 0])
 DISC = Ellipsoid(sp.ImmutableMatrix(sp.eye(2)))
 
 
-@claim("Lemma 5, i)", "a boundary point of a sum has one decomposition", verdict="holds")
+@claim(
+    "Lemma 5, i)",
+    "a boundary point of X1 + X2 is in exactly one way a sum of a point of X1 and a point of X2",
+    verdict="holds",
+)
 def one_decomposition() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -42,7 +46,7 @@ def one_decomposition() -> Proof:
     return Proof(argument, display=r"y^* = x^{1*} + x^{2*},\quad x^{1*} \in X_1,\ x^{2*} \in X_2")
 
 
-@claim("Lemma 5, ii)", "its parts are boundary points", verdict="holds")
+@claim("Lemma 5, ii)", "these two points lie on the boundaries of X1 and X2", verdict="holds")
 def parts_on_the_boundary() -> Proof:
     def argument() -> Steps:
         for system in family():
@@ -70,10 +74,11 @@ def lens_and_disc() -> Steps:
 
 @claim(
     "Lemma 5, iii)",
-    "a normal of the sum is a normal of both summands",
+    "a normal of the sum at this point is a normal of both summands at their points",
     verdict="holds",
-    remark="Printed as an inclusion; it is an equality, as the last line of the proof says and as (4) and "
-    "(9) need it. For a corner of one summand the intersection is smaller than that summand's cone.",
+    remark="Printed as an inclusion. It is an equality, as the last line of the proof says and as (4) "
+    "and (9) require. At a corner of one summand the intersection is smaller than the normal cone "
+    "of that summand.",
 )
 def normals_of_a_sum() -> Proof:
     def argument() -> Steps:
@@ -94,8 +99,9 @@ def normals_of_a_sum() -> Proof:
     "proof of Lemma 5: maximum",
     "the maxima over X1 and X2 add up to the maximum over Y",
     verdict="misprint",
-    remark="Printed: (p, x1 + x2) maximised over x1 in X1 alone, twice. Right: over x1 in X1 and x2 in X2 "
-    "(the second line may be lost in the scan). For two unit discs, p = e1 and x2 = 0 that is 1, not 2.",
+    remark="Printed, twice: the maximum of (p, x1 + x2) over x1 in X1 alone. Right: over x1 in X1 and x2 "
+    "in X2 (the second line may be lost in the scan). For two unit discs, p = e1 and x2 = 0 the "
+    "print gives 1 instead of 2.",
 )
 def maximum_over_the_sum() -> Misprint:
     p, second = E1, sp.zeros(2, 1)
@@ -125,7 +131,7 @@ def maximum_over_the_sum() -> Misprint:
     "proof of Lemma 5: uniqueness",
     "another decomposition, with x1 ≠ x1* on the boundary of X1, would have (p, x1) < (p, x1*)",
     verdict="holds",
-    remark="Inner points x1 of X1 are not considered; the same inequality excludes them.",
+    remark="The paper does not consider inner points x1 of X1; the same inequality excludes them.",
 )
 def other_decompositions() -> Proof:
     def argument() -> Steps:
@@ -145,7 +151,7 @@ def other_decompositions() -> Proof:
     "proof of Lemma 5: equality",
     "N(y*, Y) is the intersection of the two normal cones",
     verdict="holds",
-    remark="The second set is once printed X² for X_2.",
+    remark="The paper once prints X² where X_2 is meant.",
 )
 def equality_of_normal_cones() -> Proof:
     def argument() -> Steps:

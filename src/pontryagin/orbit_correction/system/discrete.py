@@ -55,7 +55,7 @@ class DiscreteSystem:
                 matrices = finite(name, given, "an (n, n) matrix, a sequence of them, or a callable of k")
                 if matrices.ndim not in (2, 3):
                     raise ArgumentValueError(
-                        f"{name} must be (n, n) or (steps, n, n), got shape {matrices.shape}", name
+                        f"{name} must be an array (n, n) or (steps, n, n), got shape {matrices.shape}", name
                     )
                 object.__setattr__(self, name, matrices)
 
@@ -74,21 +74,23 @@ class DiscreteSystem:
             dynamics, shape = _matrix("A", self.A, index), _matrix("H", self.H, index)
             if shape.shape != dynamics.shape:
                 raise ArgumentValueError(
-                    f"H({index}) must be {dynamics.shape} like A({index}), got {shape.shape}", "H"
+                    f"H({index}) must have shape {dynamics.shape} like A({index}), got {shape.shape}", "H"
                 )
             if index and dynamics.shape != self._steps[0][0].shape:
-                raise ArgumentValueError(
-                    f"A({index}) must be {self._steps[0][0].shape} like A(0), got {dynamics.shape}", "A"
-                )
-            if np.linalg.cond(dynamics) > SINGULAR:
-                raise ArgumentValueError(
-                    f"A({index}) must be nonsingular, its condition is above {SINGULAR:g}", "A"
-                )
+                takes = f"have shape {self._steps[0][0].shape} like A(0)"
+                raise ArgumentValueError(f"A({index}) must {takes}, got {dynamics.shape}", "A")
+            condition = np.linalg.cond(dynamics)
+            if condition > SINGULAR:
+                takes = f"be nonsingular, with a condition number up to {SINGULAR:g}"
+                raise ArgumentValueError(f"A({index}) must {takes}, got {condition:.3g}", "A")
             self._steps.append((dynamics, _ellipsoid_factor(shape, index)))
         return self._steps[k]
 
     def factors(self, steps: int) -> Array:
-        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) = sum of G_k B, Lemma 1."""
+        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n).
+
+        The set X(N, 0) of (2) is the sum of the G_k B, Lemma 1, which are ellipsoids by Lemma 8.
+        """
         inverse, result = None, []
         for k in range(steps):
             dynamics, factor = self.step(k)
@@ -97,7 +99,9 @@ class DiscreteSystem:
                 result.append(inverse @ factor)
             if not np.isfinite(result[-1]).all():
                 raise ArgumentValueError(
-                    f"A: the inverse of A({k}) ... A(0) is beyond the range of floating numbers", "A"
+                    "A must have inverses of its products A(k) ... A(0) within the range of floating-point "
+                    f"numbers, got one beyond it at k = {k}",
+                    "A",
                 )
         return np.array(result)
 
@@ -125,15 +129,15 @@ def _ellipsoid_factor(shape: Array, k: int) -> Array:
     if not np.allclose(shape, shape.T, rtol=1e-12, atol=0):
         difference = np.abs(shape - shape.T).max()
         raise ArgumentValueError(
-            f"H({k}) must be symmetric, it differs from its transpose by {difference:.3g}", "H"
+            f"H({k}) must be symmetric, got one that differs from its transpose by {difference:.3g}", "H"
         )
     values, axes = np.linalg.eigh(shape)
     if values[0] <= 0:
         raise ArgumentValueError(
-            f"H({k}) must be positive definite, its least eigenvalue is {values[0]:.3g}", "H"
+            f"H({k}) must be positive definite, got the least eigenvalue {values[0]:.3g}", "H"
         )
     if values[0] <= 1e-15 * values[-1]:
         raise ArgumentValueError(
-            f"H({k}) must be nonsingular, its condition is {values[-1] / values[0]:.3g}", "H"
+            f"H({k}) must have a condition number below 1e15, got {values[-1] / values[0]:.3g}", "H"
         )
     return np.asarray(axes / np.sqrt(values))

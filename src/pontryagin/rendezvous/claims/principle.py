@@ -44,7 +44,9 @@ PRIMER = dict(zip(canonical.PSI, (sp.Rational(k, 6) for k in (2, -1, 3, 2, 3, 6)
 """Values of psi_R and psi_V at the state `PLACE`, with |psi_V| = 7/6."""
 
 
-@claim("section 2: costates", "μ, ρ, s1, e, Φ*, ψ0 belong to λ, r, v1, c, φ*, g", verdict="holds")
+@claim(
+    "section 2: costates", "μ, ρ, s1, e, Φ* and ψ0 are the costates of λ, r, v1, c, φ* and g", verdict="holds"
+)
 def costates() -> Proof:
     def argument() -> Steps:
         left = canonical.hamiltonian_gap(PLACE) - principle.anomaly_costate * model.anomaly_rate()
@@ -68,7 +70,7 @@ def costates() -> Proof:
     return Proof(argument, display=r"\dot g = \alpha_1 + \alpha_2 p^2,\quad g(t_0) = 0")
 
 
-@claim("(8)", "the thrust lies along n", verdict="holds", remark="Where n ≠ 0.")
+@claim("(8)", "the thrust lies along n", verdict="holds", remark="This holds where n ≠ 0.")
 def direction() -> Proof:
     key = r"\bar p_\eta^0"
 
@@ -97,7 +99,7 @@ def direction() -> Proof:
     "(9)",
     "n = s1 i1 + e r i2 + [r ν1/(2c)] i3, and its length",
     verdict="holds",
-    remark="The scan prints ν like v; that ν1 is meant, the line after (10) says.",
+    remark="The scan prints ν like v; the line after (10) says that ν1 is meant.",
 )
 def switching_vector() -> Equality:
     keys = (r"\bar n_\eta", r"|\bar n|")
@@ -147,9 +149,10 @@ def thrust_size() -> Proof:
 
 @claim(
     "(10), α2 = 0",
-    "without α2 the thrust is always p_max",
+    "for α2 = 0 the thrust is always p_max",
     verdict="holds",
-    remark="But for instants with n = 0. That n cannot stay 0 is not shown there; for α1 > 0 it cannot.",
+    remark="Instants with n = 0 are excepted. The page does not show that n cannot stay 0; for α1 > 0 it "
+    "cannot.",
 )
 def no_singular_arcs() -> Proof:
     def argument() -> Steps:
@@ -196,7 +199,7 @@ def variable_nu() -> Equality:
     )
 
 
-@claim("section 2: 16", "the problem comes to 16 differential equations", verdict="holds")
+@claim("section 2: 16", "the problem leads to 16 differential equations", verdict="holds")
 def sixteen() -> Proof:
     def argument() -> Steps:
         form = forms.full("unsaturated")

@@ -51,7 +51,8 @@ def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Ex
     "abstract",
     "nonlinear transformations lower the dimension of the boundary value problem",
     verdict="holds",
-    remark="To ten equations and one quadrature more than the paper has: see the conclusion.",
+    remark="The dimension falls to that of ten equations and one quadrature, which the paper does not have: "
+    "see the entry on the conclusion.",
 )
 def lower_dimension() -> Proof:
     def argument() -> Steps:
@@ -188,7 +189,11 @@ def constant_area() -> Proof:
     return Proof(argument)
 
 
-@claim("section 1: η*", "η1* along R*, η3* along c*: v1* is the projection of V* on η1*", verdict="holds")
+@claim(
+    "section 1: η*",
+    "η1* points along R* and η3* along c*, and v1* is the projection of V* on η1*",
+    verdict="holds",
+)
 def axes_of_the_target() -> Proof:
     def argument() -> Steps:
         place, velocity = model.cartesian()
@@ -231,8 +236,8 @@ def orientation_by_angles() -> Proof:
     "section 1: given",
     "p*, e*, c*, Λ* and φ0* are given",
     verdict="conditional",
-    remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) is no motion of a coasting "
-    "craft.",
+    remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) does not describe the motion "
+    "of a coasting craft.",
 )
 def given_quantities() -> Conditional:
     def left_over() -> sp.Expr:
@@ -261,9 +266,9 @@ def given_quantities() -> Conditional:
 
 @claim(
     "section 1: moving end",
-    "φ*_k is not fixed: the end lies on the manifold (5), (6), and the right end moves",
+    "φ*_k is not fixed: the right end of the trajectory moves on the manifold (5), (6)",
     verdict="holds",
-    remark="Two curves, in fact: λ = λ* and λ = −λ*, the same attitudes.",
+    remark="The manifold consists of two curves, λ = λ* and λ = −λ*, which are the same attitudes.",
 )
 def moving_end() -> Proof:
     def argument() -> Steps:

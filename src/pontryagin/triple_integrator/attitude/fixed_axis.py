@@ -70,13 +70,13 @@ class Turn:
         return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
 
     def angle(self, t: ArrayLike) -> Array:
-        """Angle turned about the axis, rad, (k,): the twist of the true attitude about the axis."""
+        """Angle gamma of (0.1), turned about the axis, rad, (k,): the twist of the true attitude about it."""
         turn = between(self.planned_attitude(t), self.attitude(t))
         twist: Array = 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
         return self.motion.commands(t)[:, 0] + twist
 
     def channel_torque(self, t: ArrayLike) -> Array:
-        """J e x3, the torque that the programme commands, (k, 3)."""
+        """J e x3, the torque that the programme commands, the m of (0.3) times J e, (k, 3)."""
         return self.motion.commands(t)[:, 2:] * (self.body.inertia @ self.axis)
 
     def gyroscopic_torque(self, t: ArrayLike) -> Array:
@@ -89,7 +89,7 @@ class Turn:
         return channel + self.gyroscopic_torque(t) if self.feedforward else channel
 
     def torque_rate(self, t: ArrayLike) -> Array:
-        """Rate of change of `torque` between impulses, (k, 3); at an impulse du it jumps by J e du."""
+        """Rate of change of `torque` between impulses, (0.4), (k, 3); at an impulse du it jumps by J e du."""
         x2, x3 = self.motion.commands(t)[:, 1:].T
         control = self.programme.control(t)
         channel = np.where(np.isfinite(control), control, 0.0)[:, None] * (self.body.inertia @ self.axis)
@@ -178,8 +178,8 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     return Turn(body, e, programme, bool(feedforward), motion)
 
 
-def single(programme: Programme) -> Maneuver:
-    """The manoeuvre of a programme.
+def single(programme: Programme, name: str = "programme") -> Maneuver:
+    """The manoeuvre of a programme, which is the caller's argument of this name.
 
     Raises
     ------
@@ -189,7 +189,7 @@ def single(programme: Programme) -> Maneuver:
     maneuver = programme.maneuver
     if maneuver.shape != ():
         raise ArgumentValueError(
-            f"programme must be that of one manoeuvre, got a stack of shape {maneuver.shape}", "programme"
+            f"{name} must be the solution of one manoeuvre, got a stack of shape {maneuver.shape}", name
         )
     return maneuver
 
@@ -207,7 +207,7 @@ def _unit(axis: ArrayLike) -> Array:
     size = np.linalg.norm(direction)
     if direction.shape != (3,) or not size > 0:
         raise ArgumentValueError(
-            f"axis must be an array (3,) other than zero, got {direction.tolist()}", "axis"
+            f"axis must be an array (3,) that is not zero, got {direction.tolist()}", "axis"
         )
     return direction / size
 

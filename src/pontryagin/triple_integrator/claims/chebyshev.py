@@ -112,7 +112,7 @@ def condition_on_the_multipliers() -> Evidence:
 
 @claim(
     "after (4.3): Chebyshev",
-    "for arbitrary ends the minimal element is ±ρ0 T2, the polynomial least deviating from zero",
+    "for arbitrary ends the minimal element is ±ρ0 T2, the polynomial that deviates least from zero",
     verdict="conditional",
     remark="True where a0, am, aT of (4.10) are all ≥ 0 for s0 = sign F (a cone of c), and nowhere else. For "
     "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: "
@@ -180,7 +180,7 @@ def minimal_element_in_powers() -> Evidence:
     "(4.5)",
     "T2 in the variable τ",
     verdict="holds",
-    remark="The scan reads τ as φ in the sentence before it.",
+    remark="In the sentence before it the scan shows φ in place of τ.",
 )
 def chebyshev_in_time() -> Evidence:
     key = r"T_2(2\tau/T - 1)"
@@ -192,7 +192,9 @@ def chebyshev_in_time() -> Evidence:
     )
 
 
-@claim("before (4.6): system", "equal coefficients of h0 and ρ~0 T2, and (4.3)", verdict="holds")
+@claim(
+    "before (4.6): system", "the coefficients of h0 and ρ~0 T2 are equal, and (4.3) holds", verdict="holds"
+)
 def matching_system() -> Evidence:
     printed = [
         T**2 * l1 / 16 - signed_norm,
@@ -234,7 +236,7 @@ def cramers_rule() -> Evidence:
     )
 
 
-@claim("after (4.6): determinants", "D1, D2, D3, Dρ", verdict="holds")
+@claim("after (4.6): determinants", "the determinants D1, D2, D3 and Dρ", verdict="holds")
 def cramer_numerators() -> Evidence:
     printed = {"D_1": T / 8, "D_2": -(T**2) / 16, "D_3": T**3 / 128, r"D_\rho": T**3 / 128}
     return Equality(printed, lambda: chebyshev.cramer(chebyshev.matching())[0])
@@ -287,7 +289,7 @@ def chebyshev_element() -> Evidence:
     "after (4.6): ρ0",
     "its norm is ρ0 = T²/|F|, and sign s0 = sign F",
     verdict="holds",
-    remark="The norm of this h0; that it is the least norm is another claim, above.",
+    remark="This is the norm of this h0. That it is the least norm is the claim after (4.3).",
 )
 def norm_of_the_chebyshev_element() -> Evidence:
     def derived() -> Sides:
@@ -307,7 +309,7 @@ def norm_of_the_chebyshev_element() -> Evidence:
     )
 
 
-@claim("after (4.6): extremes", "h0 is extreme at 0, T/2 and T", verdict="holds")
+@claim("after (4.6): extremes", "h0 takes its extreme values at 0, T/2 and T", verdict="holds")
 def instants_of_the_extremes() -> Evidence:
     keys = (r"\tau_1^*", r"\tau_2^*", r"\tau_3^*")
 

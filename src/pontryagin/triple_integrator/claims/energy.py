@@ -191,7 +191,7 @@ def norm_of_the_programme() -> Evidence:
     )
 
 
-@claim("after (2.2): solution", "this solves problem 1 for arbitrary ends", verdict="holds")
+@claim("after (2.2): solution", "this programme solves problem 1 for arbitrary ends", verdict="holds")
 def general_solution() -> Evidence:
     def argument() -> Steps:
         force = sp.Symbol("f_0", real=True)

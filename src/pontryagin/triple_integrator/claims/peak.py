@@ -71,7 +71,7 @@ def dual_norm_in_l1() -> Evidence:
     )
 
 
-@claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
+@claim("(3.1)", "the dual problem is to minimise ∫|ψ3| on l'c = 1, where ψ3 = h", verdict="holds")
 def dual_problem() -> Evidence:
     key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]

@@ -77,7 +77,7 @@ class TimeSolution(BangBang):
 def minimum_time(
     x0: ArrayLike, xf: ArrayLike, peak: ArrayLike, disturbance: ArrayLike | None = None
 ) -> TimeSolution:
-    """Least time between two states of the triple integrator under |u| <= peak.
+    """Least time between two states of the triple integrator under the bound (0.7), |u| <= peak.
 
     Section 3 calls this problem mutual to the least peak. This is true if one of the two states is an
     equilibrium. Otherwise the least peak need not fall as the time grows, and the least time is the first at
@@ -129,7 +129,9 @@ def minimum_time(
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
         arrived = bool((result[..., 0] < NEVER).all())
     if not arrived:
-        raise NotConverged("no root of the quartics reaches the target", float(result[..., 4].max()))
+        lost = ~(result[..., 0] < NEVER)
+        reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
+        raise NotConverged(reason, float(result[..., 4].max()))
     duration = result[..., 0]
     certificate = Certificate(result[..., 4], duration, result[..., 5])
     return TimeSolution(start, end, bound, force, duration, result[..., 1], result[..., 2:4], certificate)
