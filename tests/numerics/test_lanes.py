@@ -6,9 +6,10 @@ import sympy as sp
 from numpy.testing import assert_allclose
 
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.equations import Kernel, Symbolic
+from pontryagin.numerics.equations import Kernel
 from pontryagin.numerics.flow import has_heyoka, integrator
 from pontryagin.numerics.lanes import Lanes, ends, stacked
+from pontryagin.numerics.symbolic import Symbolic
 
 x, v, k, t = sp.symbols("x v k t")
 KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]

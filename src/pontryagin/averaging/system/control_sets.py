@@ -7,13 +7,7 @@ from typing import Protocol, TypeAlias
 import numpy as np
 import sympy as sp
 
-from pontryagin.averaging.system.control_checks import (
-    Numbers,
-    numeric,
-    refusal,
-    require_count,
-    require_positive,
-)
+from pontryagin.averaging.system.control_checks import Numbers, numeric, refusal, require_positive
 from pontryagin.value import value_class
 
 Number: TypeAlias = "float | sp.Expr"
@@ -93,9 +87,17 @@ class Quadratic:
                 raise refusal(f"Quadratic: weight must be positive definite, got {values.tolist()}")
 
 
+class Bounded:
+    """A set of controls that are bounded and cost nothing."""
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Zero, whatever the control."""
+        return sp.Integer(0)
+
+
 @value_class
 @dataclass(frozen=True, eq=False)
-class Ball:
+class Ball(Bounded):
     """|u| <= radius.
 
     Examples
@@ -115,10 +117,6 @@ class Ball:
         """Radius times s / |s|."""
         return sp.sympify(self.radius) * _unit(s)
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The radius must be positive."""
         require_positive("Ball: radius", [self.radius], numbers)
@@ -126,7 +124,7 @@ class Ball:
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class Ellipsoid:
+class Ellipsoid(Bounded):
     """sum of (u_i / l_i)^2 <= 1.
 
     Parameters
@@ -158,19 +156,14 @@ class Ellipsoid:
     def _scaled(self, s: Sequence[sp.Expr]) -> list[sp.Expr]:
         return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The semiaxes must be positive, one for each control."""
-        require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
-        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
+        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers, dimension)
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class Box:
+class Box(Bounded):
     """|u_i| <= l_i.
 
     Parameters
@@ -192,24 +185,18 @@ class Box:
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
-        return sp.Add(
-            *(sp.sympify(l) * _of_one(sp.Abs, part) for l, part in zip(self.bounds, s, strict=True))
-        )
+        return sp.Add(*self._each(sp.Abs, s))
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """l_i sign(s_i)."""
-        return sp.Matrix(
-            [sp.sympify(l) * _of_one(sp.sign, part) for l, part in zip(self.bounds, s, strict=True)]
-        )
+        return sp.Matrix(self._each(sp.sign, s))
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
+    def _each(self, function: type[sp.Function], s: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.sympify(l) * _of_one(function, part) for l, part in zip(self.bounds, s, strict=True)]
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The bounds must be positive, one for each control."""
-        require_count("Box: bounds", self.bounds, dimension)
-        require_positive("Box: bounds", self.bounds, numbers)
+        require_positive("Box: bounds", self.bounds, numbers, dimension)
 
 
 @value_class

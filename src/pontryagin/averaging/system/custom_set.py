@@ -7,13 +7,14 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.averaging.system.control_checks import Numbers, listed, refusal
+from pontryagin.averaging.system.control_sets import Bounded
 from pontryagin.numerics import compile as compiler
 from pontryagin.value import value_class
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class Custom:
+class Custom(Bounded):
     """Any compact convex set, given by its support function.
 
     Parameters
@@ -44,10 +45,6 @@ class Custom:
         value = self.support(free)
         at = dict(zip(free, s, strict=True))
         return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
-
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""
