@@ -13,7 +13,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Steps,
     vanishes,
 )
@@ -90,20 +89,17 @@ def phase_costate() -> Evidence:
     )
 
 
-@claim("after (2.1): remainders", "f1, P1 and Q1 are bounded, and may be dropped", verdict="holds")
-def remainders() -> Evidence:
-    def argument() -> Steps:
-        second = principle.phase_costate()[1]
-        numerator, denominator = sp.fraction(sp.together(second))
-        yield (
-            "Q1 → (h*∂h*/∂q − ω∂h*/∂ε)/ω²: ω ≥ ω0 alone divides",
-            vanishes(denominator / omega**2 - 1) and not numerator.has(1 / omega),
-        )
-        for eps in worked.EPSILONS:
-            off = worked.deviations(eps)["costate"]
-            yield f"rippled example, ε = {eps}: without them p(t1) is off by {off / eps:.2f}ε", off < eps
-
-    return Proof(argument)
+@claim.proof("after (2.1): remainders", "f1, P1 and Q1 are bounded, and may be dropped")
+def remainders() -> Steps:
+    second = principle.phase_costate()[1]
+    numerator, denominator = sp.fraction(sp.together(second))
+    yield (
+        "Q1 → (h*∂h*/∂q − ω∂h*/∂ε)/ω²: ω ≥ ω0 alone divides",
+        vanishes(denominator / omega**2 - 1) and not numerator.has(1 / omega),
+    )
+    for eps in worked.EPSILONS:
+        off = worked.deviations(eps)["costate"]
+        yield f"rippled example, ε = {eps}: without them p(t1) is off by {off / eps:.2f}ε", off < eps
 
 
 @claim(
@@ -148,20 +144,19 @@ def one_solution_for_each_end() -> Evidence:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("(2.2)", "h* = (pf*) = 0 at t1 picks the extremals", verdict="holds")
-def condition() -> Evidence:
-    def argument() -> Steps:
-        level = omega * q + epsilon * principle.h_star
-        yield (
-            "on H* = 0 with q(t1) = 0: h* = 0",
-            vanishes(level.subs(q, 0) - epsilon * principle.h_star.subs(q, 0)),
-        )
-        at_zero = sp.solve(level.subs(principle.h_star, 0), q)
-        yield "and with h* = 0, as ω > 0: q(t1) = 0", at_zero == [0]
-        h = principle.small_part().subs(q, 0)
-        yield "h at q = 0 is (pf)", vanishes(h - sp.Matrix(p).dot(f))
-
-    return Proof(argument, display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0")
+@claim.proof(
+    "(2.2)", "h* = (pf*) = 0 at t1 picks the extremals", display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0"
+)
+def condition() -> Steps:
+    level = omega * q + epsilon * principle.h_star
+    yield (
+        "on H* = 0 with q(t1) = 0: h* = 0",
+        vanishes(level.subs(q, 0) - epsilon * principle.h_star.subs(q, 0)),
+    )
+    at_zero = sp.solve(level.subs(principle.h_star, 0), q)
+    yield "and with h* = 0, as ω > 0: q(t1) = 0", at_zero == [0]
+    h = principle.small_part().subs(q, 0)
+    yield "h at q = 0 is (pf)", vanishes(h - sp.Matrix(p).dot(f))
 
 
 @claim(

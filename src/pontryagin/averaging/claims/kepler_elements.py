@@ -25,7 +25,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Steps,
     vanishes,
 )
@@ -43,31 +42,27 @@ PLACE = {u_radial: 1, u_transverse: 0, epsilon: 1, momentum: 1, e: R(1, 2), anom
 """A radial push of size 1 at the anomaly 60° of the orbit K = 1, e = 1/2."""
 
 
-@claim(
+@claim.proof(
     "before (3.6): type (1.1)",
     "(3.4) and (3.5) take (3.3) to a system of the form (1.1)",
-    verdict="holds",
     remark="For 0 < e < 1. Slow are E, K and γ, the phase is ψ; the rates of γ and ψ grow as 1/e near the "
     "circle.",
 )
-def standard_form() -> Evidence:
-    def argument() -> Steps:
-        rates = kepler.element_rates()
-        slow = [rates[key] / epsilon for key in (energy, momentum, gamma)]
-        yield (
-            "the rates of E, K, γ are ε times functions free of ε",
-            not any(sp.cancel(rate).has(epsilon) for rate in slow),
-        )
-        turned = [vanishes(rate - rate.subs(anomaly, anomaly + 2 * sp.pi)) for rate in slow]
-        yield "of period 2π in x, and so in ψ", all(turned)
-        yield (
-            "dψ/dx > 0: x is a function of ψ",
-            vanishes(kepler.weight() * (1 + e * cos) ** 2 - sp.sqrt(1 - e**2) ** 3),
-        )
-        still = kepler_phase.mean_anomaly_rate().subs({pericentre_rate: 0, eccentricity_rate: 0})
-        yield "ψ' is ω(E) > 0 up to ε", still.free_symbols == {energy} and still.is_positive is True
-
-    return Proof(argument)
+def standard_form() -> Steps:
+    rates = kepler.element_rates()
+    slow = [rates[key] / epsilon for key in (energy, momentum, gamma)]
+    yield (
+        "the rates of E, K, γ are ε times functions free of ε",
+        not any(sp.cancel(rate).has(epsilon) for rate in slow),
+    )
+    turned = [vanishes(rate - rate.subs(anomaly, anomaly + 2 * sp.pi)) for rate in slow]
+    yield "of period 2π in x, and so in ψ", all(turned)
+    yield (
+        "dψ/dx > 0: x is a function of ψ",
+        vanishes(kepler.weight() * (1 + e * cos) ** 2 - sp.sqrt(1 - e**2) ** 3),
+    )
+    still = kepler_phase.mean_anomaly_rate().subs({pericentre_rate: 0, eccentricity_rate: 0})
+    yield "ψ' is ω(E) > 0 up to ε", still.free_symbols == {energy} and still.is_positive is True
 
 
 @claim("(3.6): E and K", "how thrust changes energy and angular momentum", verdict="holds")
@@ -141,31 +136,24 @@ def phase_rate() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (3.6): initial data",
     "the initial values of (3.6) follow from (3.3)–(3.5)",
-    verdict="holds",
     remark="e cos x = r v_φ² − 1 and e sin x = r v_φ v_r give e and x; then γ = φ − x, and ψ by (3.5). For "
     "e > 0.",
 )
-def initial_data() -> Evidence:
-    def argument() -> Steps:
-        state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]
-        on_orbit = [kepler.on_the_orbit(part) for part in state]
-        yield (
-            "r v_φ² − 1 = e cos x, r v_φ v_r = e sin x",
-            all(vanishes(part - e * value) for part, value in zip(on_orbit, (cos, sin), strict=True)),
-        )
-        K, E = r * v_transverse, kepler.energy_of_state()
-        yield "and e² = 1 + 2EK² is the same e", vanishes(sum(part**2 for part in state) - (1 + 2 * E * K**2))
-        example = {r: 1, phi: R(1, 3), v_radial: R(1, 2), v_transverse: 1}
-        values = [part.subs(example) for part in state]
-        yield (
-            "r = 1, v_r = 1/2, v_φ = 1: e cos x = 0, e sin x = 1/2; e = 1/2, x = π/2",
-            values == [0, R(1, 2)],
-        )
-
-    return Proof(argument)
+def initial_data() -> Steps:
+    state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]
+    on_orbit = [kepler.on_the_orbit(part) for part in state]
+    yield (
+        "r v_φ² − 1 = e cos x, r v_φ v_r = e sin x",
+        all(vanishes(part - e * value) for part, value in zip(on_orbit, (cos, sin), strict=True)),
+    )
+    K, E = r * v_transverse, kepler.energy_of_state()
+    yield "and e² = 1 + 2EK² is the same e", vanishes(sum(part**2 for part in state) - (1 + 2 * E * K**2))
+    example = {r: 1, phi: R(1, 3), v_radial: R(1, 2), v_transverse: 1}
+    values = [part.subs(example) for part in state]
+    yield "r = 1, v_r = 1/2, v_φ = 1: e cos x = 0, e sin x = 1/2; e = 1/2, x = π/2", values == [0, R(1, 2)]
 
 
 @claim("after (3.6): e and p", "how thrust changes eccentricity and focal parameter", verdict="holds")

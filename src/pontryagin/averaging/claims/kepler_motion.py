@@ -59,22 +59,19 @@ def equations_of_motion() -> Evidence:
     )
 
 
-@claim("after (3.3): ε = 0", "for ε = 0 the system is integrable", verdict="holds")
-def integrable() -> Evidence:
-    def argument() -> Steps:
-        coast = [kepler.along_the_motion(part).subs(COAST) for part in kepler.laplace()]
-        yield "both components of Laplace's vector are constant without thrust", all(map(vanishes, coast))
-        kept = sp.Matrix([kepler.energy_of_state(), kepler.momentum_of_state(), *kepler.laplace()])
-        point = {r: 1, phi: 0, v_radial: R(1, 5), v_transverse: R(6, 5)}
-        rank = kept.jacobian(kepler.STATE).subs(point).rank()
-        yield "with E and K three of the four constants are independent: the orbit is known", rank == 3
-        slope = kepler.ellipse_radius() / sp.sqrt(-2 * energy)
-        yield (
-            "time along it is the quadrature of (3.4)",
-            vanishes(kepler.time_of_flight().diff(eccentric) - slope),
-        )
-
-    return Proof(argument)
+@claim.proof("after (3.3): ε = 0", "for ε = 0 the system is integrable")
+def integrable() -> Steps:
+    coast = [kepler.along_the_motion(part).subs(COAST) for part in kepler.laplace()]
+    yield "both components of Laplace's vector are constant without thrust", all(map(vanishes, coast))
+    kept = sp.Matrix([kepler.energy_of_state(), kepler.momentum_of_state(), *kepler.laplace()])
+    point = {r: 1, phi: 0, v_radial: R(1, 5), v_transverse: R(6, 5)}
+    rank = kept.jacobian(kepler.STATE).subs(point).rank()
+    yield "with E and K three of the four constants are independent: the orbit is known", rank == 3
+    slope = kepler.ellipse_radius() / sp.sqrt(-2 * energy)
+    yield (
+        "time along it is the quadrature of (3.4)",
+        vanishes(kepler.time_of_flight().diff(eccentric) - slope),
+    )
 
 
 @claim("(3.4): E and K", "the energy and the angular momentum as integrals", verdict="holds")
@@ -152,42 +149,37 @@ def eccentricity() -> Evidence:
     )
 
 
-@claim("after (3.4): γ, δ", "x = φ − γ; γ and δ are arbitrary constants", verdict="holds")
-def arbitrary_constants() -> Evidence:
-    def argument() -> Steps:
-        rates = kepler.equations_of_motion()
-        yield "the equations hold neither φ nor t: an orbit may be turned and delayed", not rates.has(phi, t)
-        along = kepler.laplace().applyfunc(kepler.on_the_orbit)
-        straight = sp.Matrix([e * sp.cos(gamma), e * sp.sin(gamma)])
-        yield (
-            "with φ = γ + x Laplace's vector has the direction γ, and is constant",
-            vanishes((along - straight).applyfunc(sp.expand_trig)),
-        )
+@claim.proof(
+    "after (3.4): γ, δ", "x = φ − γ; γ and δ are arbitrary constants", display=r"x = \varphi - \gamma"
+)
+def arbitrary_constants() -> Steps:
+    rates = kepler.equations_of_motion()
+    yield "the equations hold neither φ nor t: an orbit may be turned and delayed", not rates.has(phi, t)
+    along = kepler.laplace().applyfunc(kepler.on_the_orbit)
+    straight = sp.Matrix([e * sp.cos(gamma), e * sp.sin(gamma)])
+    yield (
+        "with φ = γ + x Laplace's vector has the direction γ, and is constant",
+        vanishes((along - straight).applyfunc(sp.expand_trig)),
+    )
 
-    return Proof(argument, display=r"x = \varphi - \gamma")
 
-
-@claim(
+@claim.proof(
     "after (3.4): period",
     "the motion is bounded and periodic, its period depends on the energy only",
-    verdict="holds",
     remark="For E < 0.",
 )
-def bounded_and_periodic() -> Evidence:
-    def argument() -> Steps:
-        radius = kepler.ellipse_radius()
-        ends = [radius.subs(eccentric, angle) for angle in (0, sp.pi)]
-        yield (
-            "r stays between (1 − e)/(2|E|) and (1 + e)/(2|E|)",
-            [vanishes(end - (1 + sign * e) / (-2 * energy)) for end, sign in zip(ends, (-1, 1), strict=True)]
-            == [True, True],
-        )
-        slope = kepler.time_of_flight().diff(eccentric)
-        yield "time grows with ξ: dt/dξ = r/(2|E|)^(1/2)", vanishes(slope - radius / sp.sqrt(-2 * energy))
-        lap = kepler.time_of_flight().subs(eccentric, eccentric + 2 * sp.pi) - kepler.time_of_flight()
-        yield "a turn in ξ takes T(E), whatever e", sp.simplify(lap).free_symbols == {energy}
-
-    return Proof(argument)
+def bounded_and_periodic() -> Steps:
+    radius = kepler.ellipse_radius()
+    ends = [radius.subs(eccentric, angle) for angle in (0, sp.pi)]
+    yield (
+        "r stays between (1 − e)/(2|E|) and (1 + e)/(2|E|)",
+        [vanishes(end - (1 + sign * e) / (-2 * energy)) for end, sign in zip(ends, (-1, 1), strict=True)]
+        == [True, True],
+    )
+    slope = kepler.time_of_flight().diff(eccentric)
+    yield "time grows with ξ: dt/dξ = r/(2|E|)^(1/2)", vanishes(slope - radius / sp.sqrt(-2 * energy))
+    lap = kepler.time_of_flight().subs(eccentric, eccentric + 2 * sp.pi) - kepler.time_of_flight()
+    yield "a turn in ξ takes T(E), whatever e", sp.simplify(lap).free_symbols == {energy}
 
 
 @claim("after (3.4): T(E)", "the period", verdict="holds")
@@ -199,18 +191,15 @@ def period() -> Evidence:
     )
 
 
-@claim("before (3.5): 2π", "φ grows by 2π in a period", verdict="holds")
-def full_turn() -> Evidence:
-    def argument() -> Steps:
-        psi = kepler_phase.mean_of_true()
-        yield "ψ(x) has the slope dψ/dx of (3.5)", vanishes(psi.diff(anomaly) - kepler.weight())
-        yield (
-            "ψ(x + 2π) = ψ(x) + 2π: the bracket of (3.5) has the mean 0",
-            vanishes(psi.subs(anomaly, anomaly + 2 * sp.pi) - psi - 2 * sp.pi),
-        )
-        yield "and ψ grows by 2π in T", vanishes(kepler.mean_motion() * kepler.period() - 2 * sp.pi)
-
-    return Proof(argument)
+@claim.proof("before (3.5): 2π", "φ grows by 2π in a period")
+def full_turn() -> Steps:
+    psi = kepler_phase.mean_of_true()
+    yield "ψ(x) has the slope dψ/dx of (3.5)", vanishes(psi.diff(anomaly) - kepler.weight())
+    yield (
+        "ψ(x + 2π) = ψ(x) + 2π: the bracket of (3.5) has the mean 0",
+        vanishes(psi.subs(anomaly, anomaly + 2 * sp.pi) - psi - 2 * sp.pi),
+    )
+    yield "and ψ grows by 2π in T", vanishes(kepler.mean_motion() * kepler.period() - 2 * sp.pi)
 
 
 @claim("(3.5)", "the true anomaly in terms of the mean anomaly ψ", verdict="holds")

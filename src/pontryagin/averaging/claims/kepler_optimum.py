@@ -52,55 +52,48 @@ def left_over(variable: sp.Symbol, path: sp.Expr) -> sp.Expr:
     )
 
 
-@claim(
+@claim.proof(
     "before (3.9)",
     "an explicit solution of the boundary value problem, and with it the controls (3.8)",
-    verdict="holds",
     remark="With E(τ) put right. J0 = 2lτ1, and by Cauchy and Schwarz no control of the averaged system "
     "costs less: the extremal is its global minimum.",
 )
-def explicit_solution() -> Evidence:
-    def argument() -> Steps:
-        found = solution()
-        for name, variable in (("E", energy), ("K", momentum), ("p_E", costate_energy)):
-            yield f"{name}(τ) satisfies its averaged equation", vanishes(left_over(variable, found[variable]))
-        start = [found[energy].subs(tau, 0) - energy0, found[momentum].subs(tau, 0) - momentum0]
-        yield "E(0) = E0, K(0) = K0", all(map(vanishes, start))
-        ratio = kepler_optimum.shrinkage()
-        end = found[energy].subs(tau, duration).subs(rho, 2 * (1 - ratio) / duration)
-        yield "E(τ1) = E1", vanishes(end - energy1)
-        along = {energy: found[energy], costate_energy: found[costate_energy]}
-        level = principle.averaged_hamiltonian().subs(OPTIMUM).subs(along)
-        yield "h0 is the same for all τ", vanishes(level.diff(tau))
-        ending = sp.sqrt(energy0 / energy1)
-        at_the_end = sp.simplify(level.subs(duration, 2 * (1 - ratio) / rho))
-        yield (
-            "and 0 with |ρ| = (2l/|E1|)^(1/2)",
-            vanishes(at_the_end.subs(rho, kepler_optimum.costate_size())),
-        )
-        yield "1 − ½ρτ1 = (E0/E1)^(1/2)", vanishes(ratio - ending)
-        cost = kepler_optimum.optimal_cost() / kepler_optimum.optimal_duration()
-        yield "J0 = 2lτ1", vanishes(cost - 2 * price)
-        yield (
-            "the second derivative (2.15), an integral over |E|^(1/2), is positive",
-            kepler_optimum.ending_slope().is_positive is True,
-        )
-        power = principle.averages()[sp.Symbol("v^2")]
-        yield (
-            "|dE/dτ| = |⟨vu⟩| ≤ (2|E|⟨u²⟩)^(1/2), so |d|E|^(1/2)/dτ| ≤ (½⟨u²⟩)^(1/2)",
-            vanishes(power / (4 * sp.Abs(energy)) - R(1, 2)),
-        )
-        w = sp.Symbol("w", nonnegative=True)
-        yield (
-            "l + w² ≥ 2 l^(1/2) w then bounds every J0 from below by 2lτ1",
-            vanishes(price + w**2 - 2 * sp.sqrt(price) * w - (sp.sqrt(price) - w) ** 2)
-            and vanishes(
-                2 * sp.sqrt(2 * price) * sp.Abs(sp.sqrt(-energy0) - sp.sqrt(-energy1))
-                - kepler_optimum.optimal_cost()
-            ),
-        )
-
-    return Proof(argument)
+def explicit_solution() -> Steps:
+    found = solution()
+    for name, variable in (("E", energy), ("K", momentum), ("p_E", costate_energy)):
+        yield f"{name}(τ) satisfies its averaged equation", vanishes(left_over(variable, found[variable]))
+    start = [found[energy].subs(tau, 0) - energy0, found[momentum].subs(tau, 0) - momentum0]
+    yield "E(0) = E0, K(0) = K0", all(map(vanishes, start))
+    ratio = kepler_optimum.shrinkage()
+    end = found[energy].subs(tau, duration).subs(rho, 2 * (1 - ratio) / duration)
+    yield "E(τ1) = E1", vanishes(end - energy1)
+    along = {energy: found[energy], costate_energy: found[costate_energy]}
+    level = principle.averaged_hamiltonian().subs(OPTIMUM).subs(along)
+    yield "h0 is the same for all τ", vanishes(level.diff(tau))
+    ending = sp.sqrt(energy0 / energy1)
+    at_the_end = sp.simplify(level.subs(duration, 2 * (1 - ratio) / rho))
+    yield "and 0 with |ρ| = (2l/|E1|)^(1/2)", vanishes(at_the_end.subs(rho, kepler_optimum.costate_size()))
+    yield "1 − ½ρτ1 = (E0/E1)^(1/2)", vanishes(ratio - ending)
+    cost = kepler_optimum.optimal_cost() / kepler_optimum.optimal_duration()
+    yield "J0 = 2lτ1", vanishes(cost - 2 * price)
+    yield (
+        "the second derivative (2.15), an integral over |E|^(1/2), is positive",
+        kepler_optimum.ending_slope().is_positive is True,
+    )
+    power = principle.averages()[sp.Symbol("v^2")]
+    yield (
+        "|dE/dτ| = |⟨vu⟩| ≤ (2|E|⟨u²⟩)^(1/2), so |d|E|^(1/2)/dτ| ≤ (½⟨u²⟩)^(1/2)",
+        vanishes(power / (4 * sp.Abs(energy)) - R(1, 2)),
+    )
+    w = sp.Symbol("w", nonnegative=True)
+    yield (
+        "l + w² ≥ 2 l^(1/2) w then bounds every J0 from below by 2lτ1",
+        vanishes(price + w**2 - 2 * sp.sqrt(price) * w - (sp.sqrt(price) - w) ** 2)
+        and vanishes(
+            2 * sp.sqrt(2 * price) * sp.Abs(sp.sqrt(-energy0) - sp.sqrt(-energy1))
+            - kepler_optimum.optimal_cost()
+        ),
+    )
 
 
 @claim(

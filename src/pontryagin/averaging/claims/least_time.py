@@ -212,31 +212,25 @@ def least_time_with_mean_force() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "example 1: existence",
     "this problem does not always have a solution",
-    verdict="holds",
     remark="There is one exactly where u₀ + s f̄(ξ) > 0 all the way from a₀ to a₁, f̄ the mean of f over the "
     "angle and s = sign(a₁ − a₀).",
 )
-def no_solution_against_a_strong_force() -> Evidence:
-    def argument() -> Steps:
-        best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))
-        yield (
-            "f = −1, u₀ = ½, m = 1, V = 0: at full thrust dξ/dτ = −√(2ξ)/2 < 0",
-            vanishes(best + sp.sqrt(2 * a) / 2) and best.is_negative,
-        )
-        exact = rotor.rate_by_angle(force=-sp.S.One, control=R(1, 2)) / epsilon
-        yield "so does the exact energy: da/dx = −ε/2 at best; no a₁ > a₀ is reached", exact == -R(1, 2)
-        printed = sp.sqrt(2 * a) / 2 - 1
-        yield "where the printed equation lets ξ rise: by √16/2 − 1 = 1 at ξ = 8", printed.subs(a, 8) == 1
-        speeding = sp.factor(
-            rotor.averaged_rate(**FREE, force=-v / 3, control=sp.S.One).subs(a, v**2 / 2) / v
-        )
-        yield "friction f = −v/3, u₀ = 1: dv/dτ = 1 − v/3", vanishes(speeding - (1 - v / 3))
-        turned = speeding.subs(v, 3 + mu)
-        yield "negative above v = 3: no v₁ > 3 is reached from below", turned.is_negative
-        rate = named(rotor.averaged_rate(control=u0 * sense))
-        yield "in general dξ/dτ = ω(u₀s + f̄)", vanishes(rate - OMEGA * (u0 * sense + BY_ANGLE))
-
-    return Proof(argument)
+def no_solution_against_a_strong_force() -> Steps:
+    best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))
+    yield (
+        "f = −1, u₀ = ½, m = 1, V = 0: at full thrust dξ/dτ = −√(2ξ)/2 < 0",
+        vanishes(best + sp.sqrt(2 * a) / 2) and best.is_negative,
+    )
+    exact = rotor.rate_by_angle(force=-sp.S.One, control=R(1, 2)) / epsilon
+    yield "so does the exact energy: da/dx = −ε/2 at best; no a₁ > a₀ is reached", exact == -R(1, 2)
+    printed = sp.sqrt(2 * a) / 2 - 1
+    yield "where the printed equation lets ξ rise: by √16/2 − 1 = 1 at ξ = 8", printed.subs(a, 8) == 1
+    speeding = sp.factor(rotor.averaged_rate(**FREE, force=-v / 3, control=sp.S.One).subs(a, v**2 / 2) / v)
+    yield "friction f = −v/3, u₀ = 1: dv/dτ = 1 − v/3", vanishes(speeding - (1 - v / 3))
+    turned = speeding.subs(v, 3 + mu)
+    yield "negative above v = 3: no v₁ > 3 is reached from below", turned.is_negative
+    rate = named(rotor.averaged_rate(control=u0 * sense))
+    yield "in general dξ/dτ = ω(u₀s + f̄)", vanishes(rate - OMEGA * (u0 * sense + BY_ANGLE))

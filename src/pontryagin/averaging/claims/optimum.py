@@ -28,22 +28,19 @@ def closed(form: sp.Expr) -> sp.Expr:
     return ripple.of_kappa(form).subs(SMOOTH)
 
 
-@claim(
+@claim.proof(
     "before (2.14): dJ0",
     "dJ0/dκ = −(η1 dξ1/dκ)",
-    verdict="holds",
     remark="With η1 = −(g' + αM'); as (2.4) is printed, the right-hand side would be 0.",
+    display=r"dJ_0/d\kappa = -(\eta_1 d\xi_1/d\kappa)",
 )
-def cost_by_the_end() -> Evidence:
-    def argument() -> Steps:
-        yield "g'dξ1 + (η1 dξ1) = 0 wherever M'dξ1 = 0", optimum.cost_by_the_end() == 0
-        printed = sp.Matrix([-averaged.alpha * averaged.M.diff(x) for x in averaged.xi])
-        normal = sp.Matrix([averaged.M.diff(x) for x in averaged.xi])
-        moved = sp.solve(normal.dot(optimum.varied), optimum.varied[1])[0]
-        left = sp.simplify(printed.dot(optimum.varied).subs(optimum.varied[1], moved))
-        yield "with the printed η1 = −αM' the product is 0", left == 0
-
-    return Proof(argument, display=r"dJ_0/d\kappa = -(\eta_1 d\xi_1/d\kappa)")
+def cost_by_the_end() -> Steps:
+    yield "g'dξ1 + (η1 dξ1) = 0 wherever M'dξ1 = 0", optimum.cost_by_the_end() == 0
+    printed = sp.Matrix([-averaged.alpha * averaged.M.diff(x) for x in averaged.xi])
+    normal = sp.Matrix([averaged.M.diff(x) for x in averaged.xi])
+    moved = sp.solve(normal.dot(optimum.varied), optimum.varied[1])[0]
+    left = sp.simplify(printed.dot(optimum.varied).subs(optimum.varied[1], moved))
+    yield "with the printed η1 = −αM' the product is 0", left == 0
 
 
 @claim("before (2.14): dξ1", "dξ1/dκ by the end's time and along the family", verdict="holds")
@@ -98,30 +95,26 @@ def main_result() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (2.14): stationary",
     "κ = 0 is stationary, and under (2.13) the only such point",
-    verdict="holds",
     remark="Where (2.13) fails away from κ = 0, J0 is stationary there too.",
 )
-def stationary() -> Evidence:
-    def argument() -> Steps:
-        slope = optimum.cost_slope()
-        yield "dJ0/dκ = 0 at κ = 0", slope.subs(kappa, 0).doit() == 0
-        rate = sp.Symbol("dPsi", nonzero=True)
-        yield (
-            "with dΨ/dκ ≠ 0 it vanishes at κ = 0 alone",
-            sp.solve(slope.subs(Psi.diff(kappa), rate), kappa) == [0],
-        )
-        turned = closed(ripple.turned())
-        slopes = [turned.diff(kappa).subs(kappa, R(value, 32)).evalf(12) for value in (-24, 0, 7, 12)]
-        yield (
-            "smooth example: dΨ/dκ at κ = −3/4, 0, 7/32, 3/8 is "
-            + ", ".join(f"{float(value):.3f}" for value in slopes),
-            min(slopes) > 0,
-        )
-
-    return Proof(argument)
+def stationary() -> Steps:
+    slope = optimum.cost_slope()
+    yield "dJ0/dκ = 0 at κ = 0", slope.subs(kappa, 0).doit() == 0
+    rate = sp.Symbol("dPsi", nonzero=True)
+    yield (
+        "with dΨ/dκ ≠ 0 it vanishes at κ = 0 alone",
+        sp.solve(slope.subs(Psi.diff(kappa), rate), kappa) == [0],
+    )
+    turned = closed(ripple.turned())
+    slopes = [turned.diff(kappa).subs(kappa, R(value, 32)).evalf(12) for value in (-24, 0, 7, 12)]
+    yield (
+        "smooth example: dΨ/dκ at κ = −3/4, 0, 7/32, 3/8 is "
+        + ", ".join(f"{float(value):.3f}" for value in slopes),
+        min(slopes) > 0,
+    )
 
 
 @claim(
@@ -156,29 +149,27 @@ def second_derivative() -> Evidence:
     )
 
 
-@claim("(2.16)", "sufficient for the least J0 over the whole range of κ", verdict="holds")
-def global_minimum() -> Evidence:
-    def argument() -> Steps:
-        left = kappa * Psi - sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
-        yield "the two sides differ by J0(κ) − J0(0)", vanishes(left - optimum.cost_difference())
-        low, high = worked.window()
-        J = closed(ripple.cost())
-        values = [float(J.subs(kappa, value)) for value in np.linspace(low, high, 7)]
-        yield f"smooth example, κ from {low:.2f} to {high:.2f}: J0 − 2 ≥ 0", min(values) > 2 - 1e-12
-        turned = sp.lambdify(kappa, closed(ripple.turned()))
-        for value in (low, high):
-            grid = np.linspace(0, value, 2001)
-            steps = turned(grid[1:]) - turned(grid[:-1])
-            yield (
-                f"and Ψ rises from κ = 0 to {value:.2f}, which is enough",
-                bool(np.all(steps * np.sign(value) > 0)),
-            )
-
-    return Proof(
-        argument,
-        display=r"\kappa\int_0^{\tau_1}\omega(\xi)d\tau \ge \int_0^{\kappa}d\kappa_1\int_0^{\tau_1(\kappa_1)}"
-        r"\omega(\xi(\tau, \tau_1(\kappa_1), \kappa_1))d\tau",
-    )
+@claim.proof(
+    "(2.16)",
+    "sufficient for the least J0 over the whole range of κ",
+    display=r"\kappa\int_0^{\tau_1}\omega(\xi)d\tau \ge \int_0^{\kappa}d\kappa_1\int_0^{\tau_1(\kappa_1)}"
+    r"\omega(\xi(\tau, \tau_1(\kappa_1), \kappa_1))d\tau",
+)
+def global_minimum() -> Steps:
+    left = kappa * Psi - sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
+    yield "the two sides differ by J0(κ) − J0(0)", vanishes(left - optimum.cost_difference())
+    low, high = worked.window()
+    J = closed(ripple.cost())
+    values = [float(J.subs(kappa, value)) for value in np.linspace(low, high, 7)]
+    yield f"smooth example, κ from {low:.2f} to {high:.2f}: J0 − 2 ≥ 0", min(values) > 2 - 1e-12
+    turned = sp.lambdify(kappa, closed(ripple.turned()))
+    for value in (low, high):
+        grid = np.linspace(0, value, 2001)
+        steps = turned(grid[1:]) - turned(grid[:-1])
+        yield (
+            f"and Ψ rises from κ = 0 to {value:.2f}, which is enough",
+            bool(np.all(steps * np.sign(value) > 0)),
+        )
 
 
 @claim("after (2.16): J0", "J0(κ) by parts from (2.14)", verdict="holds")

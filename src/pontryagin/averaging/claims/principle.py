@@ -11,7 +11,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Steps,
     vanishes,
 )
@@ -131,22 +130,19 @@ def phase_costate() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "(1.6): u*",
     "the derivatives may be taken at u held, or after u* is put in",
-    verdict="holds",
+    display=r"\frac{\partial H}{\partial a}\Bigr|_{u^*}",
 )
-def envelope() -> Evidence:
-    def argument() -> Steps:
-        for variable, rest in zip((*a, psi, *p, q), principle.envelope(), strict=True):
-            yield f"dh(u*)/d{variable} = ∂h/∂{variable} + (∂h/∂u)(∂u*/∂{variable})", rest == 0
-        h = sp.Matrix([[smooth.eta, -1]]).dot(smooth.slow_rates())
-        yield "smooth example: ∂h/∂u = 0 at u*", vanishes(h.diff(smooth.u).subs(smooth.u, smooth.maximiser()))
-        s = sp.Matrix(sp.symbols("s1 s2", real=True))
-        best = s / s.norm()
-        yield "unit ball, u* = s/|s| on its boundary: s·∂u*/∂s = 0", vanishes(best.jacobian(s).T * s)
-
-    return Proof(argument, display=r"\frac{\partial H}{\partial a}\Bigr|_{u^*}")
+def envelope() -> Steps:
+    for variable, rest in zip((*a, psi, *p, q), principle.envelope(), strict=True):
+        yield f"dh(u*)/d{variable} = ∂h/∂{variable} + (∂h/∂u)(∂u*/∂{variable})", rest == 0
+    h = sp.Matrix([[smooth.eta, -1]]).dot(smooth.slow_rates())
+    yield "smooth example: ∂h/∂u = 0 at u*", vanishes(h.diff(smooth.u).subs(smooth.u, smooth.maximiser()))
+    s = sp.Matrix(sp.symbols("s1 s2", real=True))
+    best = s / s.norm()
+    yield "unit ball, u* = s/|s| on its boundary: s·∂u*/∂s = 0", vanishes(best.jacobian(s).T * s)
 
 
 @claim("(1.7)", "the free end time: H* = εh* = 0 at t1", verdict="holds")
@@ -165,31 +161,24 @@ def free_end() -> Evidence:
     )
 
 
-@claim("(1.8)", "H* = ωq + εh* = 0 all along", verdict="holds")
-def conserved() -> Evidence:
-    def argument() -> Steps:
-        H = omega * q + epsilon * h_star
-        yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0
-        yield "h* alone is not constant", principle.along(h_star) != 0
-
-    return Proof(argument, display=r"H^* = \omega q + \varepsilon h^* = 0")
+@claim.proof("(1.8)", "H* = ωq + εh* = 0 all along", display=r"H^* = \omega q + \varepsilon h^* = 0")
+def conserved() -> Steps:
+    H = omega * q + epsilon * h_star
+    yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0
+    yield "h* alone is not constant", principle.along(h_star) != 0
 
 
-@claim(
+@claim.proof(
     "after (1.8): standard form",
     "H* = 0 turns the canonical equations, with their term −ω'q, into a standard system",
-    verdict="holds",
 )
-def reducible() -> Evidence:
-    def argument() -> Steps:
-        first, second = principle.phase_costate()
-        yield (
-            "q = εq1 + ε²q2 + ... from H* = 0, with ω alone in denominators: q is small",
-            not (first.has(q, epsilon) or second.has(q, epsilon)),
-        )
-        size = sp.simplify(first * omega + principle.leading_h())
-        yield "q1 = −h*/ω at q = 0, ε = 0", size == 0
-        rate = -omega.diff(a[0]) * (epsilon * first)
-        yield "so −ω'q is of the order ε, as a' is", sp.simplify(rate / epsilon).has(epsilon) is False
-
-    return Proof(argument)
+def reducible() -> Steps:
+    first, second = principle.phase_costate()
+    yield (
+        "q = εq1 + ε²q2 + ... from H* = 0, with ω alone in denominators: q is small",
+        not (first.has(q, epsilon) or second.has(q, epsilon)),
+    )
+    size = sp.simplify(first * omega + principle.leading_h())
+    yield "q1 = −h*/ω at q = 0, ε = 0", size == 0
+    rate = -omega.diff(a[0]) * (epsilon * first)
+    yield "so −ω'q is of the order ε, as a' is", sp.simplify(rate / epsilon).has(epsilon) is False

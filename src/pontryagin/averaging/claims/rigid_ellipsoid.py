@@ -79,51 +79,44 @@ def synthesis() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "example 3: set of controls",
     "the synthesis keeps to the ellipsoid, and no control in it lowers a faster",
-    verdict="holds",
     remark="The corrected one, with l_x² and l_y².",
 )
-def synthesis_is_optimal() -> Evidence:
-    def argument() -> Steps:
-        control = rigid_body.braking()
-        yield "it lies on the ellipsoid", vanishes(rigid_body.in_ellipsoid(control) - 1)
-        rate = rigid_body.slow_rates()[0].subs(dict(zip(u, control, strict=True))).subs(rigid_body.POLAR)
-        yield "a' = −εR, R = √(l_x²cos²ψ + l_y²sin²ψ)", vanishes(rate + rigid_body.deceleration())
-        s = sp.Matrix(sp.symbols("s_x s_y s_z", real=True))
-        ball = sp.Matrix(sp.symbols("n_x n_y n_z", real=True))
-        reached = s.dot(sp.diag(*semiaxes) * ball)
-        gap = rigid_body.ellipsoid_support(s) ** 2 * ball.dot(ball) - reached**2
-        area = (sp.diag(*semiaxes) * s).cross(ball)
-        yield "(s·u)² ≤ R² on the ellipsoid: Lagrange's identity", vanishes(gap - area.dot(area))
-
-    return Proof(argument)
+def synthesis_is_optimal() -> Steps:
+    control = rigid_body.braking()
+    yield "it lies on the ellipsoid", vanishes(rigid_body.in_ellipsoid(control) - 1)
+    rate = rigid_body.slow_rates()[0].subs(dict(zip(u, control, strict=True))).subs(rigid_body.POLAR)
+    yield "a' = −εR, R = √(l_x²cos²ψ + l_y²sin²ψ)", vanishes(rate + rigid_body.deceleration())
+    s = sp.Matrix(sp.symbols("s_x s_y s_z", real=True))
+    ball = sp.Matrix(sp.symbols("n_x n_y n_z", real=True))
+    reached = s.dot(sp.diag(*semiaxes) * ball)
+    gap = rigid_body.ellipsoid_support(s) ** 2 * ball.dot(ball) - reached**2
+    area = (sp.diag(*semiaxes) * s).cross(ball)
+    yield "(s·u)² ≤ R² on the ellipsoid: Lagrange's identity", vanishes(gap - area.dot(area))
 
 
-@claim(
+@claim.proof(
     "example 3: u_z",
     "u_z ≡ 0: the axial rate is left alone",
-    verdict="holds",
     remark="In the first approximation. Exactly, the costate of c moves by O(ε) unless l_x = l_y, and u_z "
     "with it.",
+    display=r"u_z \equiv 0",
 )
-def axial_control() -> Evidence:
-    def argument() -> Steps:
-        s = rigid_body.switching().subs(p_psi, 0)
-        h_star = rigid_body.ellipsoid_support(s)
-        yield "h* does not contain c", not h_star.has(c)
-        rate = -(sp.Symbol("kappa") * rigid_body.anomaly_rate()).diff(c)
-        yield "dη_c/dτ = −(d − 1)κ = 0 at κ = 0", rate.subs(sp.Symbol("kappa"), 0) == 0
-        held = rigid_body.ellipsoid_maximiser(s).subs(p_c, 0)[2]
-        yield "η_c = 0 at the end, c being free there, hence always; then u_z = 0", held == 0
-        whole = rigid_body.ellipsoid_support(rigid_body.switching())
-        turning = whole.diff(psi)
-        yield "exactly: ψ drops out of H for l_x = l_y", vanishes(sp.simplify(turning.subs(ly, lx)))
-        numbers = {lx: 2, ly: 1, semiaxes[2]: 1, p_a: -1, p_c: 0, p_psi: 0, psi: sp.pi / 4, a: 1}
-        yield "and not for l_x = 2, l_y = 1", turning.subs(numbers) != 0
-
-    return Proof(argument, display=r"u_z \equiv 0")
+def axial_control() -> Steps:
+    s = rigid_body.switching().subs(p_psi, 0)
+    h_star = rigid_body.ellipsoid_support(s)
+    yield "h* does not contain c", not h_star.has(c)
+    rate = -(sp.Symbol("kappa") * rigid_body.anomaly_rate()).diff(c)
+    yield "dη_c/dτ = −(d − 1)κ = 0 at κ = 0", rate.subs(sp.Symbol("kappa"), 0) == 0
+    held = rigid_body.ellipsoid_maximiser(s).subs(p_c, 0)[2]
+    yield "η_c = 0 at the end, c being free there, hence always; then u_z = 0", held == 0
+    whole = rigid_body.ellipsoid_support(rigid_body.switching())
+    turning = whole.diff(psi)
+    yield "exactly: ψ drops out of H for l_x = l_y", vanishes(sp.simplify(turning.subs(ly, lx)))
+    numbers = {lx: 2, ly: 1, semiaxes[2]: 1, p_a: -1, p_c: 0, p_psi: 0, psi: sp.pi / 4, a: 1}
+    yield "and not for l_x = 2, l_y = 1", turning.subs(numbers) != 0
 
 
 @claim(

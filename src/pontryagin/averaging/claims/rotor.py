@@ -35,26 +35,23 @@ def equation_of_the_rotor() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "(3.1): bounds",
     "with x₁' < x' < x₂' the frequency stays between x₁' and x₂', away from 0",
-    verdict="holds",
     remark="ω is the harmonic mean of x' over the angle. x' > 0 at the start is not enough: the bounds need "
     "a > max V all the way, so a0 and a1 both above V₂.",
+    display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty",
 )
-def frequency_is_bounded() -> Evidence:
-    def argument() -> Steps:
-        for bound in (slow, fast):
-            turn = 2 * sp.pi / rotor.over_a_turn(1 / bound)
-            yield f"a constant x' = {bound} has the frequency {bound}", vanishes(turn - bound)
-        whole = sp.Symbol("I", positive=True)
-        yield "2π/∮dx/x' falls as 1/x' grows", (2 * sp.pi / whole).diff(whole).is_negative
-        yield (
-            "x' vanishes where a = V: with a below max V the rotor swings back",
-            rotor.speed().subs(a, POTENTIAL) == 0,
-        )
-
-    return Proof(argument, display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty")
+def frequency_is_bounded() -> Steps:
+    for bound in (slow, fast):
+        turn = 2 * sp.pi / rotor.over_a_turn(1 / bound)
+        yield f"a constant x' = {bound} has the frequency {bound}", vanishes(turn - bound)
+    whole = sp.Symbol("I", positive=True)
+    yield "2π/∮dx/x' falls as 1/x' grows", (2 * sp.pi / whole).diff(whole).is_negative
+    yield (
+        "x' vanishes where a = V: with a below max V the rotor swings back",
+        rotor.speed().subs(a, POTENTIAL) == 0,
+    )
 
 
 @claim("after (3.1): integration", "at ε = 0: energy a, and t + γ = ∫dx/x'", verdict="holds")

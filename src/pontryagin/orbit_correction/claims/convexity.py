@@ -5,7 +5,7 @@ from typing import Any
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Slip, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
@@ -66,38 +66,31 @@ def strictly_convex_sets() -> Slip:
     )
 
 
-@claim(
+@claim.proof(
     "section 3: support vector",
     "p ≠ 0 supports X at x if X lies in the half-space (p, u) ≤ (p, x)",
-    verdict="holds",
+    display=r"X \subset \{u \in \mathbb{R}^n : (p, u) \le (p, x)\}",
 )
-def support_vectors() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            X, p = system.U[0], system.costates[1]
-            at = X.point(p)
-            w = sp.Matrix(sp.symbols(f"w1:{len(at) + 1}", real=True))
-            gap = X.support(p) - p.dot(w) - deficit(X, p, w)
-            yield f"{named(system)}: (p, x) − (p, u) is a sum of squares for (u, Hu) ≤ 1", vanishes(gap)
-            yield "so p supports the set at its support point and at no other", X.level(at) == 1
-
-    return Proof(argument, display=r"X \subset \{u \in \mathbb{R}^n : (p, u) \le (p, x)\}")
+def support_vectors() -> Steps:
+    for system in family():
+        X, p = system.U[0], system.costates[1]
+        at = X.point(p)
+        w = sp.Matrix(sp.symbols(f"w1:{len(at) + 1}", real=True))
+        gap = X.support(p) - p.dot(w) - deficit(X, p, w)
+        yield f"{named(system)}: (p, x) − (p, u) is a sum of squares for (u, Hu) ≤ 1", vanishes(gap)
+        yield "so p supports the set at its support point and at no other", X.level(at) == 1
 
 
-@claim("section 3: support function", "s(p, X) is the largest (p, x)", verdict="holds")
-def support_function() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = system.costates[0]
-            total = system.support(p, system.steps)
-            yield (
-                f"{named(system)}: attained by the support point",
-                p.dot(system.point(p, system.steps)) == total,
-            )
-            pieces = sum(part.support(p) for part in system.summands(system.steps))
-            yield "and the support function of a sum is the sum", pieces == total
-
-    return Proof(argument, display=r"s(p, X) = \max_{x \in X}(p, x)")
+@claim.proof(
+    "section 3: support function", "s(p, X) is the largest (p, x)", display=r"s(p, X) = \max_{x \in X}(p, x)"
+)
+def support_function() -> Steps:
+    for system in family():
+        p = system.costates[0]
+        total = system.support(p, system.steps)
+        yield f"{named(system)}: attained by the support point", p.dot(system.point(p, system.steps)) == total
+        pieces = sum(part.support(p) for part in system.summands(system.steps))
+        yield "and the support function of a sum is the sum", pieces == total
 
 
 @claim(
@@ -193,39 +186,38 @@ def moved_midpoint() -> Equality:
     )
 
 
-@claim("after Lemma 2: ρ_X", "ρ_X(p) = arg max over X of (p, x) maps p ≠ 0 to the boundary", verdict="holds")
-def support_map() -> Proof:
-    def argument() -> Steps:
-        h = sp.symbols("h", positive=True)
-        X = Ellipsoid(sp.ImmutableMatrix(sp.diag(h, 2 * h)))
-        p = sp.Matrix(sp.symbols("p1:3", positive=True))
-        at = X.point(p)
-        yield "ellipse with semi-axes h, 2h: ρ(p) lies on the boundary", vanishes(X.level(at) - 1)
-        yield "does not depend on the length of p", vanishes(X.point(3 * p) - at)
-        yield (
-            "and is the gradient of the support function",
-            vanishes(sp.Matrix([X.support(p)]).jacobian(p).T - at),
-        )
-
-    return Proof(
-        argument,
-        display=r"\rho_X : \mathbb{R}^n \setminus \{0\} \to \partial X,\quad \rho_X(p) = \arg\max_{x \in "
-        r"X}(p, x)",
+@claim.proof(
+    "after Lemma 2: ρ_X",
+    "ρ_X(p) = arg max over X of (p, x) maps p ≠ 0 to the boundary",
+    display=r"\rho_X : \mathbb{R}^n \setminus \{0\} \to \partial X,\quad \rho_X(p) = \arg\max_{x \in "
+    r"X}(p, x)",
+)
+def support_map() -> Steps:
+    h = sp.symbols("h", positive=True)
+    X = Ellipsoid(sp.ImmutableMatrix(sp.diag(h, 2 * h)))
+    p = sp.Matrix(sp.symbols("p1:3", positive=True))
+    at = X.point(p)
+    yield "ellipse with semi-axes h, 2h: ρ(p) lies on the boundary", vanishes(X.level(at) - 1)
+    yield "does not depend on the length of p", vanishes(X.point(3 * p) - at)
+    yield (
+        "and is the gradient of the support function",
+        vanishes(sp.Matrix([X.support(p)]).jacobian(p).T - at),
     )
 
 
-@claim("Corollary 2", "normal cones at two different boundary points have nothing in common", verdict="holds")
-def disjoint_normal_cones() -> Proof:
-    def argument() -> Steps:
-        v, w = sp.Matrix(sp.symbols("v1:4", real=True)), sp.Matrix(sp.symbols("w1:4", real=True))
-        on_sphere = {v[2] ** 2: 1 - v[0] ** 2 - v[1] ** 2, w[2] ** 2: 1 - w[0] ** 2 - w[1] ** 2}
-        lost = sp.expand(1 - v.dot(w) - (v - w).dot(v - w) / 2).subs(on_sphere)
-        yield "unit sphere: v is normal at v, and 1 − (v, w) = |v − w|²/2 > 0 at any other w", vanishes(lost)
-        L = sp.Matrix(3, 3, sp.symbols("L1:10", real=True))
-        cofactors = L.adjugate().T
-        yield (
-            "ellipsoid x = Lv: L^−T v is normal there, with the same products",
-            vanishes(sp.expand((cofactors * v).dot(L * w) - L.det() * v.dot(w))),
-        )
-
-    return Proof(argument, display=r"N(x^1, X) \cap N(x^2, X) = \emptyset")
+@claim.proof(
+    "Corollary 2",
+    "normal cones at two different boundary points have nothing in common",
+    display=r"N(x^1, X) \cap N(x^2, X) = \emptyset",
+)
+def disjoint_normal_cones() -> Steps:
+    v, w = sp.Matrix(sp.symbols("v1:4", real=True)), sp.Matrix(sp.symbols("w1:4", real=True))
+    on_sphere = {v[2] ** 2: 1 - v[0] ** 2 - v[1] ** 2, w[2] ** 2: 1 - w[0] ** 2 - w[1] ** 2}
+    lost = sp.expand(1 - v.dot(w) - (v - w).dot(v - w) / 2).subs(on_sphere)
+    yield "unit sphere: v is normal at v, and 1 − (v, w) = |v − w|²/2 > 0 at any other w", vanishes(lost)
+    L = sp.Matrix(3, 3, sp.symbols("L1:10", real=True))
+    cofactors = L.adjugate().T
+    yield (
+        "ellipsoid x = Lv: L^−T v is normal there, with the same products",
+        vanishes(sp.expand((cofactors * v).dot(L * w) - L.det() * v.dot(w))),
+    )

@@ -5,7 +5,7 @@ from typing import Any
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
@@ -42,107 +42,91 @@ def equation_for_the_costate() -> Equality:
     )
 
 
-@claim("(8)", "x0 has one decomposition into boundary points of the E_k", verdict="holds")
-def decomposition_into_ellipsoids() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            psi, points = system.costates[0], parts(system, system.costates[0])
+@claim.proof(
+    "(8)",
+    "x0 has one decomposition into boundary points of the E_k",
+    display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k",
+)
+def decomposition_into_ellipsoids() -> Steps:
+    for system in family():
+        psi, points = system.costates[0], parts(system, system.costates[0])
+        yield (
+            f"{named(system)}: the x^k add up to x0",
+            vanishes(sum(points, sp.zeros(*psi.shape)) - system.boundary_state()),
+        )
+        levels = [
+            (point.T * shape_inverse(system, k).inv() * point)[0] for k, point in enumerate(points, start=1)
+        ]
+        yield "and lie on the boundaries", levels == [1] * system.steps
+        moved = points[0] + (points[0] - points[1]) / 100
+        other = points[1] - (points[0] - points[1]) / 100
+        outside = [
+            (point.T * shape_inverse(system, k).inv() * point)[0]
+            for k, point in enumerate((moved, other), start=1)
+        ]
+        yield "what is moved from one to the next takes one of them outside", max(outside) > 1
+
+
+@claim.proof(
+    "(9)",
+    "−ψ0 is normal at x0 and at all x^k",
+    display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
+)
+def common_normal() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for part, point in zip(system.summands(system.steps), parts(system, system.costates[0]), strict=True):
             yield (
-                f"{named(system)}: the x^k add up to x0",
-                vanishes(sum(points, sp.zeros(*psi.shape)) - system.boundary_state()),
+                f"{named(system)}: (−ψ0, x^k) is the support function of E_k",
+                p.dot(point) == part.support(p),
             )
-            levels = [
-                (point.T * shape_inverse(system, k).inv() * point)[0]
-                for k, point in enumerate(points, start=1)
-            ]
-            yield "and lie on the boundaries", levels == [1] * system.steps
-            moved = points[0] + (points[0] - points[1]) / 100
-            other = points[1] - (points[0] - points[1]) / 100
-            outside = [
-                (point.T * shape_inverse(system, k).inv() * point)[0]
-                for k, point in enumerate((moved, other), start=1)
-            ]
-            yield "what is moved from one to the next takes one of them outside", max(outside) > 1
-
-    return Proof(argument, display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k")
+        yield "and the sum that of X(N, 0)", p.dot(system.boundary_state()) == system.support(p, system.steps)
 
 
-@claim("(9)", "−ψ0 is normal at x0 and at all x^k", verdict="holds")
-def common_normal() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for part, point in zip(
-                system.summands(system.steps), parts(system, system.costates[0]), strict=True
-            ):
-                yield (
-                    f"{named(system)}: (−ψ0, x^k) is the support function of E_k",
-                    p.dot(point) == part.support(p),
-                )
-            yield (
-                "and the sum that of X(N, 0)",
-                p.dot(system.boundary_state()) == system.support(p, system.steps),
-            )
-
-    return Proof(
-        argument,
-        display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
-    )
-
-
-@claim(
+@claim.proof(
     "after (9): rays",
     "the normal cone at a boundary point of an ellipsoid is the ray of the gradient",
-    verdict="holds",
+    display=r"N(x^k, E_k) = \operatorname{cone}\{\nabla_x(x, \tilde H(k)x)\Bigr|_{x=x^k}\} \setminus "
+    r"\{0\}",
 )
-def rays() -> Proof:
-    def argument() -> Steps:
-        X, _, x = plane()
-        gradient = sp.Matrix([X.level(x)]).jacobian(x).T
-        yield "∇(x, Hx) = 2Hx", vanishes(sp.cancel(gradient - 2 * X.shape * x))
-        angle = sp.Symbol("phi", real=True)
-        p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
-        yield (
-            "unit circle at e1: p = (cos φ, sin φ) with (p, e1) = |p| is φ = 0",
-            sp.solveset(sp.Eq(p[0], 1), angle, sp.Interval.Lopen(-sp.pi, sp.pi)) == sp.FiniteSet(0),
-        )
-
-    return Proof(
-        argument,
-        display=r"N(x^k, E_k) = \operatorname{cone}\{\nabla_x(x, \tilde H(k)x)\Bigr|_{x=x^k}\} \setminus "
-        r"\{0\}",
+def rays() -> Steps:
+    X, _, x = plane()
+    gradient = sp.Matrix([X.level(x)]).jacobian(x).T
+    yield "∇(x, Hx) = 2Hx", vanishes(sp.cancel(gradient - 2 * X.shape * x))
+    angle = sp.Symbol("phi", real=True)
+    p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
+    yield (
+        "unit circle at e1: p = (cos φ, sin φ) with (p, e1) = |p| is φ = 0",
+        sp.solveset(sp.Eq(p[0], 1), angle, sp.Interval.Lopen(-sp.pi, sp.pi)) == sp.FiniteSet(0),
     )
 
 
-@claim("after (9): one ray", "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
-def one_ray() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for k, point in enumerate(parts(system, system.costates[0]), start=1):
-                gradient = shape_inverse(system, k).inv() * point
-                yield (
-                    f"{named(system)}: the gradient at x^{k} is along −ψ0",
-                    (vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)) and gradient.dot(p) > 0),
-                )
+@claim.proof(
+    "after (9): one ray",
+    "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k",
+    display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)",
+)
+def one_ray() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for k, point in enumerate(parts(system, system.costates[0]), start=1):
+            gradient = shape_inverse(system, k).inv() * point
+            yield (
+                f"{named(system)}: the gradient at x^{k} is along −ψ0",
+                (vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)) and gradient.dot(p) > 0),
+            )
 
-    return Proof(argument, display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)")
 
-
-@claim("(10)", "x^k is the point of E_k with the largest (−ψ0, x)", verdict="holds")
-def parts_as_support_points() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for part, point in zip(
-                system.summands(system.steps), parts(system, system.costates[0]), strict=True
-            ):
-                yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
-
-    return Proof(
-        argument,
-        display=r"x^k = \rho_{E_k}(-\psi_0) = \arg\max_{(x, \tilde H(k)x) \le 1}(-\psi_0, x)",
-    )
+@claim.proof(
+    "(10)",
+    "x^k is the point of E_k with the largest (−ψ0, x)",
+    display=r"x^k = \rho_{E_k}(-\psi_0) = \arg\max_{(x, \tilde H(k)x) \le 1}(-\psi_0, x)",
+)
+def parts_as_support_points() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for part, point in zip(system.summands(system.steps), parts(system, system.costates[0]), strict=True):
+            yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
 
 
 @claim("after (10): x^k", "x^k by Lagrange's multipliers", verdict="holds")
@@ -166,22 +150,18 @@ def parts_by_multipliers() -> Equality:
     )
 
 
-@claim(
+@claim.proof(
     "after Lemma 9: not unique",
     "the equation of Lemma 9 is not linear, and does not change when ψ0 is multiplied by a positive number",
-    verdict="holds",
 )
-def homogeneous_of_degree_zero() -> Proof:
-    def argument() -> Steps:
-        factor = sp.Symbol("c", positive=True)
-        for system in family():
-            psi = system.costates[0]
-            total = sum(parts(system, factor * psi), sp.zeros(*psi.shape))
-            yield f"{named(system)}: cψ0 gives the same x0", vanishes(total - system.boundary_state())
-            turned = sum(parts(system, -psi), sp.zeros(*psi.shape))
-            yield "a negative factor gives −x0: not linear", turned == -system.boundary_state()
-
-    return Proof(argument)
+def homogeneous_of_degree_zero() -> Steps:
+    factor = sp.Symbol("c", positive=True)
+    for system in family():
+        psi = system.costates[0]
+        total = sum(parts(system, factor * psi), sp.zeros(*psi.shape))
+        yield f"{named(system)}: cψ0 gives the same x0", vanishes(total - system.boundary_state())
+        turned = sum(parts(system, -psi), sp.zeros(*psi.shape))
+        yield "a negative factor gives −x0: not linear", turned == -system.boundary_state()
 
 
 @claim(

@@ -59,40 +59,32 @@ def equations_of_motion() -> Misprint:
     )
 
 
-@claim(
+@claim.proof(
     "section 7: θ",
     "the angle of rotation does not matter",
-    verdict="holds",
     remark="For the shape of the orbit; the phase on it is not restored.",
 )
-def angle_does_not_matter() -> Proof:
-    def argument() -> Steps:
-        angle = sp.Symbol("theta")
-        rates = derivation.equations_of_motion()
-        yield "r', v_R' and v_T' do not contain θ", not rates.has(angle, sp.Function("theta"))
-        yield "they form a system of their own", rates.free_symbols == {r, v_radial, v_transverse}
-        yield "while θ' = 1 on the circle: the phase runs on", derivation.angular_rate().subs(CIRCLE) == 1
-
-    return Proof(argument)
+def angle_does_not_matter() -> Steps:
+    angle = sp.Symbol("theta")
+    rates = derivation.equations_of_motion()
+    yield "r', v_R' and v_T' do not contain θ", not rates.has(angle, sp.Function("theta"))
+    yield "they form a system of their own", rates.free_symbols == {r, v_radial, v_transverse}
+    yield "while θ' = 1 on the circle: the phase runs on", derivation.angular_rate().subs(CIRCLE) == 1
 
 
-@claim(
+@claim.proof(
     "section 7: circle",
     "the circular orbit is described by r0, v_R0 and v_T0",
-    verdict="holds",
     remark="The linearised system takes them as r0 = 1, v_R0 = 0, v_T0 = 1; in general v_T0 = r0^(−1/2).",
 )
-def circular_orbit() -> Proof:
-    def argument() -> Steps:
-        radius = sp.Symbol("r_0", positive=True)
-        at = {r: radius, v_radial: 0, v_transverse: 1 / sp.sqrt(radius)}
-        yield (
-            "r' = v_R' = v_T' = 0 for v_R = 0, v_T = r0^(−1/2)",
-            derivation.equations_of_motion().subs(at).is_zero_matrix,
-        )
-        yield "for r0 = 1: v_T0 = 1", derivation.equations_of_motion().subs(CIRCLE).is_zero_matrix
-
-    return Proof(argument)
+def circular_orbit() -> Steps:
+    radius = sp.Symbol("r_0", positive=True)
+    at = {r: radius, v_radial: 0, v_transverse: 1 / sp.sqrt(radius)}
+    yield (
+        "r' = v_R' = v_T' = 0 for v_R = 0, v_T = r0^(−1/2)",
+        derivation.equations_of_motion().subs(at).is_zero_matrix,
+    )
+    yield "for r0 = 1: v_T0 = 1", derivation.equations_of_motion().subs(CIRCLE).is_zero_matrix
 
 
 @claim("section 7: deviations", "Δr, Δv_R, Δv_T as differences from the circle", verdict="holds")
@@ -220,25 +212,21 @@ def impulse_matrix() -> Equality:
     )
 
 
-@claim(
+@claim.proof(
     "section 7: dimensions",
     "state and control differ in dimension, so the maximum principle of Theorems 1 to 3 does not apply",
-    verdict="holds",
     remark="Its conditions fail: B~w fills a flat set without inner points. The gauge and its dual do not "
     "need them.",
 )
-def flat_controls() -> Proof:
-    def argument() -> Steps:
-        inputs = sp.Matrix.hstack(*derivation.impulse_directions())
-        normal = derivation.impulse_directions()[0].cross(derivation.impulse_directions()[1])
-        yield "B~ has three rows and two columns", inputs.shape == (3, 2)
-        yield (
-            "b1 × b2 is orthogonal to all B~w: 0 is no inner point of the set of B~w",
-            vanishes(sp.simplify(normal.T * inputs)),
-        )
-        yield (
-            "and it is not 0: at Δt = π/2 it is (−1, −1, 2) or longer",
-            normal.subs(interval, sp.pi / 2).norm() > 1,
-        )
-
-    return Proof(argument)
+def flat_controls() -> Steps:
+    inputs = sp.Matrix.hstack(*derivation.impulse_directions())
+    normal = derivation.impulse_directions()[0].cross(derivation.impulse_directions()[1])
+    yield "B~ has three rows and two columns", inputs.shape == (3, 2)
+    yield (
+        "b1 × b2 is orthogonal to all B~w: 0 is no inner point of the set of B~w",
+        vanishes(sp.simplify(normal.T * inputs)),
+    )
+    yield (
+        "and it is not 0: at Δt = π/2 it is (−1, −1, 2) or longer",
+        normal.subs(interval, sp.pi / 2).norm() > 1,
+    )

@@ -5,7 +5,7 @@ from typing import Any
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Consequence, Misprint, Proof, Steps, vanishes
+from pontryagin.ledger.evidence import Consequence, Misprint, Steps, vanishes
 from pontryagin.orbit_correction.claims.convexity import deficit
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation import exact
@@ -17,40 +17,42 @@ E1 = sp.Matrix([1, 0])
 DISC = Ellipsoid(sp.ImmutableMatrix(sp.eye(2)))
 
 
-@claim("Lemma 5, i)", "a boundary point of a sum has one decomposition", verdict="holds")
-def one_decomposition() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p, N = -system.costates[0], system.steps
-            parts = system.summands(N)
-            points = [part.point(p) for part in parts]
+@claim.proof(
+    "Lemma 5, i)",
+    "a boundary point of a sum has one decomposition",
+    display=r"y^* = x^{1*} + x^{2*},\quad x^{1*} \in X_1,\ x^{2*} \in X_2",
+)
+def one_decomposition() -> Steps:
+    for system in family():
+        p, N = -system.costates[0], system.steps
+        parts = system.summands(N)
+        points = [part.point(p) for part in parts]
+        yield (
+            f"{named(system)}: y* is the sum of the support points",
+            vanishes(sum(points, sp.zeros(*p.shape)) - system.boundary_state()),
+        )
+        w = sp.Matrix(sp.symbols(f"w1:{len(p) + 1}", real=True))
+        for part in parts:
             yield (
-                f"{named(system)}: y* is the sum of the support points",
-                vanishes(sum(points, sp.zeros(*p.shape)) - system.boundary_state()),
+                "any other x of a summand loses s/2 ((x − x*, H(x − x*)) + 1 − (x, Hx)) > 0",
+                vanishes(sp.expand(part.support(p) - p.dot(w) - deficit(part, p, w))),
             )
-            w = sp.Matrix(sp.symbols(f"w1:{len(p) + 1}", real=True))
-            for part in parts:
-                yield (
-                    "any other x of a summand loses s/2 ((x − x*, H(x − x*)) + 1 − (x, Hx)) > 0",
-                    vanishes(sp.expand(part.support(p) - p.dot(w) - deficit(part, p, w))),
-                )
-            yield (
-                "and nothing can make up for it: the supports add up to (p, y*)",
-                (sum(part.support(p) for part in parts) == p.dot(system.boundary_state())),
-            )
-
-    return Proof(argument, display=r"y^* = x^{1*} + x^{2*},\quad x^{1*} \in X_1,\ x^{2*} \in X_2")
+        yield (
+            "and nothing can make up for it: the supports add up to (p, y*)",
+            (sum(part.support(p) for part in parts) == p.dot(system.boundary_state())),
+        )
 
 
-@claim("Lemma 5, ii)", "its parts are boundary points", verdict="holds")
-def parts_on_the_boundary() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            levels = [part.level(part.point(p)) for part in system.summands(system.steps)]
-            yield f"{named(system)}: all parts have (x, Hx) = 1", levels == [1] * system.steps
-
-    return Proof(argument, display=r"x^{1*} \in \partial X_1,\ x^{2*} \in \partial X_2")
+@claim.proof(
+    "Lemma 5, ii)",
+    "its parts are boundary points",
+    display=r"x^{1*} \in \partial X_1,\ x^{2*} \in \partial X_2",
+)
+def parts_on_the_boundary() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        levels = [part.level(part.point(p)) for part in system.summands(system.steps)]
+        yield f"{named(system)}: all parts have (x, Hx) = 1", levels == [1] * system.steps
 
 
 def lens_and_disc() -> Steps:
@@ -68,26 +70,23 @@ def lens_and_disc() -> Steps:
     )
 
 
-@claim(
+@claim.proof(
     "Lemma 5, iii)",
     "a normal of the sum is a normal of both summands",
-    verdict="holds",
     remark="Printed as an inclusion; it is an equality, as the last line of the proof says and as (4) and "
     "(9) need it. For a corner of one summand the intersection is smaller than that summand's cone.",
+    display=r"N(y^*, Y) \subset N(x^{1*}, X_1) \cap N(x^{2*}, X_2)",
 )
-def normals_of_a_sum() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p, N = -system.costates[0], system.steps
-            yield (
-                f"{named(system)}: p is normal to every summand at its part",
-                all(part.support(p) == p.dot(part.point(p)) for part in system.summands(N)),
-            )
-            total = sum(p.dot(part.point(p)) for part in system.summands(N))
-            yield "and what is normal to all is normal to the sum", total == system.support(p, N)
-        yield from lens_and_disc()
-
-    return Proof(argument, display=r"N(y^*, Y) \subset N(x^{1*}, X_1) \cap N(x^{2*}, X_2)")
+def normals_of_a_sum() -> Steps:
+    for system in family():
+        p, N = -system.costates[0], system.steps
+        yield (
+            f"{named(system)}: p is normal to every summand at its part",
+            all(part.support(p) == p.dot(part.point(p)) for part in system.summands(N)),
+        )
+        total = sum(p.dot(part.point(p)) for part in system.summands(N))
+        yield "and what is normal to all is normal to the sum", total == system.support(p, N)
+    yield from lens_and_disc()
 
 
 @claim(
@@ -121,44 +120,38 @@ def maximum_over_the_sum() -> Misprint:
     )
 
 
-@claim(
+@claim.proof(
     "proof of Lemma 5: uniqueness",
     "another decomposition, with x1 ≠ x1* on the boundary of X1, would have (p, x1) < (p, x1*)",
-    verdict="holds",
     remark="Inner points x1 of X1 are not considered; the same inequality excludes them.",
+    display="(p, x^1) < (p, x^{1*})",
 )
-def other_decompositions() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            X, p = system.U[0], system.costates[1]
-            other, inner = X.point(system.costates[0]), X.point(p) / 2
-            yield (
-                f"{named(system)}: another boundary point has a smaller (p, x)",
-                bool(p.dot(other) < X.support(p)) and vanishes(X.level(other) - 1),
-            )
-            yield "and so has an inner point", p.dot(inner) < X.support(p) and X.level(inner) < 1
-
-    return Proof(argument, display="(p, x^1) < (p, x^{1*})")
+def other_decompositions() -> Steps:
+    for system in family():
+        X, p = system.U[0], system.costates[1]
+        other, inner = X.point(system.costates[0]), X.point(p) / 2
+        yield (
+            f"{named(system)}: another boundary point has a smaller (p, x)",
+            bool(p.dot(other) < X.support(p)) and vanishes(X.level(other) - 1),
+        )
+        yield "and so has an inner point", p.dot(inner) < X.support(p) and X.level(inner) < 1
 
 
-@claim(
+@claim.proof(
     "proof of Lemma 5: equality",
     "N(y*, Y) is the intersection of the two normal cones",
-    verdict="holds",
     remark="The second set is once printed X² for X_2.",
+    display=r"N(y^*, Y) = N(x^{1*}, X_1) \cap N(x^{2*}, X_2)",
 )
-def equality_of_normal_cones() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p, N = -system.costates[0], system.steps
-            normals = [part.normal(part.point(p)) for part in system.summands(N)]
-            yield (
-                f"{named(system)}: the normals at all parts are one ray, that of p",
-                all(
-                    vanishes(normal * p.norm() ** 2 - p * normal.dot(p)) and normal.dot(p) > 0
-                    for normal in normals
-                ),
-            )
-        yield from lens_and_disc()
-
-    return Proof(argument, display=r"N(y^*, Y) = N(x^{1*}, X_1) \cap N(x^{2*}, X_2)")
+def equality_of_normal_cones() -> Steps:
+    for system in family():
+        p, N = -system.costates[0], system.steps
+        normals = [part.normal(part.point(p)) for part in system.summands(N)]
+        yield (
+            f"{named(system)}: the normals at all parts are one ray, that of p",
+            all(
+                vanishes(normal * p.norm() ** 2 - p * normal.dot(p)) and normal.dot(p) > 0
+                for normal in normals
+            ),
+        )
+    yield from lens_and_disc()

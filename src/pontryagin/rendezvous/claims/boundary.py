@@ -93,23 +93,15 @@ def equal_at_both_ends() -> Misprint:
     )
 
 
-@claim(
-    "(15): origin",
-    "it follows from (6) and the integral ν*",
-    verdict="holds",
-    remark="It does not imply (6).",
-)
-def origin_of_15() -> Proof:
-    def argument() -> Steps:
-        for k, part in enumerate(reduction.invariant()):
-            moves = reduction.along(part)
-            yield f"component {k} of λ∘ν∘λ~ is constant", vanishes(sp.expand(sp.simplify(moves)))
-        seen = product(attitude, pure(nu), tilde)
-        opposite = dict(zip(attitude, -attitude, strict=True))
-        other = (seen - seen.subs(opposite, simultaneous=True)).applyfunc(sp.expand)
-        yield "λ = −λ* gives the same as λ = λ*", other.is_zero_matrix
-
-    return Proof(argument)
+@claim.proof("(15): origin", "it follows from (6) and the integral ν*", remark="It does not imply (6).")
+def origin_of_15() -> Steps:
+    for k, part in enumerate(reduction.invariant()):
+        moves = reduction.along(part)
+        yield f"component {k} of λ∘ν∘λ~ is constant", vanishes(sp.expand(sp.simplify(moves)))
+    seen = product(attitude, pure(nu), tilde)
+    opposite = dict(zip(attitude, -attitude, strict=True))
+    other = (seen - seen.subs(opposite, simultaneous=True)).applyfunc(sp.expand)
+    yield "λ = −λ* gives the same as λ = λ*", other.is_zero_matrix
 
 
 @claim("(16)", "transversality at the moving end", verdict="holds")
@@ -137,18 +129,19 @@ def moving_end() -> Proof:
     )
 
 
-@claim("after (16): C_φ", "C_φ is a constant of integration", verdict="holds")
-def constant_of_integration() -> Proof:
-    def argument() -> Steps:
-        found = reduction.anomaly_integral()
-        yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
-        pair = reduction.anomaly_costate_of() * model.anomaly_rate()
-        yield (
-            "Φ*φ*' is c*C_φ/p*², the last term of (17)",
-            vanishes(pair - areal * anomaly_constant / parameter**2),
-        )
-
-    return Proof(argument, display=r"C_\varphi = \Phi^*(1 + e^*\cos\varphi^*)^2")
+@claim.proof(
+    "after (16): C_φ",
+    "C_φ is a constant of integration",
+    display=r"C_\varphi = \Phi^*(1 + e^*\cos\varphi^*)^2",
+)
+def constant_of_integration() -> Steps:
+    found = reduction.anomaly_integral()
+    yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
+    pair = reduction.anomaly_costate_of() * model.anomaly_rate()
+    yield (
+        "Φ*φ*' is c*C_φ/p*², the last term of (17)",
+        vanishes(pair - areal * anomaly_constant / parameter**2),
+    )
 
 
 @claim("(17)", "the integral H⁰, zero since t_k is free", verdict="holds")

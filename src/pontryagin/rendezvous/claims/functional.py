@@ -8,7 +8,6 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
-    Proof,
     Sides,
     Slip,
     Steps,
@@ -230,11 +229,12 @@ def loss_of_mass() -> Conditional:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("section 1: least time", "with α1 = 1, α2 = 0 the functional is t_k", verdict="holds")
-def least_time() -> Proof:
-    def argument() -> Steps:
-        running = principle.running_cost().subs({time_weight: 1, energy_weight: 0})
-        yield "the integrand is 1", running == 1
-        yield "its integral is t_k", vanishes(sp.integrate(running, (t, 0, t_k)) - t_k)
-
-    return Proof(argument, display=r"\alpha_1 = 1,\ \alpha_2 = 0:\quad J = t_k")
+@claim.proof(
+    "section 1: least time",
+    "with α1 = 1, α2 = 0 the functional is t_k",
+    display=r"\alpha_1 = 1,\ \alpha_2 = 0:\quad J = t_k",
+)
+def least_time() -> Steps:
+    running = principle.running_cost().subs({time_weight: 1, energy_weight: 0})
+    yield "the integrand is 1", running == 1
+    yield "its integral is t_k", vanishes(sp.integrate(running, (t, 0, t_k)) - t_k)

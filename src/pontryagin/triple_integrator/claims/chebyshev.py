@@ -47,38 +47,32 @@ def norm_of_the_dual_function() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "(4.1)",
     "the dual problem: least max |h| on l'c = 1",
-    verdict="holds",
     remark="The essential maximum is the maximum, for h is continuous.",
+    display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_\infty} = \min_{l_1c_1 + l_2c_2 + l_3c_3 "
+    r"= 1} "
+    r"\max_{\tau \in [t_0, t_f]} \left| h(\tau) \right| = \rho_0",
 )
-def dual_problem() -> Evidence:
-    def argument() -> Steps:
-        a0, am, aT = sp.symbols("a_0 a_m a_T", positive=True)
-        impulses = {chebyshev.impulses[0]: a0, chebyshev.impulses[1]: am, chebyshev.impulses[2]: aT}
-        reached = chebyshev.impulse_transfer().subs(impulses).subs(sign, 1)
-        moments = reached - transition(T) * sp.Matrix(sp.symbols("x_10 x_20 x_30", real=True))
-        least = {
-            key: sp.cancel(value.subs(dict(zip(c, moments, strict=True))))
-            for key, value in chebyshev.minimal_multipliers().items()
-        }
-        yield (
-            "for moments of impulses a0, −am, aT at 0, T/2, T the polynomial ρ0 T2 has ρ0 = 1/(a0 + am + aT)",
-            vanishes(least[signed_norm] - 1 / (a0 + am + aT)),
-        )
-        condition = sum(least[l] * m for l, m in zip(multipliers, moments, strict=True))
-        yield "and l'c = 1", vanishes(condition - 1)
-        sample = sp.Matrix([R(1, 3), R(1, 7), R(2, 5)])
-        bounds = [impulse_bound(l, sample, sp.S.One) for l in (sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]))]
-        yield "no other h of a sample proves more than 1/ρ0", bounds[0] > bounds[1]
-
-    return Proof(
-        argument,
-        display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_\infty} = \min_{l_1c_1 + l_2c_2 + l_3c_3 "
-        r"= 1} "
-        r"\max_{\tau \in [t_0, t_f]} \left| h(\tau) \right| = \rho_0",
+def dual_problem() -> Steps:
+    a0, am, aT = sp.symbols("a_0 a_m a_T", positive=True)
+    impulses = {chebyshev.impulses[0]: a0, chebyshev.impulses[1]: am, chebyshev.impulses[2]: aT}
+    reached = chebyshev.impulse_transfer().subs(impulses).subs(sign, 1)
+    moments = reached - transition(T) * sp.Matrix(sp.symbols("x_10 x_20 x_30", real=True))
+    least = {
+        key: sp.cancel(value.subs(dict(zip(c, moments, strict=True))))
+        for key, value in chebyshev.minimal_multipliers().items()
+    }
+    yield (
+        "for moments of impulses a0, −am, aT at 0, T/2, T the polynomial ρ0 T2 has ρ0 = 1/(a0 + am + aT)",
+        vanishes(least[signed_norm] - 1 / (a0 + am + aT)),
     )
+    condition = sum(least[l] * m for l, m in zip(multipliers, moments, strict=True))
+    yield "and l'c = 1", vanishes(condition - 1)
+    sample = sp.Matrix([R(1, 3), R(1, 7), R(2, 5)])
+    bounds = [impulse_bound(l, sample, sp.S.One) for l in (sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]))]
+    yield "no other h of a sample proves more than 1/ρ0", bounds[0] > bounds[1]
 
 
 @claim("(4.2)", "the minimal element is a quadratic in tf − τ", verdict="holds")

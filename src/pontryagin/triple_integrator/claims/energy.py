@@ -8,7 +8,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Sides,
     Steps,
     Unreadable,
@@ -54,23 +53,18 @@ def dual_norm_in_l2() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "before (2.1): Gramian",
     "D = W(tf, t0), the integral of Φbb'Φ', is the controllability Gramian",
-    verdict="holds",
+    display=r"D = W(t_f, t_0) = \int_{t_0}^{t_f} \Phi(t_f, \tau) b b^T \Phi^T(t_f, \tau)\,d\tau",
 )
-def definition_of_the_gramian() -> Evidence:
-    def argument() -> Steps:
-        candidate = energy.gramian()
-        yield "it solves dW/dT = AW + WA' + bb'", vanishes(energy.lyapunov_residual(candidate))
-        yield "D is zero at T = 0", vanishes(candidate.subs(T, 0))
-        program = energy.minimum_energy_control()
-        end = drive(sp.zeros(3, 1), T, program.subs(s, T - tau))
-        yield "b'Φ'D⁻¹c takes the channel from rest to c", vanishes(end - c)
-
-    return Proof(
-        argument, display=r"D = W(t_f, t_0) = \int_{t_0}^{t_f} \Phi(t_f, \tau) b b^T \Phi^T(t_f, \tau)\,d\tau"
-    )
+def definition_of_the_gramian() -> Steps:
+    candidate = energy.gramian()
+    yield "it solves dW/dT = AW + WA' + bb'", vanishes(energy.lyapunov_residual(candidate))
+    yield "D is zero at T = 0", vanishes(candidate.subs(T, 0))
+    program = energy.minimum_energy_control()
+    end = drive(sp.zeros(3, 1), T, program.subs(s, T - tau))
+    yield "b'Φ'D⁻¹c takes the channel from rest to c", vanishes(end - c)
 
 
 @claim(
@@ -133,28 +127,26 @@ def minimal_element() -> Evidence:
     )
 
 
-@claim("before (2.2): conditions", "max ∫h0 u = 1 with ‖u‖ = 1/ρ0 is met by u = μ h0, μ > 0", verdict="holds")
-def conditions_on_the_optimum() -> Evidence:
-    def argument() -> Steps:
-        square = sp.Symbol("H", positive=True)
-        # For u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N and the pairing is mu H.
-        factor, rest = sp.symbols("mu N", nonnegative=True)
-        pairing = factor * square
-        norm = factor**2 * square + rest
-        yield (
-            "the pairing is largest for a given norm when n = 0",
-            sp.diff(norm, rest) == 1 and not pairing.has(rest),
-        )
-        program = energy.minimum_energy_control()
-        ratio = sp.cancel(program / energy.minimal_element())
-        yield "the programme is a multiple of h0", not ratio.has(s)
-        yield "the factor is c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
-
-    return Proof(
-        argument,
-        display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1,\quad "
-        r"\left(\int_{t_0}^{t_f} u^2(\tau)\,d\tau\right)^{1/2} = \frac{1}{\rho_0}",
+@claim.proof(
+    "before (2.2): conditions",
+    "max ∫h0 u = 1 with ‖u‖ = 1/ρ0 is met by u = μ h0, μ > 0",
+    display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1,\quad "
+    r"\left(\int_{t_0}^{t_f} u^2(\tau)\,d\tau\right)^{1/2} = \frac{1}{\rho_0}",
+)
+def conditions_on_the_optimum() -> Steps:
+    square = sp.Symbol("H", positive=True)
+    # For u = mu h0 + n with n orthogonal to h0, |u|^2 = mu^2 H + N and the pairing is mu H.
+    factor, rest = sp.symbols("mu N", nonnegative=True)
+    pairing = factor * square
+    norm = factor**2 * square + rest
+    yield (
+        "the pairing is largest for a given norm when n = 0",
+        sp.diff(norm, rest) == 1 and not pairing.has(rest),
     )
+    program = energy.minimum_energy_control()
+    ratio = sp.cancel(program / energy.minimal_element())
+    yield "the programme is a multiple of h0", not ratio.has(s)
+    yield "the factor is c'D⁻¹c, which is positive", vanishes(ratio - inverse_form())
 
 
 @claim("before (2.2): μ", "μ = 1/ρ0²", verdict="holds")
@@ -191,20 +183,17 @@ def norm_of_the_programme() -> Evidence:
     )
 
 
-@claim("after (2.2): solution", "this solves problem 1 for arbitrary ends", verdict="holds")
-def general_solution() -> Evidence:
-    def argument() -> Steps:
-        force = sp.Symbol("f_0", real=True)
-        end = channel.transfer(force).subs(tau, T)
-        yield "it steers any x0 to any xf, with a constant disturbance", vanishes(end - channel.final)
-        program = energy.minimum_energy_control()
-        extra = sp.symbols("n_0:5", real=True)
-        noise = sum(a * s**k for k, a in enumerate(extra))
-        silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
-        cross = sp.integrate(sp.expand(program * noise.subs(silent)), (s, 0, T))
-        yield "the difference of any other control is orthogonal to it, and adds to the norm", vanishes(cross)
-
-    return Proof(argument)
+@claim.proof("after (2.2): solution", "this solves problem 1 for arbitrary ends")
+def general_solution() -> Steps:
+    force = sp.Symbol("f_0", real=True)
+    end = channel.transfer(force).subs(tau, T)
+    yield "it steers any x0 to any xf, with a constant disturbance", vanishes(end - channel.final)
+    program = energy.minimum_energy_control()
+    extra = sp.symbols("n_0:5", real=True)
+    noise = sum(a * s**k for k, a in enumerate(extra))
+    silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
+    cross = sp.integrate(sp.expand(program * noise.subs(silent)), (s, 0, T))
+    yield "the difference of any other control is orthogonal to it, and adds to the norm", vanishes(cross)
 
 
 @claim(

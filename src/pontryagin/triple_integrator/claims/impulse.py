@@ -12,7 +12,6 @@ from pontryagin.ledger.evidence import (
     Evidence,
     LinearSystem,
     Misprint,
-    Proof,
     Sides,
     Steps,
     vanishes,
@@ -124,22 +123,18 @@ def approximating_pulses() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (4.8)",
     "impulses away from the extremes of h0 do not attain the maximum",
-    verdict="holds",
     remark="For the h0 of (4.4). Where the minimal element is a constant, every instant is extreme.",
 )
-def only_at_the_extremes() -> Evidence:
-    def argument() -> Steps:
-        room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
-        inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
-        yield "|h0| < ρ0 except at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
-        h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
-        weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
-        yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1
-
-    return Proof(argument)
+def only_at_the_extremes() -> Steps:
+    room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
+    inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
+    yield "|h0| < ρ0 except at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
+    h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
+    weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
+    yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1
 
 
 @claim(
@@ -168,18 +163,15 @@ def limit_of_the_pulses() -> Evidence:
     )
 
 
-@claim("after (4.9): L_1", "the impulsive control is not an element of L_1", verdict="holds")
-def impulses_are_not_integrable() -> Evidence:
-    def argument() -> Steps:
-        width, bound = sp.symbols("epsilon U", positive=True)
-        yield (
-            "over [0, ε] an impulse adds a0 to x3, however small ε",
-            vanishes(sp.limit(drive(kick(sp.zeros(3, 1), a0), width, sp.S.Zero)[2], width, 0) - a0),
-        )
-        grown = drive(sp.zeros(3, 1), width, bound)[2]
-        yield "a bounded u at most U ε, and bounded u are dense in L_1", sp.limit(grown, width, 0) == 0
-
-    return Proof(argument)
+@claim.proof("after (4.9): L_1", "the impulsive control is not an element of L_1")
+def impulses_are_not_integrable() -> Steps:
+    width, bound = sp.symbols("epsilon U", positive=True)
+    yield (
+        "over [0, ε] an impulse adds a0 to x3, however small ε",
+        vanishes(sp.limit(drive(kick(sp.zeros(3, 1), a0), width, sp.S.Zero)[2], width, 0) - a0),
+    )
+    grown = drive(sp.zeros(3, 1), width, bound)[2]
+    yield "a bounded u at most U ε, and bounded u are dense in L_1", sp.limit(grown, width, 0) == 0
 
 
 @claim("after (4.9): s0", "s0 = sign h0(0)", verdict="holds")
@@ -215,21 +207,18 @@ def end_state_under_impulses() -> Evidence:
     )
 
 
-@claim("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)", verdict="holds")
-def with_a_disturbance() -> Evidence:
-    def argument() -> Steps:
-        force = sp.symbols("f_0", real=True) * (1 + tau)
-        start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
-        later = force.subs(tau, tau + T / 2)
-        state = drive(kick(start, impulses[0]), T / 2, sp.S.Zero, force)
-        end = kick(drive(kick(state, impulses[1]), T / 2, sp.S.Zero, later), impulses[2])
-        needed = required_moments(force).subs(dict(zip(channel.final, end, strict=True)))
-        yield (
-            "the impulses have the moments c of (1.10), f included",
-            vanishes(needed - three_impulses(impulses, T)),
-        )
-
-    return Proof(argument)
+@claim.proof("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)")
+def with_a_disturbance() -> Steps:
+    force = sp.symbols("f_0", real=True) * (1 + tau)
+    start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
+    later = force.subs(tau, tau + T / 2)
+    state = drive(kick(start, impulses[0]), T / 2, sp.S.Zero, force)
+    end = kick(drive(kick(state, impulses[1]), T / 2, sp.S.Zero, later), impulses[2])
+    needed = required_moments(force).subs(dict(zip(channel.final, end, strict=True)))
+    yield (
+        "the impulses have the moments c of (1.10), f included",
+        vanishes(needed - three_impulses(impulses, T)),
+    )
 
 
 @claim("before (4.10): system", "linear system for a0, am, aT with c~ = s0 c", verdict="holds")

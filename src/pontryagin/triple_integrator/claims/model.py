@@ -65,28 +65,20 @@ def ends_of_the_turn() -> Evidence:
     return Equality(printed, derived)
 
 
-@claim(
+@claim.proof(
     "after (0.2)",
     "γ0 = 0, 0 < γf ≤ π, ω0 = ωf = 0 is a turn by the angle γf about the body axis, and not a trivial one",
-    verdict="holds",
 )
-def turn_by_an_angle() -> Evidence:
+def turn_by_an_angle() -> Steps:
     angle = sp.Symbol("gamma_f", real=True)
-
-    def argument() -> Steps:
-        axis = sp.Matrix([0, 0, 1])
-        turned = channel.rotation(angle, axis)
-        yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
-        yield (
-            "its trace is 1 + 2 cos γf: it is a turn by γf",
-            vanishes(turned.trace() - 1 - 2 * sp.cos(angle)),
-        )
-        back = channel.rotation(angle - 2 * sp.pi, axis)
-        yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
-        rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
-        yield "left to itself at rest, the craft does not turn", vanishes(rest)
-
-    return Proof(argument)
+    axis = sp.Matrix([0, 0, 1])
+    turned = channel.rotation(angle, axis)
+    yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
+    yield "its trace is 1 + 2 cos γf: it is a turn by γf", vanishes(turned.trace() - 1 - 2 * sp.cos(angle))
+    back = channel.rotation(angle - 2 * sp.pi, axis)
+    yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
+    rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
+    yield "left to itself at rest, the craft does not turn", vanishes(rest)
 
 
 @claim(
@@ -200,18 +192,12 @@ def triple_integrator() -> Evidence:
     )
 
 
-@claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")
-def bound_on_the_control() -> Evidence:
-    def argument() -> Steps:
-        yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
-        yield (
-            "no smaller u0 suffices: the bound by a dual function",
-            peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32,
-        )
-        least_energy = energy.minimum_energy_control().subs(unit_turn())
-        yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
-
-    return Proof(argument, display=r"\lvert u(t) \rvert \le u_0")
+@claim.proof("(0.7)", "the control may be bounded: |u| ≤ u0", display=r"\lvert u(t) \rvert \le u_0")
+def bound_on_the_control() -> Steps:
+    yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
+    yield "no smaller u0 suffices: the bound by a dual function", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+    least_energy = energy.minimum_energy_control().subs(unit_turn())
+    yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
 
 
 @claim("(0.8)", "the state at t0", verdict="holds")
@@ -232,18 +218,10 @@ def final_state() -> Evidence:
     return Equality({"x_1(t_f)": x1f, "x_2(t_f)": x2f, "x_3(t_f)": x3f}, derived)
 
 
-@claim(
-    "after (0.9)",
-    "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c",
-    verdict="holds",
+@claim.proof(
+    "after (0.9)", "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c"
 )
-def nontrivial() -> Evidence:
-    def argument() -> Steps:
-        gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
-        yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
-        yield (
-            "every gap occurs: its derivative by xf is the identity",
-            gap.jacobian(channel.final) == sp.eye(3),
-        )
-
-    return Proof(argument)
+def nontrivial() -> Steps:
+    gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
+    yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
+    yield "every gap occurs: its derivative by xf is the identity", gap.jacobian(channel.final) == sp.eye(3)

@@ -46,25 +46,20 @@ def vector_ends() -> Evidence:
     return Equality({r"\mathbf{x}(t_0)": channel.initial, r"\mathbf{x}(t_f)": channel.final}, derived)
 
 
-@claim("(1.3)", "Cauchy's formula solves (1.1) with x(t0) = x0", verdict="holds")
-def cauchy_formula() -> Evidence:
-    def argument() -> Steps:
-        path = channel.cauchy()
-        residual = path.diff(t) - channel.right_hand_side(path)
-        yield (
-            "it satisfies the state equations, for any u and f",
-            vanishes(residual.applyfunc(sp.expand).doit()),
-        )
-        empty = {
-            part: 0 for part in path.subs(t, t0).atoms(sp.Integral) if part.limits[0][1] == part.limits[0][2]
-        }
-        yield "and starts from x0", vanishes(path.subs(t, t0).subs(empty) - channel.initial)
-
-    return Proof(
-        argument,
-        display=r"\mathbf{x}(t) = \Phi(t, t_0)\mathbf{x}_0 + \int_{t_0}^t \Phi(t, \tau)"
-        r"[\mathbf{b}u(\tau) + \mathbf{f}(\tau)]\,d\tau",
-    )
+@claim.proof(
+    "(1.3)",
+    "Cauchy's formula solves (1.1) with x(t0) = x0",
+    display=r"\mathbf{x}(t) = \Phi(t, t_0)\mathbf{x}_0 + \int_{t_0}^t \Phi(t, \tau)"
+    r"[\mathbf{b}u(\tau) + \mathbf{f}(\tau)]\,d\tau",
+)
+def cauchy_formula() -> Steps:
+    path = channel.cauchy()
+    residual = path.diff(t) - channel.right_hand_side(path)
+    yield "it satisfies the state equations, for any u and f", vanishes(residual.applyfunc(sp.expand).doit())
+    empty = {
+        part: 0 for part in path.subs(t, t0).atoms(sp.Integral) if part.limits[0][1] == part.limits[0][2]
+    }
+    yield "and starts from x0", vanishes(path.subs(t, t0).subs(empty) - channel.initial)
 
 
 @claim("(1.4)", "transition matrix", verdict="holds")
@@ -160,24 +155,22 @@ def effect_of_the_disturbance() -> Evidence:
     return Proof(argument, Equality(printed, derived))
 
 
-@claim("(1.9)", "the control steers x0 to xf exactly when its moments are c", verdict="holds")
-def moment_equation() -> Evidence:
-    def argument() -> Steps:
-        coefficients = sp.symbols("u_0:5", real=True)
-        program = sum(u * tau**k for k, u in enumerate(coefficients))
-        force, _ = ramp()
-        end = channel.drive(channel.initial, T, program, force)
-        missed = channel.final - end
-        moments = moments_of(program.subs(tau, T - s))
-        gap = channel.required_moments(force) - moments
-        yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
-        solved = sp.solve(list(gap), coefficients[:3], dict=True)
-        yield "controls with the moments c exist", len(solved) == 1
-
-    return Proof(
-        argument,
-        display=r"\int_{t_0}^{t_f} \Phi(t_f, \tau)\mathbf{b}\,u(\tau)\,d\tau = \mathbf{c}",
-    )
+@claim.proof(
+    "(1.9)",
+    "the control steers x0 to xf exactly when its moments are c",
+    display=r"\int_{t_0}^{t_f} \Phi(t_f, \tau)\mathbf{b}\,u(\tau)\,d\tau = \mathbf{c}",
+)
+def moment_equation() -> Steps:
+    coefficients = sp.symbols("u_0:5", real=True)
+    program = sum(u * tau**k for k, u in enumerate(coefficients))
+    force, _ = ramp()
+    end = channel.drive(channel.initial, T, program, force)
+    missed = channel.final - end
+    moments = moments_of(program.subs(tau, T - s))
+    gap = channel.required_moments(force) - moments
+    yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
+    solved = sp.solve(list(gap), coefficients[:3], dict=True)
+    yield "controls with the moments c exist", len(solved) == 1
 
 
 @claim("(1.10)", "the components of c", verdict="holds")

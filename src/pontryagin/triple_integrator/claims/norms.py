@@ -139,27 +139,23 @@ def form_of_the_functional() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (1.11): solvability",
     "the moment problem of the triple integrator is solvable for every c: h1, h2, h3 are independent",
-    verdict="holds",
 )
-def solvability() -> Evidence:
-    def argument() -> Steps:
-        h = impulse_response()
-        wronskian = sp.Matrix([[entry.diff(s, k) for entry in h] for k in range(3)]).det()
-        yield "the Wronskian of h1, h2, h3 does not vanish", wronskian.is_nonzero
-        controllability = sp.Matrix.hstack(INPUT, CHAIN * INPUT, CHAIN**2 * INPUT)
-        yield "b, Ab, A²b span the state space", controllability.rank() == 3
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield "the Gramian is positive definite for every T", all(minor.is_positive for minor in minors)
-        program = energy.minimum_energy_control()
-        yield "a control with the moments c, for every c", vanishes(moments_of(program) - c)
-        dependent = sp.Matrix([s, s, 1])
-        moments = dependent.applyfunc(lambda h: sp.integrate(h * (v1 + v2 * s), (s, 0, T)))
-        yield "with h1 = h2 only c1 = c2 could be met", vanishes(moments[0] - moments[1])
-
-    return Proof(argument)
+def solvability() -> Steps:
+    h = impulse_response()
+    wronskian = sp.Matrix([[entry.diff(s, k) for entry in h] for k in range(3)]).det()
+    yield "the Wronskian of h1, h2, h3 does not vanish", wronskian.is_nonzero
+    controllability = sp.Matrix.hstack(INPUT, CHAIN * INPUT, CHAIN**2 * INPUT)
+    yield "b, Ab, A²b span the state space", controllability.rank() == 3
+    minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
+    yield "the Gramian is positive definite for every T", all(minor.is_positive for minor in minors)
+    program = energy.minimum_energy_control()
+    yield "a control with the moments c, for every c", vanishes(moments_of(program) - c)
+    dependent = sp.Matrix([s, s, 1])
+    moments = dependent.applyfunc(lambda h: sp.integrate(h * (v1 + v2 * s), (s, 0, T)))
+    yield "with h1 = h2 only c1 = c2 could be met", vanishes(moments[0] - moments[1])
 
 
 @claim("(1.12)", "the set P of dual functions h = Σ l_k h_k with Σ l_k c_k = 1", verdict="holds")

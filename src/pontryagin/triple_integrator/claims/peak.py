@@ -52,23 +52,21 @@ def paired_with(moments: sp.Matrix) -> sp.Expr:
     return sp.expand((root_multipliers(T - first, T - second).T * moments)[0])
 
 
-@claim("before (3.1)", "the least L1 norm of h on l'c = 1 is ρ0", verdict="holds")
-def dual_norm_in_l1() -> Evidence:
-    def argument() -> Steps:
-        yield (
-            "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
-            vanishes(paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()),
-        )
-        sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
-        moments = two_switches(v, first, second, T).subs(sample)
-        others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
-        yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
-
-    return Proof(
-        argument,
-        display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_1} = \min_{l^T c = 1} \int_{t_0}^{t_f} "
-        r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0",
+@claim.proof(
+    "before (3.1)",
+    "the least L1 norm of h on l'c = 1 is ρ0",
+    display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_1} = \min_{l^T c = 1} \int_{t_0}^{t_f} "
+    r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0",
+)
+def dual_norm_in_l1() -> Steps:
+    yield (
+        "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
+        vanishes(paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()),
     )
+    sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
+    moments = two_switches(v, first, second, T).subs(sample)
+    others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
+    yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
 
 
 @claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
@@ -181,70 +179,57 @@ def conditions_on_the_optimum() -> Evidence:
     )
 
 
-@claim("before (3.4): uniqueness", "the maximum is attained only by u = sign h0 / ρ0", verdict="holds")
-def only_the_sign_attains_it() -> Evidence:
-    def argument() -> Steps:
-        yield (
-            "h0 is a polynomial and not zero, so it vanishes at two instants at most",
-            (sp.Poly(parabola.parabola(), tau).degree() == 2),
-        )
-        loss, weight = sp.symbols("delta h", positive=True)
-        bound = sp.Symbol("U", positive=True)
-        short = weight * bound - weight * (bound - loss)
-        yield "wherever u is less than U sign h0 by δ, the integral loses h δ > 0", short.expand().is_positive
+@claim.proof(
+    "before (3.4): uniqueness",
+    "the maximum is attained only by u = sign h0 / ρ0",
+    display=r"u(\tau) = \frac{1}{\rho_0} \operatorname{sign} h_0(\tau)",
+)
+def only_the_sign_attains_it() -> Steps:
+    yield (
+        "h0 is a polynomial and not zero, so it vanishes at two instants at most",
+        (sp.Poly(parabola.parabola(), tau).degree() == 2),
+    )
+    loss, weight = sp.symbols("delta h", positive=True)
+    bound = sp.Symbol("U", positive=True)
+    short = weight * bound - weight * (bound - loss)
+    yield "wherever u is less than U sign h0 by δ, the integral loses h δ > 0", short.expand().is_positive
 
-    return Proof(argument, display=r"u(\tau) = \frac{1}{\rho_0} \operatorname{sign} h_0(\tau)")
 
-
-@claim(
+@claim.proof(
     "(3.4)",
     "least-peak programme u* = sign ψ3* / ρ0",
-    verdict="holds",
     remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.",
+    display=r"u^*(t) = \frac{1}{\rho_0} \frac{\psi_3^*(t)}{\left| \psi_3^*(t) \right|} = "
+    r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)",
 )
-def least_peak_programme() -> Evidence:
-    def argument() -> Steps:
-        x = sp.Symbol("x", real=True, nonzero=True)
-        yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
-        sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
-        moments = two_switches(v, first, second, T).subs(sample)
-        l = root_multipliers(R(4, 5), R(1, 3))
-        scale = (l.T * moments)[0]
-        h = dual_function_of(l / scale)
-        rho = area_of(h, sp.S.One)
-        levels = [sp.sign(h.subs(s, 1 - x)) / rho for x in (R(1, 10), R(1, 2), R(9, 10))]
-        pieces = list(zip((R(1, 5), R(7, 15), R(1, 3)), levels, strict=True))
-        yield "sign h0 / ρ0 has the moments c of that h0", piecewise_moments(pieces) == moments
-        yield "no control with these moments has a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
+def least_peak_programme() -> Steps:
+    x = sp.Symbol("x", real=True, nonzero=True)
+    yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
+    sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
+    moments = two_switches(v, first, second, T).subs(sample)
+    l = root_multipliers(R(4, 5), R(1, 3))
+    scale = (l.T * moments)[0]
+    h = dual_function_of(l / scale)
+    rho = area_of(h, sp.S.One)
+    levels = [sp.sign(h.subs(s, 1 - x)) / rho for x in (R(1, 10), R(1, 2), R(9, 10))]
+    pieces = list(zip((R(1, 5), R(7, 15), R(1, 3)), levels, strict=True))
+    yield "sign h0 / ρ0 has the moments c of that h0", piecewise_moments(pieces) == moments
+    yield "no control with these moments has a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
 
-    return Proof(
-        argument,
-        display=r"u^*(t) = \frac{1}{\rho_0} \frac{\psi_3^*(t)}{\left| \psi_3^*(t) \right|} = "
-        r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)",
+
+@claim.proof(
+    "after (3.4): structure", "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout"
+)
+def general_structure() -> Steps:
+    zeros = sp.Poly(parabola.parabola(), tau).degree()
+    yield "h0 changes sign at most twice", zeros == 2
+    minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
+    yield "h0 is not zero, so sign h0 is ±1 almost everywhere", all(minor.is_positive for minor in minors)
+    determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
+    yield (
+        "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
+        (vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())),
     )
-
-
-@claim(
-    "after (3.4): structure",
-    "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout",
-    verdict="holds",
-)
-def general_structure() -> Evidence:
-    def argument() -> Steps:
-        zeros = sp.Poly(parabola.parabola(), tau).degree()
-        yield "h0 changes sign at most twice", zeros == 2
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield (
-            "h0 is not zero, so sign h0 is ±1 almost everywhere",
-            all(minor.is_positive for minor in minors),
-        )
-        determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
-        yield (
-            "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
-            (vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())),
-        )
-
-    return Proof(argument)
 
 
 @claim(

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Sides, Steps, vanishes
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN
 from pontryagin.triple_integrator.derivation.channel import t, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
@@ -116,13 +116,10 @@ def problem_2() -> Evidence:
     )
 
 
-@claim("after (1.19)", "problem 2 finds the least u0 for which (0.7) can be kept", verdict="holds")
-def least_bound() -> Evidence:
-    def argument() -> Steps:
-        yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
-        yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
-
-    return Proof(argument)
+@claim.proof("after (1.19)", "problem 2 finds the least u0 for which (0.7) can be kept")
+def least_bound() -> Steps:
+    yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
+    yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
 
 
 @claim("(1.20)", "problem 3: J = ‖u‖ in L_1, the total impulse", verdict="holds")

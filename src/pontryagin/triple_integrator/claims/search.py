@@ -9,7 +9,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Sides,
     Steps,
     vanishes,
@@ -273,32 +272,25 @@ def curvature_from_the_search() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (3.19): closed form",
     "(3.15) to (3.17) have an analytic solution, too bulky to print",
-    verdict="holds",
     remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + "
     "4c3³v − c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
 )
-def closed_form() -> Evidence:
-    def argument() -> Steps:
-        quartic = sp.Poly(parabola.level_polynomial(), level)
-        yield (
-            "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals",
-            quartic.degree() == 4,
-        )
-        v, early, late = sp.symbols("v a b", positive=True)
-        at = dict(zip(c, two_switches(v, early, late, T), strict=True))
-        yield (
-            "v is a root for the moments of every control with two switches",
-            vanishes(quartic.as_expr().subs(level, v).subs(at)),
-        )
-        yield (
-            "−v is a root for the moments of its negative",
-            vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
-        )
-        remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3
-        remembered += (96 * c1 * c3 - 48 * c2**2 - 6 * c3**2) * level**2 + 4 * c3**3 * level - c3**4
-        yield "for T = 1 it is the quartic of the remark", vanishes(quartic.as_expr().subs(T, 1) - remembered)
-
-    return Proof(argument)
+def closed_form() -> Steps:
+    quartic = sp.Poly(parabola.level_polynomial(), level)
+    yield "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals", quartic.degree() == 4
+    v, early, late = sp.symbols("v a b", positive=True)
+    at = dict(zip(c, two_switches(v, early, late, T), strict=True))
+    yield (
+        "v is a root for the moments of every control with two switches",
+        vanishes(quartic.as_expr().subs(level, v).subs(at)),
+    )
+    yield (
+        "−v is a root for the moments of its negative",
+        vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
+    )
+    remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3
+    remembered += (96 * c1 * c3 - 48 * c2**2 - 6 * c3**2) * level**2 + 4 * c3**3 * level - c3**4
+    yield "for T = 1 it is the quartic of the remark", vanishes(quartic.as_expr().subs(T, 1) - remembered)

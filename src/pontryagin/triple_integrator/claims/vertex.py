@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import (
     drive,
@@ -112,24 +112,21 @@ def zeros_of_the_parabola() -> Evidence:
     )
 
 
-@claim("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T", verdict="holds")
-def time_from_zero() -> Evidence:
-    def argument() -> Steps:
-        shift, force = sp.symbols("t_s f_0", real=True)
-        h = parabola.parabola()
-        yield (
-            "h depends on tf − τ only",
-            vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True)),
-        )
-        ramp = force * (tau + t0)
-        moved = drive(initial, T, sp.S.Zero, ramp)
-        needed = final - moved
-        yield (
-            "a disturbance f(t) is to be read as f(t0 + t): then c is the same",
-            vanishes(required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)) and needed.has(t0),
-        )
-
-    return Proof(argument)
+@claim.proof("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T")
+def time_from_zero() -> Steps:
+    shift, force = sp.symbols("t_s f_0", real=True)
+    h = parabola.parabola()
+    yield (
+        "h depends on tf − τ only",
+        vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True)),
+    )
+    ramp = force * (tau + t0)
+    moved = drive(initial, T, sp.S.Zero, ramp)
+    needed = final - moved
+    yield (
+        "a disturbance f(t) is to be read as f(t0 + t): then c is the same",
+        vanishes(required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)) and needed.has(t0),
+    )
 
 
 @claim("(3.9)", "vertex form from the multipliers (t0 = 0)", verdict="holds")

@@ -11,7 +11,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     LinearSystem,
-    Proof,
     Sides,
     Steps,
     vanishes,
@@ -128,79 +127,70 @@ def denominator_of_the_multipliers() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "before (3.6): unconstrained",
     "dropping t0 ≤ t1 and t2 ≤ tf leaves the minimum of (3.6) as it is: an unconstrained problem",
-    verdict="holds",
     remark="The paper assumes that the two bounds are not active. They may be; the claim holds all the same, "
     "for a zero outside only adds to S1 − S2 + S3. The order t1 < t2 must be kept.",
 )
-def bounds_may_be_dropped() -> Evidence:
-    def argument() -> Steps:
-        outside, other = sp.symbols("x y", positive=True)
+def bounds_may_be_dropped() -> Steps:
+    outside, other = sp.symbols("x y", positive=True)
 
-        def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
-            h = sp.expand((tau - early) * (tau - late))
-            parts = [sp.integrate(h, (tau, *ends)) for ends in ((0, early), (early, late), (late, T))]
-            return sp.expand(parts[0] - parts[1] + parts[2])
+    def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
+        h = sp.expand((tau - early) * (tau - late))
+        parts = [sp.integrate(h, (tau, *ends)) for ends in ((0, early), (early, late), (late, T))]
+        return sp.expand(parts[0] - parts[1] + parts[2])
 
-        def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
-            return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
+    def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
+        return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
 
-        early, late = -outside, second
-        inside = between(early, late, late, T) - between(early, late, 0, late)
-        extra = signed(early, late) - inside
-        beyond = -2 * between(early, late, early, 0)
-        yield "t1 before t0: S1 − S2 + S3 = ∫|h| + 2∫|h| over [t1, t0]", vanishes(extra - beyond)
-        early, late = -outside - other, -outside
-        extra = signed(early, late) - between(early, late, 0, T)
-        yield (
-            "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
-            vanishes(extra + 2 * between(early, late, early, late)),
-        )
-        yield "that integral is positive", sp.expand(extra).is_positive
-        early, late = first, T + outside
-        inside = between(early, late, 0, early) - between(early, late, early, T)
-        extra = signed(early, late) - inside
-        yield (
-            "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
-            vanishes(extra + 2 * between(early, late, T, late)),
-        )
-        early, late = -outside, T + other
-        extra = signed(early, late) + between(early, late, 0, T)
-        ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
-        yield "t1 before t0 and t2 after tf: both excesses", vanishes(extra - ends)
-
-    return Proof(argument)
+    early, late = -outside, second
+    inside = between(early, late, late, T) - between(early, late, 0, late)
+    extra = signed(early, late) - inside
+    beyond = -2 * between(early, late, early, 0)
+    yield "t1 before t0: S1 − S2 + S3 = ∫|h| + 2∫|h| over [t1, t0]", vanishes(extra - beyond)
+    early, late = -outside - other, -outside
+    extra = signed(early, late) - between(early, late, 0, T)
+    yield (
+        "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
+        vanishes(extra + 2 * between(early, late, early, late)),
+    )
+    yield "that integral is positive", sp.expand(extra).is_positive
+    early, late = first, T + outside
+    inside = between(early, late, 0, early) - between(early, late, early, T)
+    extra = signed(early, late) - inside
+    yield (
+        "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
+        vanishes(extra + 2 * between(early, late, T, late)),
+    )
+    early, late = -outside, T + other
+    extra = signed(early, late) + between(early, late, 0, T)
+    ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
+    yield "t1 before t0 and t2 after tf: both excesses", vanishes(extra - ends)
 
 
-@claim(
+@claim.proof(
     "(3.6)",
     "ρ0 is the least |S1 − S2 + S3| over t0 ≤ t1 < t2 ≤ tf",
-    verdict="holds",
     remark="Where the optimum has fewer than two switches the minimum lies on the boundary: at t1 = t0 or "
     "t2 = tf for one switch, at both for a constant control.",
+    display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|",
 )
-def least_signed_area() -> Evidence:
-    def argument() -> Steps:
-        h = (tau - first) * (tau - second)
-        signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
-        total = sp.expand(signed[0] - signed[1] + signed[2])
-        yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
-        moments = two_switches(v, first, second, T)
-        yield (
-            "at the switches of the optimum it is 1/v, its least value",
-            vanishes(total * v - paired_with(moments)),
-        )
-        constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
-        norm = area_with_two_zeros().subs({first: 0, second: T})
-        yield (
-            "a constant control is −v between t1 = t0 and t2 = tf: attained there",
-            vanishes(constant + norm * v),
-        )
-
-    return Proof(
-        argument, display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|"
+def least_signed_area() -> Steps:
+    h = (tau - first) * (tau - second)
+    signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
+    total = sp.expand(signed[0] - signed[1] + signed[2])
+    yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
+    moments = two_switches(v, first, second, T)
+    yield (
+        "at the switches of the optimum it is 1/v, its least value",
+        vanishes(total * v - paired_with(moments)),
+    )
+    constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
+    norm = area_with_two_zeros().subs({first: 0, second: T})
+    yield (
+        "a constant control is −v between t1 = t0 and t2 = tf: attained there",
+        vanishes(constant + norm * v),
     )
 
 
