@@ -96,7 +96,7 @@ def end_conditions() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: averaged.end_costates()[1]},
+        lambda: averaged.end_costates()[1],
         defect={key: g.diff(xi[1])},
         consequence=shown,
         display=r"\xi(0) = a_0,\quad M_0(\xi)_{\tau_1} = 0,\quad \eta(\tau_1) = -(\alpha M_0')_{\tau_1}",
@@ -163,7 +163,7 @@ def phase_costate() -> Evidence:
 
     return Misprint(
         {key: first / principle.omega},
-        lambda: {key: principle.phase_costate()[0]},
+        lambda: principle.phase_costate()[0],
         defect={key: 2 * first / principle.omega},
         consequence=shown,
         display=r"q = \varepsilon\omega^{-1}(\xi)(\eta f_0^*(\xi, \psi, \eta)) + O(\varepsilon^2)",

@@ -13,6 +13,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -33,16 +34,15 @@ def smooth_instance(expression: sp.Expr) -> sp.Expr:
 
 @claim("(2.1): a'", "the slow variables to the leading order: f at q = 0, ε = 0", verdict="holds")
 def slow_rate() -> Evidence:
-    key = r"\dot a_1/\varepsilon"
     held = principle.leading(principle.u_star)
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         small = {q: epsilon * sp.Symbol("q_1"), u: principle.u_star}
         rate = (principle.rates()[0] / epsilon).subs(u, principle.u_star).subs(q, small[q])
-        return {key: rate.subs(epsilon, 0)}
+        return rate.subs(epsilon, 0)
 
     return Equality(
-        {key: f[0].subs(u, held).subs(epsilon, 0)},
+        {r"\dot a_1/\varepsilon": f[0].subs(u, held).subs(epsilon, 0)},
         derived,
         display=r"\dot a = \varepsilon f_0^*(a, \psi, p) + \varepsilon^2 f_1,\quad \dot\psi = \omega(a) + "
         r"\varepsilon F",
@@ -70,7 +70,7 @@ def costate_rate() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: principle.standard_costate_rates()[0]},
+        lambda: principle.standard_costate_rates()[0],
         defect={key: -2 * omega.diff(a[0]) / omega * first},
         consequence=shown,
         display=r"\dot p = -\varepsilon \omega'(a)\omega^{-1}(pf_0^*) - \varepsilon \partial "
@@ -81,10 +81,9 @@ def costate_rate() -> Evidence:
 
 @claim("after (2.1): q", "q = −εω⁻¹(pf0*) + O(ε²)", verdict="holds")
 def phase_costate() -> Evidence:
-    key = r"q/\varepsilon"
     return Equality(
-        {key: -first / omega},
-        lambda: {key: principle.phase_costate()[0]},
+        {r"q/\varepsilon": -first / omega},
+        lambda: principle.phase_costate()[0],
         display=r"q = -\varepsilon \omega^{-1}(pf_0^*) + \varepsilon^2 Q_1",
     )
 

@@ -27,10 +27,9 @@ def integral() -> Evidence:
     def argument() -> Steps:
         yield "its rate along (2.3) is 0", averaged.along(averaged.integral(), averaged.standard_rates()) == 0
 
-    key = r"\kappa"
     return Proof(
         argument,
-        Equality({key: -h0 / omega}, lambda: {key: averaged.integral()}),
+        Equality({r"\kappa": -h0 / omega}, averaged.integral),
         display=r"\kappa = -(\eta f_0(\xi, \eta))\omega^{-1}(\xi)",
     )
 
@@ -100,7 +99,6 @@ def equivalent() -> Steps:
 
 @claim("(2.12)", "ωκ + (ηf0) = 0 at τ1 ties κ to τ1", verdict="holds")
 def end_level() -> Evidence:
-    key = r"\tau_1(\kappa)"
     rising = {ripple.rise: 1}
 
     def argument() -> Steps:
@@ -121,7 +119,7 @@ def end_level() -> Evidence:
     closed = 2 * (smooth.v1 - smooth.v0) / (ripple.A0 + ripple.A1)
     return Proof(
         argument,
-        Equality({key: closed}, lambda: {key: ripple.duration().subs(rising)}),
+        Equality({r"\tau_1(\kappa)": closed}, lambda: ripple.duration().subs(rising)),
         display=r"[\omega(\xi)\kappa + (\eta f_0(\xi, \eta))]_{\tau_1} = 0",
     )
 

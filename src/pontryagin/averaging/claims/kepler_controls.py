@@ -24,6 +24,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -41,15 +42,14 @@ p = parameter()
     remark="The thrust lies along the velocity.",
 )
 def controls_on_the_optimum() -> Evidence:
-    keys = ("u_r^*", r"u_\varphi^*")
-    printed = (costate_energy * v_radial / 2, costate_energy * v_transverse / 2)
+    printed = {"u_r^*": costate_energy * v_radial / 2, r"u_\varphi^*": costate_energy * v_transverse / 2}
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         best = principle.maximiser()
-        return dict(zip(keys, (best[u].subs(OPTIMUM) for u in kepler.CONTROL), strict=True))
+        return [best[u].subs(OPTIMUM) for u in kepler.CONTROL]
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
+        printed,
         derived,
         display=r"u_r^* = \tfrac12 p_E(\tau) v_r,\quad u_\varphi^* = \tfrac12 p_E(\tau) v_\varphi",
     )
@@ -86,25 +86,24 @@ def pericentre_stays() -> Steps:
     "v_φ beside it and in the remark u_r ~ e below. As printed the energy is not E.",
 )
 def velocity() -> Evidence:
-    keys = ("v_r", r"v_\varphi")
-    printed = (
-        epsilon * p**-1 * momentum * sp.sin(anomaly),
-        p**-1 * momentum * (1 + e * sp.cos(anomaly)),
-    )
+    printed = {
+        "v_r": epsilon * p**-1 * momentum * sp.sin(anomaly),
+        r"v_\varphi": p**-1 * momentum * (1 + e * sp.cos(anomaly)),
+    }
 
-    def derived() -> dict[str, sp.Expr]:
-        return dict(zip(keys, (kepler.conic()[v] for v in (v_radial, v_transverse)), strict=True))
+    def derived() -> list[sp.Expr]:
+        return [kepler.conic()[v] for v in (v_radial, v_transverse)]
 
     def consequence() -> Consequence:
         place = {momentum: 1, e: R(1, 2), anomaly: sp.pi / 2, epsilon: R(1, 100)}
         levels = []
-        for speeds in (printed, tuple(derived().values())):
+        for speeds in (printed.values(), derived()):
             level = kepler.energy_of_state().subs(dict(zip((v_radial, v_transverse), speeds, strict=True)))
             levels.append(level.subs(kepler.conic()).subs(place))
         return Consequence("E at x = π/2 on K = 1, e = 1/2, with ε = 1/100", *levels)
 
     return Misprint(
-        dict(zip(keys, printed, strict=True)),
+        printed,
         derived,
         defect={"v_r": (epsilon - e) * sp.sin(anomaly) / momentum},
         consequence=consequence,

@@ -25,6 +25,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -67,14 +68,13 @@ def standard_form() -> Steps:
 
 @claim("(3.6): E and K", "how thrust changes energy and angular momentum", verdict="holds")
 def energy_and_momentum() -> Evidence:
-    keys = (r"\dot E", r"\dot K")
-
-    def derived() -> dict[str, sp.Expr]:
-        rates = map(kepler.along_the_motion, (kepler.energy_of_state(), kepler.momentum_of_state()))
-        return dict(zip(keys, rates, strict=True))
-
-    printed = (epsilon * (v_radial * u_radial + v_transverse * u_transverse), epsilon * r * u_transverse)
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    printed = {
+        r"\dot E": epsilon * (v_radial * u_radial + v_transverse * u_transverse),
+        r"\dot K": epsilon * r * u_transverse,
+    }
+    return Equality(
+        printed, lambda: map(kepler.along_the_motion, (kepler.energy_of_state(), kepler.momentum_of_state()))
+    )
 
 
 def radius_rate(pericentre: sp.Expr) -> sp.Expr:
@@ -107,7 +107,7 @@ def pericentre() -> Evidence:
 
     return Misprint(
         {key: PRINTED_PERICENTRE},
-        lambda: {key: kepler.element_rates()[gamma]},
+        lambda: kepler.element_rates()[gamma],
         defect={key: 2 * epsilon * sp.sqrt(p) * u_radial * cos / e},
         consequence=consequence,
         display=r"\dot\gamma = \varepsilon e^{-1} p^{1/2} [u_r\cos x + (2 + e\cos x)(1 + e\cos x)^{-1} "
@@ -122,14 +122,13 @@ def pericentre() -> Evidence:
     remark="With the right γ'. The braces are −(1 − e²)^(1/2) (2 + e cos x) sin x (1 + e cos x)^(−2).",
 )
 def phase_rate() -> Evidence:
-    key = r"\dot\psi"
     first = (1 + e) * (1 + e * cos) ** -1 * sin * (sp.sqrt(1 - e) * (1 + e) ** R(-1, 2)).diff(e)
     second = (e * sp.sqrt(1 - e**2) * (1 + e * cos) ** -1).diff(e) * sin
     braces = (first - second).subs(sp.sqrt(1 - e), sp.sqrt(1 - e**2) / sp.sqrt(1 + e))
     turn = (1 - e**2) ** R(3, 2) * (1 + e * cos) ** -2 * pericentre_rate
     return Equality(
-        {key: 2 * sp.pi / PRINTED_PERIOD - turn + sp.simplify(braces) * eccentricity_rate},
-        lambda: {key: kepler_phase.mean_anomaly_rate()},
+        {r"\dot\psi": 2 * sp.pi / PRINTED_PERIOD - turn + sp.simplify(braces) * eccentricity_rate},
+        kepler_phase.mean_anomaly_rate,
         display=r"\dot\psi = 2\pi T^{-1} - (1 - e^2)^{3/2}(1 + e\cos x)^{-2}\dot\gamma + \{(1 + e)(1 + e\cos "
         r"x)^{-1}\sin x\, \partial[(1 - e)^{1/2}(1 + e)^{-1/2}]/\partial e - \partial[e(1 - e^2)^{1/2}(1 + "
         r"e\cos x)^{-1}]/\partial e\, \sin x\}\dot e",
@@ -158,19 +157,18 @@ def initial_data() -> Steps:
 
 @claim("after (3.6): e and p", "how thrust changes eccentricity and focal parameter", verdict="holds")
 def eccentricity_and_parameter() -> Evidence:
-    keys = (r"\dot e", r"\dot p")
     bracket = (e * (1 + cos**2) + 2 * cos) * (1 + e * cos) ** -1
-    printed = (
-        epsilon * sp.sqrt(p) * (u_radial * sin + u_transverse * bracket),
-        2 * epsilon * sp.sqrt(p) ** 3 * u_transverse * (1 + e * cos) ** -1,
-    )
+    printed = {
+        r"\dot e": epsilon * sp.sqrt(p) * (u_radial * sin + u_transverse * bracket),
+        r"\dot p": 2 * epsilon * sp.sqrt(p) ** 3 * u_transverse * (1 + e * cos) ** -1,
+    }
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rates = kepler.element_rates()
-        return dict(zip(keys, (rates[e], p.diff(momentum) * rates[momentum]), strict=True))
+        return rates[e], p.diff(momentum) * rates[momentum]
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
+        printed,
         derived,
         display=r"\dot e = \varepsilon p^{1/2}\{u_r\sin x + u_\varphi[e(1 + \cos^2 x) + 2\cos x](1 + e\cos "
         r"x)^{-1}\},\quad \dot p = 2\varepsilon p^{3/2} u_\varphi (1 + e\cos x)^{-1}",

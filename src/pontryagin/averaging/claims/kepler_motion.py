@@ -46,17 +46,13 @@ CIRCLE = {energy: -R(1, 2), momentum: 1}
     "(3.3)", "controlled motion in the plane of a gravitating centre, in polar coordinates", verdict="holds"
 )
 def equations_of_motion() -> Evidence:
-    keys = (r"\dot r", r"\dot\varphi", r"\dot v_r", r"\dot v_\varphi")
-    printed = (
-        v_radial,
-        v_transverse * r**-1,
-        v_transverse**2 * r**-1 - r**-2 + epsilon * u_radial,
-        -v_radial * v_transverse * r**-1 + epsilon * u_transverse,
-    )
-    return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, kepler.equations_of_motion(), strict=True)),
-    )
+    printed = {
+        r"\dot r": v_radial,
+        r"\dot\varphi": v_transverse * r**-1,
+        r"\dot v_r": v_transverse**2 * r**-1 - r**-2 + epsilon * u_radial,
+        r"\dot v_\varphi": -v_radial * v_transverse * r**-1 + epsilon * u_transverse,
+    }
+    return Equality(printed, kepler.equations_of_motion)
 
 
 @claim.proof("after (3.3): ε = 0", "for ε = 0 the system is integrable")
@@ -92,7 +88,7 @@ def integrals() -> Evidence:
 def conic() -> Evidence:
     return Equality(
         {"r": p * (1 + e * sp.cos(anomaly)) ** -1},
-        lambda: {"r": kepler.conic()[r]},
+        lambda: kepler.conic()[r],
         display=r"r = p(1 + e\cos x)^{-1}",
     )
 
@@ -101,7 +97,7 @@ def conic() -> Evidence:
 def radius_in_the_eccentric_anomaly() -> Evidence:
     return Equality(
         {"r": R(1, 2) * sp.Abs(energy) ** -1 * (1 - e * sp.cos(eccentric))},
-        lambda: {"r": kepler.ellipse_radius()},
+        kepler.ellipse_radius,
         display=r"r = \tfrac12 |E|^{-1}(1 - e\cos\xi)",
     )
 
@@ -110,14 +106,14 @@ def radius_in_the_eccentric_anomaly() -> Evidence:
 def kepler_equation() -> Evidence:
     return Equality(
         {r"t + \delta": PRINTED_TIME},
-        lambda: {r"t + \delta": kepler.time_of_flight()},
+        kepler.time_of_flight,
         display=r"t + \delta = (2|E|)^{-3/2}(\xi - e\sin\xi)",
     )
 
 
 @claim("after (3.4): p", "the focal parameter is K²", verdict="holds")
 def focal_parameter() -> Evidence:
-    return Equality({"p": momentum**2}, lambda: {"p": parameter()})
+    return Equality({"p": momentum**2}, parameter)
 
 
 @claim(
@@ -143,7 +139,7 @@ def eccentricity() -> Evidence:
         yield "e = (1 + 2EK²)^(1/2) = 0", PRINTED_ECCENTRICITY.subs(CIRCLE) == 0
         yield "and Laplace's vector vanishes", kepler.laplace().subs(at).is_zero_matrix
 
-    formula = Equality({"e": PRINTED_ECCENTRICITY}, lambda: {"e": kepler.eccentricity()})
+    formula = Equality({"e": PRINTED_ECCENTRICITY}, kepler.eccentricity)
     return Conditional(
         argument, formula, counterexample=counterexample, display=r"0 < e = (1 + 2EK^2)^{1/2} < 1"
     )
@@ -186,7 +182,7 @@ def bounded_and_periodic() -> Steps:
 def period() -> Evidence:
     return Equality(
         {"T(E)": PRINTED_PERIOD},
-        lambda: {"T(E)": kepler.period()},
+        kepler.period,
         display=r"T(E) = 2\pi(2|E|)^{-3/2}",
     )
 
@@ -204,9 +200,8 @@ def full_turn() -> Steps:
 
 @claim("(3.5)", "the true anomaly in terms of the mean anomaly ψ", verdict="holds")
 def true_and_mean_anomaly() -> Evidence:
-    keys = (r"d(x - \psi)/dx", r"\psi")
     bracket = (1 - e**2) ** R(3, 2) / (1 + e * sp.cos(anomaly)) ** 2 - 1
-    printed = (-bracket, 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME)
+    printed = {r"d(x - \psi)/dx": -bracket, r"\psi": 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME}
 
     def argument() -> Steps:
         psi = kepler_phase.mean_of_true()
@@ -216,12 +211,9 @@ def true_and_mean_anomaly() -> Evidence:
         )
         yield "and t + δ with them", kepler.time_of_flight().subs(eccentric, 0) == 0
 
-    def derived() -> dict[str, sp.Expr]:
-        return dict(zip(keys, (1 - kepler.weight(), kepler_phase.mean_anomaly()), strict=True))
-
     return Proof(
         argument,
-        Equality(dict(zip(keys, printed, strict=True)), derived),
+        Equality(printed, lambda: (1 - kepler.weight(), kepler_phase.mean_anomaly())),
         display=r"x = \psi - \int_0^x \left[\frac{(1 - e^2)^{3/2}}{(1 + e\cos y)^2} - 1\right] dy,\quad "
         r"\psi = \frac{2\pi}{T}(t + \delta)",
     )

@@ -7,7 +7,6 @@ from pontryagin.averaging.derivation import kepler_principle as principle
 from pontryagin.averaging.derivation.kepler import (
     energy,
     momentum,
-    parameter,
 )
 from pontryagin.averaging.derivation.kepler_optimum import (
     OPTIMUM,
@@ -34,7 +33,6 @@ from pontryagin.ledger.evidence import (
 claim = Page("Akulenko 1977")
 
 R = sp.Rational
-p = parameter()
 DESCENT = {energy0: -1, energy1: -4, price: 2, momentum0: R(1, 2)}
 """A transfer from E0 = -1 to E1 = -4 with l = 2, for which rho = 1 and tau1 = 1."""
 SPENT = {**DESCENT, rho: 1, duration: 1}
@@ -114,7 +112,7 @@ def energy_on_the_optimum() -> Evidence:
     factor = rho * tau / (2 - rho * duration)
     return Misprint(
         {r"E(\tau)": PRINTED_ENERGY},
-        lambda: {r"E(\tau)": solution()[energy]},
+        lambda: solution()[energy],
         defect={r"E(\tau)": -energy0 * factor * (1 + factor)},
         consequence=consequence,
         display=r"E(\tau) = E_0\left(1 + \frac{\rho\tau}{2 - \rho\tau_1}\right)",
@@ -127,7 +125,7 @@ def costate_on_the_optimum() -> Evidence:
         yield "dp_E/dτ = ½ p_E²", vanishes(left_over(costate_energy, PRINTED_COSTATE))
         yield "p_E(τ1) = −ρ", vanishes(PRINTED_COSTATE.subs(tau, duration) + rho)
 
-    formula = Equality({r"p_E(\tau)": PRINTED_COSTATE}, lambda: {r"p_E(\tau)": solution()[costate_energy]})
+    formula = Equality({r"p_E(\tau)": PRINTED_COSTATE}, lambda: solution()[costate_energy])
     return Proof(argument, formula, display=r"p_E(\tau) = \frac{-2\rho}{2 - (\tau_1 - \tau)\rho}")
 
 
@@ -137,7 +135,7 @@ def momentum_on_the_optimum() -> Evidence:
         yield "dK/dτ = ½ p_E K", vanishes(left_over(momentum, PRINTED_MOMENTUM))
         yield "K(0) = K0", vanishes(PRINTED_MOMENTUM.subs(tau, 0) - momentum0)
 
-    formula = Equality({r"K(\tau)": PRINTED_MOMENTUM}, lambda: {r"K(\tau)": solution()[momentum]})
+    formula = Equality({r"K(\tau)": PRINTED_MOMENTUM}, lambda: solution()[momentum])
     return Proof(
         argument,
         formula,
@@ -150,7 +148,7 @@ def duration_of_the_optimum() -> Evidence:
     printed = sp.sqrt(2) * sp.Abs(sp.Abs(energy1) ** R(1, 2) - sp.Abs(energy0) ** R(1, 2)) * price ** R(-1, 2)
     return Equality(
         {r"\tau_1": printed},
-        lambda: {r"\tau_1": kepler_optimum.optimal_duration()},
+        kepler_optimum.optimal_duration,
         display=r"\tau_1 = \sqrt{2}\,\bigl||E_1|^{1/2} - |E_0|^{1/2}\bigr|\, l^{-1/2}",
     )
 
@@ -173,7 +171,7 @@ def rho_with_its_sign() -> Evidence:
     size = (2 * price / sp.Abs(energy1)) ** R(1, 2)
     formula = Equality(
         {r"\rho": size * sp.sign(1 - (energy0 / energy1) ** R(1, 2))},
-        lambda: {r"\rho": kepler_optimum.terminal_costate()},
+        kepler_optimum.terminal_costate,
     )
     return Proof(
         argument,

@@ -143,11 +143,10 @@ def costate_of_the_phase() -> Steps:
 
 @claim("(3.8)", "the optimal control of the first approximation", verdict="holds")
 def optimal_control() -> Evidence:
-    keys = ("u_r^*", r"u_\varphi^*")
-    printed = (p_E * v_radial / 2, (p_E * v_transverse + p_K * r) / 2)
+    printed = {"u_r^*": p_E * v_radial / 2, r"u_\varphi^*": (p_E * v_transverse + p_K * r) / 2}
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, (principle.maximiser()[u] for u in kepler.CONTROL), strict=True)),
+        printed,
+        lambda: [principle.maximiser()[u] for u in kepler.CONTROL],
         display=r"u_r^* = \tfrac12 p_E v_r,\quad u_\varphi^* = \tfrac12(p_E v_\varphi + p_K r)",
     )
 
@@ -158,7 +157,7 @@ def average_weight() -> Evidence:
     printed = 2 * sp.pi * period**-1 * sp.sqrt(parameter()) ** 3 * (1 + e * sp.cos(anomaly)) ** -2
     return Equality(
         {r"d\psi/dx": kepler.in_slow_variables(printed)},
-        lambda: {r"d\psi/dx": kepler.in_slow_variables(kepler.weight())},
+        lambda: kepler.in_slow_variables(kepler.weight()),
         display=r"d\psi = 2\pi T^{-1} p^{3/2}(1 + e\cos x)^{-2} dx",
     )
 
@@ -190,7 +189,7 @@ def momentum_costate_rate() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: principle.averaged_rates()[p_K]},
+        lambda: principle.averaged_rates()[p_K],
         defect={key: -p_E * p_K / 2},
         consequence=consequence,
         display=r"\frac{dp_K}{d\tau} = -\left(\frac{p_K}{4}\frac{\partial\langle r^2\rangle}{\partial K} + "

@@ -13,6 +13,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Slip,
     Steps,
     vanishes,
@@ -90,10 +91,10 @@ def mean_of_the_force() -> Evidence:
 def least_time_without_mean_force() -> Evidence:
     keys = (r"u_0\tau\,\mathrm{sign}(a_1 - a_0)", r"\langle x'\rangle")
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rate = rotor.averaged_rate(force=sp.S.Zero, control=sense * u0)
         integrand = sp.cancel(sense * u0 / rate).subs(a, y)
-        return dict(zip(keys, (sp.Integral(integrand, (y, a0, xi)), rotor.mean(v)), strict=True))
+        return sp.Integral(integrand, (y, a0, xi)), rotor.mean(v)
 
     def argument() -> Steps:
         eta = sp.Symbol("eta", real=True, nonzero=True)
@@ -147,11 +148,11 @@ def square_root_of_the_energy() -> Evidence:
         sp.Abs(sp.sqrt(a1) - sp.sqrt(a0)) / rate,
     )
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         speed = sp.Symbol("C", real=True)
         line = sp.sqrt(a0) + sp.integrate(speed, (tau, 0, tau))
         met = sp.solve(line.subs(tau, end) - sp.sqrt(a1), speed)[0]
-        return dict(zip(keys, (line.subs(speed, met), sp.Abs(met) * end / rate), strict=True))
+        return line.subs(speed, met), sp.Abs(met) * end / rate
 
     def argument() -> Steps:
         uneven = (UNEVEN**2, sp.S.Zero)
@@ -204,7 +205,7 @@ def least_time_with_mean_force() -> Evidence:
 
     return Misprint(
         {key: u0 * OMEGA * sense + BY_PHASE},
-        lambda: {key: named(rotor.averaged_rate(control=u0 * sense))},
+        lambda: named(rotor.averaged_rate(control=u0 * sense)),
         defect={key: BY_PHASE - OMEGA * BY_ANGLE},
         consequence=consequence,
         display=r"d\xi/d\tau = u_0\omega(\xi)\,\mathrm{sign}(a_1 - a_0) + \langle f(\xi)\rangle,\quad "

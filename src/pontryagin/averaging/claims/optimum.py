@@ -12,6 +12,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -45,7 +46,6 @@ def cost_by_the_end() -> Steps:
 
 @claim("before (2.14): dξ1", "dξ1/dκ by the end's time and along the family", verdict="holds")
 def end_by_the_chain_rule() -> Evidence:
-    key = r"\frac{d\xi_1}{d\kappa}"
     time, end = sp.symbols("tau tau_1", real=True)
     path, T = sp.Function("xi"), sp.Function("T")(kappa)
 
@@ -61,12 +61,12 @@ def end_by_the_chain_rule() -> Evidence:
         form = sp.Lambda((time, end, kappa), time**2 * end + sp.sin(kappa * time) + end * kappa**3)
         return sp.expand(at_end(expression.replace(path, form).doit()))
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         form = time**2 * end + sp.sin(kappa * time) + end * kappa**3
-        return {key: sp.expand(form.subs({time: T, end: T}).diff(kappa))}
+        return sp.expand(form.subs({time: T, end: T}).diff(kappa))
 
     return Equality(
-        {key: example(printed())},
+        {r"\frac{d\xi_1}{d\kappa}": example(printed())},
         derived,
         display=r"\frac{d\xi_1}{d\kappa} = \frac{d\xi}{d\tau}\Bigr|_{\tau_1}\frac{d\tau_1}{d\kappa} + "
         r"\frac{D\xi}{D\kappa}\Bigr|_{\tau_1},\quad \frac{D\xi}{D\kappa} = \frac{\partial\xi}{\partial\tau_1}"
@@ -76,8 +76,6 @@ def end_by_the_chain_rule() -> Evidence:
 
 @claim("(2.14)", "the main result: dJ0/dκ = κ d/dκ ∫ω dτ", verdict="holds")
 def main_result() -> Evidence:
-    key = r"\frac{dJ_0}{d\kappa}"
-
     def argument() -> Steps:
         yield "d(ηDξ)/dτ = −κDω, D the derivative along the family", optimum.lagrange_identity() == 0
         yield "η1dξ1/dτ = −κω1", vanishes(optimum.end_work() + kappa * averaged.omega)
@@ -89,7 +87,7 @@ def main_result() -> Evidence:
 
     return Proof(
         argument,
-        Equality({key: kappa * Psi.diff(kappa)}, lambda: {key: optimum.cost_slope()}),
+        Equality({r"\frac{dJ_0}{d\kappa}": kappa * Psi.diff(kappa)}, optimum.cost_slope),
         display=r"\frac{dJ_0}{d\kappa} = \kappa\frac{d}{d\kappa}\int_0^{\tau_1}\omega(\xi(\tau, \tau_1, "
         r"\kappa))d\tau,\quad \tau_1 = \tau_1(\kappa)",
     )
@@ -125,8 +123,6 @@ def stationary() -> Steps:
     "motion does not depend on κ.",
 )
 def second_derivative() -> Evidence:
-    key = r"\frac{d^2J_0}{d\kappa^2}\Bigr|_{\kappa = 0}"
-
     def argument() -> Steps:
         J, turned = closed(ripple.cost()), closed(ripple.turned())
         curvature = sp.simplify(J.diff(kappa, 2).subs(kappa, 0))
@@ -140,8 +136,8 @@ def second_derivative() -> Evidence:
     return Proof(
         argument,
         Equality(
-            {key: Psi.diff(kappa).subs(kappa, 0)},
-            lambda: {key: optimum.second_derivative()},
+            {r"\frac{d^2J_0}{d\kappa^2}\Bigr|_{\kappa = 0}": Psi.diff(kappa).subs(kappa, 0)},
+            optimum.second_derivative,
         ),
         display=r"\frac{d^2J_0}{d\kappa^2}\Bigr|_{\kappa=0} = "
         r"\frac{d}{d\kappa}\int_0^{\tau_1}\omega(\xi(\tau, "
@@ -174,11 +170,10 @@ def global_minimum() -> Steps:
 
 @claim("after (2.16): J0", "J0(κ) by parts from (2.14)", verdict="holds")
 def cost_by_parts() -> Evidence:
-    key = r"J_0(\kappa) - J_0(0)"
     inner = sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
     return Equality(
-        {key: kappa * Psi - inner},
-        lambda: {key: optimum.cost_difference()},
+        {r"J_0(\kappa) - J_0(0)": kappa * Psi - inner},
+        optimum.cost_difference,
         display=r"J_0(\kappa) = J_0(0) + \kappa\int_0^{\tau_1}\omega(\xi)d\tau - \int_0^{\kappa}d\kappa_1"
         r"\int_0^{\tau_1(\kappa_1)}\omega(\xi(\tau, \tau_1(\kappa_1), \kappa_1))d\tau",
     )

@@ -11,13 +11,13 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
+    RightSides,
     Steps,
     vanishes,
 )
 
 claim = Page("Akulenko 1977")
 
-R = sp.Rational
 M, a = principle.M, principle.a
 
 
@@ -83,11 +83,10 @@ def one_control() -> Evidence:
 
 @claim("(1.6): p'", "rate of the slow variables' costate", verdict="holds")
 def costate_rate() -> Evidence:
-    key = r"\dot p_1"
     h = p[0] * f[0] + p[1] * f[1] + q * F
     return Equality(
-        {key: -omega.diff(a[0]) * q - epsilon * h.diff(a[0])},
-        lambda: {key: principle.costate_rates()[0]},
+        {r"\dot p_1": -omega.diff(a[0]) * q - epsilon * h.diff(a[0])},
+        lambda: principle.costate_rates()[0],
         display=r"\dot p = -\frac{\partial H}{\partial a}\Bigr|_{u^*} = -\omega' q - \varepsilon "
         r"\frac{\partial h}{\partial a}\Bigr|_{u^*}",
     )
@@ -111,7 +110,7 @@ def transversality() -> Evidence:
 
     return Misprint(
         {key: -(alpha * M).diff(a[1])},
-        lambda: {key: principle.end_conditions()[0][1]},
+        lambda: principle.end_conditions()[0][1],
         defect={key: g.diff(a[1])},
         consequence=shown,
         display=r"p(t_1) = -\frac{\partial}{\partial a}(\alpha M)_{t_1}",
@@ -147,15 +146,14 @@ def envelope() -> Steps:
 
 @claim("(1.7)", "the free end time: H* = εh* = 0 at t1", verdict="holds")
 def free_end() -> Evidence:
-    key = "H^*|_{t_1}"
     h = p[0] * f[0] + p[1] * f[1]
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         ends, level = principle.end_conditions()
-        return {key: sp.expand(level.subs(q, ends[2]))}
+        return sp.expand(level.subs(q, ends[2]))
 
     return Equality(
-        {key: epsilon * h},
+        {"H^*|_{t_1}": epsilon * h},
         derived,
         display=r"H^*|_{t_1} = \varepsilon h(a, \psi, p, 0, u^*, \varepsilon)|_{t_1} = 0",
     )

@@ -12,6 +12,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -79,7 +80,7 @@ def controls_on_the_cylinder() -> Evidence:
 
     return Misprint(
         dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, without_phase_costate(), strict=True)),
+        without_phase_costate,
         defect={
             "u_x": (1 - l) * sp.cos(psi) * SIGN_P,
             "u_y": (1 - l) * sp.sin(psi) * SIGN_P,
@@ -189,13 +190,11 @@ def jumps_of_the_signs() -> Evidence:
     remark="Exactly, for every ε: a' = εl sign p, c' = εh sign q without averaging.",
 )
 def integrals_of_the_signs() -> Evidence:
-    keys = (r"\int_0^{\tau_1}\mathrm{sign}\,p\,d\tau", r"\int_0^{\tau_1}\mathrm{sign}\,q\,d\tau")
-
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rates = exact_rates(without_phase_costate())
         P, Q = sp.symbols("P Q")
         sums = [(a0 + P * rates[0] / SIGN_P - a1, P), (c0 + Q * rates[1] / SIGN_Q - c1, Q)]
-        return dict(zip(keys, (sp.solve(*pair)[0] for pair in sums), strict=True))
+        return [sp.solve(*pair)[0] for pair in sums]
 
     def argument() -> Steps:
         rates = exact_rates(without_phase_costate())
@@ -204,8 +203,11 @@ def integrals_of_the_signs() -> Evidence:
         F = rigid_body.phase_rate().subs(dict(zip(u, without_phase_costate(), strict=True)))
         yield "and the control does not touch the phase: F = 0", vanishes(F)
 
-    printed = ((a1 - a0) / l, (c1 - c0) / h)
-    return Proof(argument, Equality(dict(zip(keys, printed, strict=True)), derived))
+    printed = {
+        r"\int_0^{\tau_1}\mathrm{sign}\,p\,d\tau": (a1 - a0) / l,
+        r"\int_0^{\tau_1}\mathrm{sign}\,q\,d\tau": (c1 - c0) / h,
+    }
+    return Proof(argument, Equality(printed, derived))
 
 
 @claim.proof(

@@ -27,10 +27,9 @@ TURN = 2 * sp.pi / sp.Integral(1 / SPEED, (x, 0, 2 * sp.pi))
 @claim("(3.1)", "a rotor with mass m(x) and potential V(x) under the forces εu and εf", verdict="holds")
 def equation_of_the_rotor() -> Evidence:
     printed = MASS * rotor.second + MASS.diff(x) * v**2 / 2 + POTENTIAL.diff(x)
-    key = r"\varepsilon u + \varepsilon f"
     return Equality(
-        {key: printed},
-        lambda: {key: rotor.equation_of_motion()},
+        {r"\varepsilon u + \varepsilon f": printed},
+        rotor.equation_of_motion,
         display=r"m(x)x'' + \tfrac12 m'x'^2 + V'(x) = \varepsilon u + \varepsilon f(x, x')",
     )
 
@@ -79,11 +78,6 @@ def unperturbed_motion() -> Evidence:
     verdict="holds",
 )
 def standard_form() -> Evidence:
-    keys = (r"\dot a/\varepsilon", "x'(a, x)", r"\omega(a)")
-
-    def derived() -> dict[str, sp.Expr]:
-        return dict(zip(keys, (rotor.slow_rate(), rotor.speed(), rotor.frequency()), strict=True))
-
     def argument() -> Steps:
         yield (
             "psi' = ω at ε = 0: dpsi/dx times x'",
@@ -95,10 +89,14 @@ def standard_form() -> Evidence:
         share = rotor.phase_rate() / rotor.slow_rate()
         yield "F = a'/ε times dpsi/da at a fixed x, periodic in x therefore", not share.has(u, FORCE)
 
-    printed = (SPEED * (u + FORCE.subs(v, SPEED)), SPEED, TURN)
+    printed = {
+        r"\dot a/\varepsilon": SPEED * (u + FORCE.subs(v, SPEED)),
+        "x'(a, x)": SPEED,
+        r"\omega(a)": TURN,
+    }
     return Proof(
         argument,
-        Equality(dict(zip(keys, printed, strict=True)), derived),
+        Equality(printed, lambda: (rotor.slow_rate(), rotor.speed(), rotor.frequency())),
         display=r"\dot a = \varepsilon x'(u + f),\quad x' = (2/m)^{1/2}(a - V)^{1/2},\quad "
         r"\dot\psi = \omega(a) + O(\varepsilon),\quad \omega(a) = 2\pi \Big/ \oint dx/x'",
     )
@@ -106,5 +104,4 @@ def standard_form() -> Evidence:
 
 @claim("after (3.1): averaging", "averages over ψ are taken over x: dψ = ω(a)dx/x'", verdict="holds")
 def averaging_over_the_angle() -> Evidence:
-    key = r"d\psi/dx"
-    return Equality({key: TURN / SPEED}, lambda: {key: rotor.phase_weight()})
+    return Equality({r"d\psi/dx": TURN / SPEED}, rotor.phase_weight)

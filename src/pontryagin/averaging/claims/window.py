@@ -112,7 +112,6 @@ def mean_condition() -> Steps:
 
 @claim("(2.8)", "the phase at the end runs with τ1: derivative of ∫ω dτ by τ1", verdict="holds")
 def phase_runs() -> Evidence:
-    key = r"\frac{d}{d\tau_1}\int_0^{\tau_1}\omega d\tau"
     end, time = sp.symbols("tau_1 tau", positive=True)
     w, path = sp.Function("omega"), sp.Function("xi")(time, end)
     named = sp.Symbol("omega'")
@@ -122,8 +121,8 @@ def phase_runs() -> Evidence:
         return w(path).subs(time, end) + sp.Integral(slope * path.diff(end), (time, 0, end))
 
     return Equality(
-        {key: printed()},
-        lambda: {key: sp.Integral(w(path), (time, 0, end)).diff(end)},
+        {r"\frac{d}{d\tau_1}\int_0^{\tau_1}\omega d\tau": printed()},
+        lambda: sp.Integral(w(path), (time, 0, end)).diff(end),
         display=rf"\omega(\xi(\tau_1^*, \tau_1^*)) + \int_0^{{\tau_1^*}} {named}(\xi(\tau, \tau_1^*))"
         r"\frac{\partial \xi(\tau, \tau_1^*)}{\partial \tau_1^*}d\tau \ne 0",
     )

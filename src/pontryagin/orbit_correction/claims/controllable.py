@@ -1,7 +1,6 @@
 """Section 2, (2) to Corollary 1: the 0-controllable sets."""
 
 from itertools import pairwise
-from typing import Any
 
 import sympy as sp
 
@@ -146,7 +145,7 @@ def state_after_steps() -> Equality:
     printed = A(2) * A(1) * A(0) * x + A(2) * A(1) * u(0) + A(2) * u(1) + u(2)
     return Equality(
         {"x(3)": printed},
-        lambda: {"x(3)": summands.final_state(3)},
+        lambda: summands.final_state(3),
         display=r"0 = A(N+k-1)\cdot\ldots\cdot A(k)x(k) + A(N+k-1)\cdot\ldots\cdot A(k+1)u(k) + \dots + "
         r"A(N+k-1)u(N+k-2) + u(N+k-1)",
     )
@@ -183,10 +182,11 @@ def state_with_the_product_inverted() -> Misprint:
 def recurrence() -> Equality:
     sizes = (0, 1, 2, 3)
 
-    def derived() -> dict[str, Any]:
-        return {
-            rf"A(0)x(0)\ (N = {N})": sp.expand(A(0) * summands.state_brought_to_zero(N + 1)) for N in sizes
-        }
-
     printed = {rf"A(0)x(0)\ (N = {N})": summands.state_brought_to_zero(N, 1) - u(0) for N in sizes}
-    return Equality(printed, derived, display=r"A(k)X(N+1, k) = X(N, k+1) + (-U(k))")
+    return Equality(
+        printed,
+        lambda: {
+            rf"A(0)x(0)\ (N = {N})": sp.expand(A(0) * summands.state_brought_to_zero(N + 1)) for N in sizes
+        },
+        display=r"A(k)X(N+1, k) = X(N, k+1) + (-U(k))",
+    )

@@ -1,11 +1,9 @@
 """Section 3: strictly convex compact sets, their support points and normals."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Slip, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Slip, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
@@ -171,12 +169,12 @@ def moved_midpoint() -> Equality:
     first, second = (sp.Matrix(sp.symbols(f"{name}1:4", real=True)) for name in ("x", "y"))
     p = sp.Matrix(sp.symbols("p1:4", real=True))
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # (p, x') = (p, x'') = s determines the last coordinates.
         levels = [p.dot(point) - s for point in (first, second)]
         known = sp.solve(levels, [first[2], second[2]], dict=True)[0]
         moved = (first + second) / 2 + size * p
-        return {r"(p, \tfrac12 x'' + \tfrac12 x' + \varepsilon p)": sp.simplify(p.dot(moved.subs(known)))}
+        return sp.simplify(p.dot(moved.subs(known)))
 
     return Equality(
         {r"(p, \tfrac12 x'' + \tfrac12 x' + \varepsilon p)": s + size * p.dot(p)},

@@ -1,11 +1,11 @@
 """Section 6, Lemma 9: the initial costate, (8) to (11)."""
 
-from typing import Any
+from collections.abc import Sequence
 
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
@@ -20,6 +20,16 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
     return [-Q * psi / sp.sqrt((psi.T * Q * psi)[0]) for Q in inverses]
 
 
+def total(system: ExactSystem, psi: sp.Matrix) -> sp.Matrix:
+    """The sum of the x^k."""
+    return sum(parts(system, psi), sp.zeros(*psi.shape))
+
+
+def levels(system: ExactSystem, points: Sequence[sp.Matrix]) -> list[sp.Expr]:
+    """(x, H~(k)x) of points x of E_1, E_2, ...; it is 1 on the boundary."""
+    return [(x.T * shape_inverse(system, k).inv() * x)[0] for k, x in enumerate(points, start=1)]
+
+
 @claim(
     "Lemma 9",
     "−x0 as a sum over ψ0: the equation for the initial costate",
@@ -27,16 +37,9 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
     remark="With H~(k) as corrected.",
 )
 def equation_for_the_costate() -> Equality:
-    systems = family()
-    keys = [f"-x_0\\ ({named(system)})" for system in systems]
-
-    def printed() -> dict[str, sp.Matrix]:
-        sums = [-sum(parts(s, s.costates[0]), sp.zeros(*s.psi0.shape)) for s in systems]
-        return dict(zip(keys, sums, strict=True))
-
     return Equality(
-        printed(),
-        lambda: {key: -system.boundary_state() for key, system in zip(keys, systems, strict=True)},
+        {f"-x_0\\ ({named(system)})": -total(system, system.costates[0]) for system in family()},
+        lambda: [-system.boundary_state() for system in family()],
         display=r"-x_0 = \sum_{k=1}^{N_{\min}} \frac{\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde "
         r"H^{-1}(k)\psi_0)}}",
     )
@@ -49,21 +52,13 @@ def equation_for_the_costate() -> Equality:
 )
 def decomposition_into_ellipsoids() -> Steps:
     for system in family():
-        psi, points = system.costates[0], parts(system, system.costates[0])
-        yield (
-            f"{named(system)}: the x^k add up to x0",
-            vanishes(sum(points, sp.zeros(*psi.shape)) - system.boundary_state()),
-        )
-        levels = [
-            (point.T * shape_inverse(system, k).inv() * point)[0] for k, point in enumerate(points, start=1)
-        ]
-        yield "and lie on the boundaries", levels == [1] * system.steps
+        added = total(system, system.costates[0])
+        yield f"{named(system)}: the x^k add up to x0", vanishes(added - system.boundary_state())
+        points = parts(system, system.costates[0])
+        yield "and lie on the boundaries", levels(system, points) == [1] * system.steps
         moved = points[0] + (points[0] - points[1]) / 100
         other = points[1] - (points[0] - points[1]) / 100
-        outside = [
-            (point.T * shape_inverse(system, k).inv() * point)[0]
-            for k, point in enumerate((moved, other), start=1)
-        ]
+        outside = levels(system, (moved, other))
         yield "what is moved from one to the next takes one of them outside", max(outside) > 1
 
 
@@ -134,17 +129,16 @@ def parts_by_multipliers() -> Equality:
     X, _, _ = plane()
     psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
     inverse = X.factor * X.factor.T
-    key = "x^k"
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # Lagrange's condition: -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
         multiplier = sp.Symbol("m", positive=True)
         stationary = -inverse * psi / (2 * multiplier)
         found = sp.solve(sp.Eq(sp.expand(X.level(stationary) * multiplier**2), multiplier**2), multiplier)
-        return {key: stationary.subs(multiplier, found[0])}
+        return stationary.subs(multiplier, found[0])
 
     return Equality(
-        {key: -inverse * psi / sp.sqrt((psi.T * inverse * psi)[0])},
+        {"x^k": -inverse * psi / sp.sqrt((psi.T * inverse * psi)[0])},
         derived,
         display=r"x^k = \frac{-\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde H^{-1}(k)\psi_0)}}",
     )
@@ -158,10 +152,9 @@ def homogeneous_of_degree_zero() -> Steps:
     factor = sp.Symbol("c", positive=True)
     for system in family():
         psi = system.costates[0]
-        total = sum(parts(system, factor * psi), sp.zeros(*psi.shape))
-        yield f"{named(system)}: cψ0 gives the same x0", vanishes(total - system.boundary_state())
-        turned = sum(parts(system, -psi), sp.zeros(*psi.shape))
-        yield "a negative factor gives −x0: not linear", turned == -system.boundary_state()
+        same = total(system, factor * psi)
+        yield f"{named(system)}: cψ0 gives the same x0", vanishes(same - system.boundary_state())
+        yield "a negative factor gives −x0: not linear", total(system, -psi) == -system.boundary_state()
 
 
 @claim(
@@ -188,11 +181,11 @@ def system_for_the_costate() -> Conditional:
                 ((curvature * psi).is_zero_matrix and curvature.rank() == len(psi) - 1),
             )
             unit = psi / psi.norm()
-            total = sum(parts(system, unit), sp.zeros(*psi.shape))
+            solved = vanishes(total(system, unit) - system.boundary_state())
             yield (
                 "ψ0/|ψ0| solves, −ψ0/|ψ0| does not",
-                (vanishes(total - system.boundary_state()) and vanishes(sp.simplify(unit.dot(unit) - 1)))
-                and sum(parts(system, -psi), sp.zeros(*psi.shape)) != system.boundary_state(),
+                (solved and vanishes(sp.simplify(unit.dot(unit) - 1)))
+                and total(system, -psi) != system.boundary_state(),
             )
 
     def counterexample() -> Steps:
@@ -200,16 +193,12 @@ def system_for_the_costate() -> Conditional:
             psi, state = system.costates[0], interior_state(system)
             yield f"{named(system)}: x0 with gauge α = {share_of(system)} is inside", share_of(system) < 1
             for other in (psi, -psi):
-                total = sum(parts(system, other), sp.zeros(*psi.shape))
                 yield (
                     "every sum lies on the boundary: ( −ψ, Σ) is the support function",
-                    -other.dot(total) == system.support(-other, system.steps),
+                    -other.dot(total(system, other)) == system.support(-other, system.steps),
                 )
             yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
-            both = [
-                size * sum(parts(system, p), sp.zeros(*psi.shape))
-                for p, size in ((psi, share_of(system)), (-psi, -share_of(system)))
-            ]
+            both = [share_of(system) * total(system, psi), -share_of(system) * total(system, -psi)]
             yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
 
     return Conditional(

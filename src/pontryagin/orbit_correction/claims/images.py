@@ -1,20 +1,16 @@
 """Section 3, Lemma 3 and Lemma 4: images and sums stay strictly convex."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Steps, vanishes
+from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2, share
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
 claim = Page("Ibragimov 2017")
 
 R = sp.Rational
-E1, E2 = sp.Matrix([1, 0]), sp.Matrix([0, 1])
-DISC = Ellipsoid(sp.ImmutableMatrix(sp.eye(2)))
-share = sp.Symbol("lambda", positive=True)
 
 
 def transformed() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
@@ -74,7 +70,7 @@ def segments_under_a_map() -> Equality:
     inverse = A.inv()
     return Equality(
         {r"A^{-1}(\lambda x' + (1-\lambda)x'')": share * inverse * x + (1 - share) * inverse * y},
-        lambda: {r"A^{-1}(\lambda x' + (1-\lambda)x'')": inverse * (share * x + (1 - share) * y)},
+        lambda: inverse * (share * x + (1 - share) * y),
         display=r"A^{-1}(\lambda x' + (1-\lambda)x'') = \lambda A^{-1}x' + (1-\lambda)A^{-1}x'' \in "
         r"\operatorname{int} X",
     )
@@ -128,14 +124,13 @@ def sums_of_balls() -> Steps:
 @claim("proof of Lemma 4: segment", "λy1 + (1 − λ)y2 is the sum of the middles of the parts", verdict="holds")
 def segments_of_a_sum() -> Equality:
     parts = sp.Matrix(2, 2, sp.symbols("x11 x12 x21 x22"))
-    key = r"\lambda y^1 + (1-\lambda)y^2"
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         first, second = parts[0, 0] + parts[1, 0], parts[0, 1] + parts[1, 1]
-        return {key: share * first + (1 - share) * second}
+        return share * first + (1 - share) * second
 
     middles = [share * parts[i, 0] + (1 - share) * parts[i, 1] for i in range(2)]
-    return Equality({key: sum(middles)}, derived)
+    return Equality({r"\lambda y^1 + (1-\lambda)y^2": sum(middles)}, derived)
 
 
 @claim(

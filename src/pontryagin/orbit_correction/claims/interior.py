@@ -109,7 +109,7 @@ def both_states() -> Equality:
     state = summands.state_brought_to_zero(N)
     return Equality(
         {"x(N)": sp.S.Zero},
-        lambda: {"x(N)": sp.expand(summands.final_state(N).subs(summands.x, state))},
+        lambda: sp.expand(summands.final_state(N).subs(summands.x, state)),
         display=r"A(N_{\min}-1)\cdot\ldots\cdot A(0)x_0 + A(N_{\min}-1)\cdot\ldots\cdot A(1)u(0) + \ldots + "
         r"u(N_{\min}-1) = 0\ \Rightarrow\ x_0 = \rho_{X(N_{\min}, 0)}(-\psi_0) \in \partial X(N_{\min}, 0)",
     )

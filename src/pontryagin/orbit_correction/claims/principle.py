@@ -101,12 +101,10 @@ def adjoint_recursion() -> Conditional:
 
 @claim("proof of Theorem 2", "ψ(k) = A^−T(k−1) ... A^−T(0) ψ(0)", verdict="holds")
 def adjoint_in_closed_form() -> Equality:
-    key = r"\psi(3)"
-
     printed = A_transposed(2) ** -1 * A_transposed(1) ** -1 * A_transposed(0) ** -1
     return Equality(
-        {key: printed},
-        lambda: {key: summands.adjoint(3)},
+        {r"\psi(3)": printed},
+        lambda: summands.adjoint(3),
         display=r"-\psi(k+1) = -(A^{-1}(k))^T\psi(k) \in (A^{-1}(k))^T N(x^*(k), X(N_{\min}-k, k)) \subset "
         r"N(x^*(k+1), X(N_{\min}-k-1, k+1))",
     )

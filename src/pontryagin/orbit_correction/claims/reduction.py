@@ -1,12 +1,10 @@
 """Section 7, (12): the ball in place of the cube, and what follows from the reduced system."""
 
-from typing import Any
-
 import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Refutation, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Refutation, RightSides, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs
@@ -81,15 +79,14 @@ def regrouped_system() -> Steps:
     remark="Right as a set. In the form (u, H(k)u) ≤ 1 of section 6 it has H(k) = B^−T B^−1/α_max².",
 )
 def system_with_ellipsoids() -> Equality:
-    key = r"H(k)\,\alpha_{\max}^2"
     B, peak = sp.Matrix(2, 2, sp.symbols("B11 B12 B21 B22", real=True)), sp.Symbol("alpha_max", positive=True)
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         ball = Ellipsoid(sp.ImmutableMatrix(peak * sp.eye(2)))
-        return {key: (peak**2 * ball.image(B).shape).applyfunc(sp.cancel)}
+        return (peak**2 * ball.image(B).shape).applyfunc(sp.cancel)
 
     return Equality(
-        {key: (B.inv().T * B.inv()).applyfunc(sp.cancel)},
+        {r"H(k)\,\alpha_{\max}^2": (B.inv().T * B.inv()).applyfunc(sp.cancel)},
         derived,
         display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = z_0,\quad u(k) \in U(k) = \{u \in \mathbb{R}^3 : "
         r"(u, (B^{-1}(k))^T B^{-1}(k)u) \le \alpha_{\max}^2\}",

@@ -1,11 +1,9 @@
 """Section 6, Lemma 8: ellipsoids, their images and the summands of X(N, 0)."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Steps, vanishes
+from pontryagin.ledger.evidence import Consequence, Equality, Misprint, RightSides, Steps, vanishes
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation import summands
@@ -79,9 +77,7 @@ def form_of_the_image() -> Equality:
     X, M, x = plane()
     return Equality(
         {r"(y, (A^{-1})^T H A^{-1}y)": (x.T * X.shape * x)[0]},
-        lambda: {
-            r"(y, (A^{-1})^T H A^{-1}y)": sp.cancel(((M * x).T * M.inv().T * X.shape * M.inv() * (M * x))[0])
-        },
+        lambda: sp.cancel(((M * x).T * M.inv().T * X.shape * M.inv() * (M * x))[0]),
         display=r"(y, (A^{-1})^T H A^{-1}y) = (A^{-1}y, HA^{-1}y) = (x, Hx) \ge 0",
     )
 
@@ -91,7 +87,7 @@ def image_of_an_ellipsoid() -> Equality:
     X, M, _ = plane()
     return Equality(
         {r"H_{AX}": M.inv().T * X.shape * M.inv()},
-        lambda: {r"H_{AX}": X.image(M).shape},
+        lambda: X.image(M).shape,
         display=r"AX = \{x \in \mathbb{R}^n : (x, (A^{-1})^T H A^{-1}x) \le 1\}",
     )
 
@@ -117,7 +113,7 @@ def form_at_the_image_point() -> Misprint:
 
     return Misprint(
         {key: printed},
-        lambda: {key: right},
+        lambda: right,
         defect={key: (x.T * X.shape * (M.inv() - sp.eye(2)) * x)[0]},
         consequence=consequence,
         display=r"(x, Hx) = (A^{-1}Ax, HA^{-1}Ax) = (Ax, (A^{-1})^T H A^{-1}x) \le 1",
@@ -135,10 +131,10 @@ def summand() -> Misprint:
     key = "e_2"
     back = summands.backward_product([A(0), A(1)])
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # The part of the state that the last of two controls brings to 0; its sign is immaterial by symmetry.
         state = summands.state_brought_to_zero(2)
-        return {key: -(state - state.subs(summands.u(1), 0))}
+        return -(state - state.subs(summands.u(1), 0))
 
     def consequence() -> Consequence:
         sizes = [k + 1 for k in range(3)]
@@ -170,7 +166,7 @@ def shape_of_a_summand() -> Misprint:
 
     return Misprint(
         {key: before * H(2) * after},
-        lambda: {key: summands.carried_back(2)},
+        lambda: summands.carried_back(2),
         defect={key: before * (H(2) - H(1)) * after},
         consequence=consequence,
         display=r"\tilde H(k) = (A(k-1)\cdot\ldots\cdot A(0))^T H(k)(A(k-1)\cdot\ldots\cdot A(0))",

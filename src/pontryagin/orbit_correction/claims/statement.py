@@ -116,6 +116,6 @@ def scalar_product() -> Equality:
     pair = sp.symbols("x1:4 y1:4")
     return Equality(
         {"(x, y)": sum(a * b for a, b in zip(pair[:3], pair[3:], strict=True))},
-        lambda: {"(x, y)": (sp.Matrix([pair[:3]]) * sp.Matrix(pair[3:]))[0]},
+        lambda: (sp.Matrix([pair[:3]]) * sp.Matrix(pair[3:]))[0],
         display=r"(x, y) = x_1y_1 + \ldots + x_ny_n",
     )

@@ -1,20 +1,14 @@
 """Section 3, Lemma 5: the boundary of a sum."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Consequence, Misprint, Steps, vanishes
-from pontryagin.orbit_correction.claims.convexity import deficit
+from pontryagin.orbit_correction.claims.convexity import DISC, E1, deficit
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation import exact
-from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
 claim = Page("Ibragimov 2017")
-
-E1 = sp.Matrix([1, 0])
-DISC = Ellipsoid(sp.ImmutableMatrix(sp.eye(2)))
 
 
 @claim.proof(
@@ -99,22 +93,15 @@ def normals_of_a_sum() -> Steps:
 def maximum_over_the_sum() -> Misprint:
     p, second = E1, sp.zeros(2, 1)
     key = r"\max_{x^1 \in X_1,\, x^2 \in X_2}(p, x^1 + x^2)"
-
-    def derived() -> dict[str, Any]:
-        return {key: 2 * DISC.support(p)}
-
-    def consequence() -> Consequence:
-        return Consequence(
+    return Misprint(
+        {key: DISC.support(p) + p.dot(second)},
+        lambda: 2 * DISC.support(p),
+        defect={key: sp.Integer(-1)},
+        consequence=lambda: Consequence(
             "two unit discs, p = e1: the maximum that the print gives for x2 = 0",
             DISC.support(p) + p.dot(second),
             p.dot(DISC.point(p) + DISC.point(p)),
-        )
-
-    return Misprint(
-        {key: DISC.support(p) + p.dot(second)},
-        derived,
-        defect={key: sp.Integer(-1)},
-        consequence=consequence,
+        ),
         display=r"(p, x^{1*} + x^{2*}) = \max_{x^1 \in X_1}(p, x^1) + \max_{x^2 \in X_2}(p, x^2) = "
         r"\max_{x^1 \in X_1}(p, x^1 + x^2) = \max_{y \in Y}(p, y)",
     )

@@ -7,6 +7,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
+    RightSides,
     Sides,
     Steps,
     vanishes,
@@ -170,12 +171,14 @@ def both_craft() -> Steps:
 
 @claim("(1): dA/dφ, dB/dφ", "rates of the elements", verdict="holds")
 def element_rates() -> Equality:
-    keys = (r"\frac{dA}{d\varphi}", r"\frac{dB}{d\varphi}")
     F1 = driving(sapunkov.lifted_force())
-    printed = (-epsilon * Q * F1 * sin, epsilon * Q * F1 * cos)
+    printed = {
+        r"\frac{dA}{d\varphi}": -epsilon * Q * F1 * sin,
+        r"\frac{dB}{d\varphi}": epsilon * Q * F1 * cos,
+    }
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, sapunkov.element_rates(), strict=True)),
+        printed,
+        sapunkov.element_rates,
         display=r"\frac{dA}{d\varphi} = -\varepsilon Q F_1\sin\varphi,\quad \frac{dB}{d\varphi} = "
         r"\varepsilon Q F_1\cos\varphi",
     )
@@ -188,19 +191,15 @@ def element_rates() -> Equality:
     remark="In units with fM = 1, which “dimensionless” must mean.",
 )
 def time_rate() -> Equality:
-    key = r"\frac{dt}{d\varphi}"
     return Equality(
-        {key: square * sp.sqrt(2 * Q)},
-        lambda: {key: sapunkov.time_rate()},
+        {r"\frac{dt}{d\varphi}": square * sp.sqrt(2 * Q)},
+        sapunkov.time_rate,
         display=r"\frac{dt}{d\varphi} = u^2\sqrt{2Q}",
     )
 
 
 @claim("(1): Q", "Q = A² + B²", verdict="holds", remark="It is −1/h: twice the semi-axis.")
 def size_of_the_orbit() -> Proof:
-    def derived() -> Sides:
-        return {"Q": sp.simplify(in_elements(sapunkov.size_of_the_orbit()))}
-
     def argument() -> Steps:
         speed = sapunkov.spinor_rate()
         kinetic = square * velocity.dot(velocity) - 4 * speed.dot(speed)
@@ -208,7 +207,11 @@ def size_of_the_orbit() -> Proof:
         pair = A.dot(A) + B.dot(B) - (in_elements(u.dot(u)) + in_elements(w.dot(w)))
         yield "A² + B² = u² + w²", vanishes(sp.simplify(pair))
 
-    return Proof(argument, Equality({"Q": A.dot(A) + B.dot(B)}, derived), display="Q = A^2 + B^2")
+    return Proof(
+        argument,
+        Equality({"Q": A.dot(A) + B.dot(B)}, lambda: sp.simplify(in_elements(sapunkov.size_of_the_orbit()))),
+        display="Q = A^2 + B^2",
+    )
 
 
 @claim.proof(
@@ -236,14 +239,12 @@ def lifted_force() -> Steps:
 
 @claim("(1): F1", "what drives the elements", verdict="holds")
 def driving_force() -> Equality:
-    key = "F_1"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         whole = (sapunkov.oscillation_rate() + u) / (epsilon * Q)
-        return {key: whole.applyfunc(sp.expand)}
+        return whole.applyfunc(sp.expand)
 
     printed = driving(sapunkov.lifted_force()).applyfunc(sp.expand)
-    return Equality({key: printed}, derived, display=r"F_1 = u^2 q + (w, q)w")
+    return Equality({"F_1": printed}, derived, display=r"F_1 = u^2 q + (w, q)w")
 
 
 @claim("(1): u, w", "u = A cos φ + B sin φ, w = −A sin φ + B cos φ", verdict="holds")

@@ -8,7 +8,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
-    Sides,
+    RightSides,
     Slip,
     Steps,
     vanishes,
@@ -37,15 +37,13 @@ def r_of_target() -> tuple[sp.Expr, sp.Expr]:
     "`Rendezvous` refuses it.",
 )
 def functional() -> Equality:
-    key = r"\dot g"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         at_rest = principle.hamiltonian().subs(dict.fromkeys(principle.COSTATE, 0))
         length = {thrust[0]: p, thrust[1]: 0, thrust[2]: 0}
-        return {key: sp.expand(-at_rest.subs(length))}
+        return sp.expand(-at_rest.subs(length))
 
     return Equality(
-        {key: time_weight + energy_weight * p**2},
+        {r"\dot g": time_weight + energy_weight * p**2},
         derived,
         display=r"J = \int_0^{t_k}(\alpha_1 + \alpha_2 p^2(t))\,dt,\quad \alpha_1, \alpha_2 = "
         r"\mathrm{const} \ge 0",

@@ -6,7 +6,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Equality,
     Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -69,15 +69,13 @@ def costates() -> Steps:
 
 @claim("(8)", "the thrust lies along n", verdict="holds", remark="Where n ≠ 0.")
 def direction() -> Proof:
-    key = r"\bar p_\eta^0"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         n = principle.switching()
         found = sp.solve([*(n - 2 * multiplier * thrust)], list(thrust), dict=True)[0]
         stationary = thrust.subs(found)
         size = principle.size(stationary.subs({e: 0, nu1: 0, s1: length}))
         scale = sp.solve(size - magnitude, multiplier)[0]
-        return {key: stationary.subs(multiplier, scale).subs(length, principle.size(n))}
+        return stationary.subs(multiplier, scale).subs(length, principle.size(n))
 
     def argument() -> Steps:
         n, other = principle.switching(), thrust
@@ -88,7 +86,7 @@ def direction() -> Proof:
         )
 
     n = sp.Matrix([s1, e * r, r * nu1 / (2 * c)])
-    printed = {key: magnitude * n / sp.sqrt(n.dot(n))}
+    printed = {r"\bar p_\eta^0": magnitude * n / sp.sqrt(n.dot(n))}
     return Proof(argument, Equality(printed, derived), display=r"\bar p_\eta^0 = p^0\bar n_\eta/|\bar n|")
 
 
@@ -99,25 +97,15 @@ def direction() -> Proof:
     remark="The scan prints ν like v; that ν1 is meant, the line after (10) says.",
 )
 def switching_vector() -> Equality:
-    keys = (r"\bar n_\eta", r"|\bar n|")
-
-    def derived() -> Sides:
-        return dict(zip(keys, (principle.switching(), principle.size(principle.switching())), strict=True))
-
-    printed = (
-        sp.Matrix([s1, e * r, r * nu1 / (2 * c)]),
-        sp.sqrt(s1**2 + r**2 * (e**2 + nu1**2 / (4 * c**2))),
-    )
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    printed = {
+        r"\bar n_\eta": sp.Matrix([s1, e * r, r * nu1 / (2 * c)]),
+        r"|\bar n|": sp.sqrt(s1**2 + r**2 * (e**2 + nu1**2 / (4 * c**2))),
+    }
+    return Equality(printed, lambda: (principle.switching(), principle.size(principle.switching())))
 
 
 @claim("(10)", "the size of the thrust for α2 > 0: |n|/(2α2), at most p_max", verdict="holds")
 def thrust_size() -> Proof:
-    keys = (r"p^0", r"p^0_{\max}")
-
-    def derived() -> Sides:
-        return dict(zip(keys, principle.best_magnitudes()[:2], strict=True))
-
     def argument() -> Steps:
         gain, excess = principle.along_switching(), sp.Symbol("k", positive=True)
         yield (
@@ -138,7 +126,10 @@ def thrust_size() -> Proof:
 
     return Proof(
         argument,
-        Equality(dict(zip(keys, (length / (2 * energy_weight), peak), strict=True)), derived),
+        Equality(
+            {r"p^0": length / (2 * energy_weight), r"p^0_{\max}": peak},
+            lambda: principle.best_magnitudes()[:2],
+        ),
         display=r"\alpha_2 > 0:\ p^0 = \begin{cases} (2\alpha_2)^{-1}|\bar n|, & (2\alpha_2)^{-1}|\bar n| "
         r"\le p_{\max} \\ p_{\max}, & (2\alpha_2)^{-1}|\bar n| > p_{\max} \end{cases}",
     )
@@ -178,14 +169,12 @@ def no_singular_arcs() -> Steps:
 
 @claim("after (10): ν", "ν1 is a component of ν = λ~∘μ", verdict="holds")
 def variable_nu() -> Equality:
-    key = r"\nu_1"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         gradient = (principle.hamiltonian() + principle.running_cost()).diff(thrust[2])
-        return {key: sp.expand(2 * c / r * gradient)}
+        return sp.expand(2 * c / r * gradient)
 
     return Equality(
-        {key: product(conjugate(attitude), mu)[1]},
+        {r"\nu_1": product(conjugate(attitude), mu)[1]},
         derived,
         display=r"\bar\nu = \nu_0 + \nu_1\bar i_1 + \nu_2\bar i_2 + \nu_3\bar i_3 = "
         r"\tilde{\bar\lambda}\circ\bar\mu",

@@ -87,37 +87,33 @@ def six() -> Steps:
 
 @claim("(11)", "rates of v1, r, c", verdict="holds")
 def translation() -> Equality:
-    keys = (r"\dot v_1", r"\dot r", r"\dot c")
-    printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
-    return Equality(
-        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(v1, r, c), strict=True))
-    )
+    printed = {r"\dot v_1": c**2 / r**3 - gravity / r**2 + p1, r"\dot r": v1, r"\dot c": r * p2}
+    return Equality(printed, lambda: rates(v1, r, c))
 
 
 @claim("(12)", "rates of s1 and ρ", verdict="holds")
 def radial_costates() -> Equality:
-    keys = (r"\dot s_1", r"\dot\rho")
-    printed = (
-        -rho,
-        ((3 * c**2 / r - 2 * gravity) * s1 + c * nu3) / r**3 - e * p2 - nu1 * p3 / (2 * c),
-    )
-    return Equality(
-        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(s1, rho), strict=True))
-    )
+    printed = {
+        r"\dot s_1": -rho,
+        r"\dot\rho": ((3 * c**2 / r - 2 * gravity) * s1 + c * nu3) / r**3 - e * p2 - nu1 * p3 / (2 * c),
+    }
+    return Equality(printed, lambda: rates(s1, rho))
 
 
 @claim("(13)", "rate of e", verdict="holds")
 def areal_costate() -> Equality:
-    key = r"\dot e"
     printed = -(2 * c * s1 / r + nu3 / 2) / r**2 + r * nu1 * p3 / (2 * c**2)
-    return Equality({key: printed}, lambda: {key: rates(e)[0]})
+    return Equality({r"\dot e": printed}, lambda: rates(e)[0])
 
 
 @claim("(14)", "rates of ν1, ν2, ν3", verdict="holds")
 def nu_rates() -> Equality:
-    keys = (r"\dot\nu_1", r"\dot\nu_2", r"\dot\nu_3")
-    printed = (c * nu2 / r**2, -c * nu1 / r**2 + r * nu3 * p3 / c, -r * nu2 * p3 / c)
-    return Equality(dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(*nu), strict=True)))
+    printed = {
+        r"\dot\nu_1": c * nu2 / r**2,
+        r"\dot\nu_2": -c * nu1 / r**2 + r * nu3 * p3 / c,
+        r"\dot\nu_3": -r * nu2 * p3 / c,
+    }
+    return Equality(printed, lambda: rates(*nu))
 
 
 @claim.proof("after (14): order", "(11) to (14) and φ*' form a system of order ten")

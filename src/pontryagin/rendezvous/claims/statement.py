@@ -7,7 +7,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -87,28 +87,25 @@ def bound() -> Steps:
 
 @claim("(2)", "v1' = c²/r³ − fM/r² + p1, r' = v1, c' = r p2", verdict="holds")
 def translation() -> Equality:
-    keys = (r"\dot v_1", r"\dot r", r"\dot c")
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         rates = model.motion()[0]
-        return dict(zip(keys, (rates[1], rates[0], rates[2]), strict=True))
+        return rates[1], rates[0], rates[2]
 
-    printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    printed = {r"\dot v_1": c**2 / r**3 - gravity / r**2 + p1, r"\dot r": v1, r"\dot c": r * p2}
+    return Equality(printed, derived)
 
 
 @claim("(3)", "2λ' = λ∘ω, ω = (r p3/c) i1 + (c/r²) i3, φ*' = c*(1 + e* cos φ*)²/p*²", verdict="holds")
 def attitude_and_anomaly() -> Equality:
-    keys = (r"2\dot{\bar\lambda}", r"\bar\omega_\eta", r"\dot\varphi^*")
-    printed = (product(lam, sp.Matrix([0, *omega])), omega, areal * growth**2 / parameter**2)
-
-    def derived() -> Sides:
-        found = (2 * model.attitude_rate(), model.motion()[1], model.anomaly_rate())
-        return dict(zip(keys, found, strict=True))
+    printed = {
+        r"2\dot{\bar\lambda}": product(lam, sp.Matrix([0, *omega])),
+        r"\bar\omega_\eta": omega,
+        r"\dot\varphi^*": areal * growth**2 / parameter**2,
+    }
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        derived,
+        printed,
+        lambda: (2 * model.attitude_rate(), model.motion()[1], model.anomaly_rate()),
         display=r"2\dot{\bar\lambda} = \bar\lambda\circ\bar\omega_\eta,\quad \bar\omega_\eta = "
         r"(rp_3/c)\bar i_1 + (c/r^2)\bar i_3,\quad \dot\varphi^* = c^*(1 + e^*\cos\varphi^*)^2/p^{*2}",
     )
@@ -133,13 +130,13 @@ def initial_state() -> Steps:
 
 @claim("(5)", "r, v1 and c of the target at its true anomaly", verdict="holds")
 def ends() -> Equality:
-    keys = ("r^*", "v_1^*", "c^*")
-    printed = (parameter / growth, eccentricity * areal * sp.sin(anomaly) / parameter, areal)
+    printed = {
+        "r^*": parameter / growth,
+        "v_1^*": eccentricity * areal * sp.sin(anomaly) / parameter,
+        "c^*": areal,
+    }
 
-    def derived() -> Sides:
-        return dict(zip(keys, transversality.meeting()[:3], strict=True))
-
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    return Equality(printed, lambda: transversality.meeting()[:3])
 
 
 @claim("(6)", "the attitude of the target, and vect(λ~∘λ*) = 0 for the same attitude", verdict="holds")
@@ -160,10 +157,7 @@ def attitude_at_the_end() -> Proof:
 
     return Proof(
         argument,
-        Equality(
-            {r"\bar\lambda^*": product(orientation, turned)},
-            lambda: {r"\bar\lambda^*": model.target_attitude()},
-        ),
+        Equality({r"\bar\lambda^*": product(orientation, turned)}, model.target_attitude),
         display=r"\operatorname{vect}(\tilde{\bar\lambda}(t_k)\circ\bar\lambda^*(t_k)) = 0,\quad "
         r"\bar\lambda^* = \bar\Lambda^*\circ[\cos(\varphi_k^*/2) + \bar i_3\sin(\varphi_k^*/2)]",
     )

@@ -3,7 +3,16 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Evidence,
+    Proof,
+    RightSides,
+    Sides,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import (
@@ -90,9 +99,9 @@ def acceleration_is_torque_and_disturbance() -> Evidence:
     acceleration = channel.euler_acceleration(applied, external)
     rest = acceleration.subs(applied, 0)
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         in_relative_torque = acceleration.subs(applied, inertia * torque(t))
-        return {r"\varepsilon(t)": in_relative_torque - rest + disturbance(t)}
+        return in_relative_torque - rest + disturbance(t)
 
     def argument() -> Steps:
         rates = sp.symbols("omega_2:4", real=True)
@@ -105,18 +114,18 @@ def acceleration_is_torque_and_disturbance() -> Evidence:
 
 @claim("after (0.3)", "(0.1) and (0.3) make a double integrator: d²γ/dt² = m + f", verdict="holds")
 def double_integrator() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         rate = {gamma(t).diff(t): omega(t), omega(t).diff(t): torque(t) + disturbance(t)}
-        return {r"\ddot\gamma(t)": gamma(t).diff(t).subs(rate).diff(t).subs(rate)}
+        return gamma(t).diff(t).subs(rate).diff(t).subs(rate)
 
     return Equality({r"\ddot\gamma(t)": torque(t) + disturbance(t)}, derived)
 
 
 @claim("(0.4)", "the control u is the rate of the control torque", verdict="holds")
 def rate_of_the_torque() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         built_up = sp.Symbol("m_0") + sp.Integral(control(tau), (tau, channel.t0, t))
-        return {r"\dot m(t)": built_up.diff(t)}
+        return built_up.diff(t)
 
     return Equality(
         {r"\dot m(t)": control(t)},

@@ -10,11 +10,12 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
-from pontryagin.triple_integrator.derivation import channel, energy, parabola
+from pontryagin.triple_integrator.claims.energy import gramian_is_definite
+from pontryagin.triple_integrator.derivation import channel, parabola
 from pontryagin.triple_integrator.derivation.channel import drive, t, tau, tf
 from pontryagin.triple_integrator.derivation.duality import (
     area_of,
@@ -71,11 +72,10 @@ def dual_norm_in_l1() -> Steps:
 
 @claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
 def dual_problem() -> Evidence:
-    key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
     return Equality(
-        {key: printed},
-        lambda: {key: parabola.parabola()},
+        {r"\psi_3(\tau)": printed},
+        parabola.parabola,
         display=r"\min_{l^T c=1} \int_{t_0}^{t_f} \left| \psi_3(\tau) \right| d\tau = \rho_0,\quad "
         r"\psi_3(\tau) = h(\tau)",
     )
@@ -86,11 +86,11 @@ def third_costate() -> Evidence:
     end = sp.symbols("psi_1f psi_2f psi_3f", real=True)
     printed = (tf - tau) ** 2 / 2 * end[0] + (tf - tau) * end[1] + end[2]
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # Integrate (1.15) backwards from tf.
         clock = sp.Dummy("t")
         middle = end[1] + sp.integrate(end[0], (clock, tau, tf))
-        return {r"\psi_3(\tau)": end[2] + sp.integrate(middle.subs(tau, clock), (clock, tau, tf))}
+        return end[2] + sp.integrate(middle.subs(tau, clock), (clock, tau, tf))
 
     return Equality(
         {r"\psi_3(\tau)": printed},
@@ -119,7 +119,7 @@ def dual_problem_written_out() -> Evidence:
 
     return Misprint(
         {key: quadratic},
-        lambda: {key: sp.Abs(parabola.parabola())},
+        lambda: sp.Abs(parabola.parabola()),
         defect={key: quadratic - sp.Abs(parabola.parabola())},
         consequence=consequence,
         display=r"\rho_0 = \min_{l_1 c_1 + l_2 c_2 + l_3 c_3 = 1} \int_{t_0}^{t_f} "
@@ -130,41 +130,28 @@ def dual_problem_written_out() -> Evidence:
 @claim("(3.3)", "the minimising ψ3* with the coefficients l10, l20, l30", verdict="holds")
 def minimising_costate() -> Evidence:
     printed = (tf - t) ** 2 / 2 * l1 + (tf - t) * l2 + l3
-
-    def derived() -> Sides:
-        psi = transition(tf - t).T * multipliers
-        return {r"\psi_3^*(t)": psi[2]}
-
     return Equality(
         {r"\psi_3^*(t)": printed},
-        derived,
+        lambda: (transition(tf - t).T * multipliers)[2],
         display=r"\psi_3^*(t) = \tfrac12 (t_f - t)^2 l_{10} + (t_f - t) l_{20} + l_{30}",
     )
 
 
 @claim("after (3.3): end values", "l10, l20, l30 are the end values of ψ1*, ψ2*, ψ3*", verdict="holds")
 def end_values_of_the_costate() -> Evidence:
-    keys = [rf"\psi_{k}^*(t_f)" for k in (1, 2, 3)]
-
-    def derived() -> Sides:
-        end = (transition(tf - t).T * multipliers).subs(t, tf)
-        return dict(zip(keys, end, strict=True))
-
     return Equality(
-        dict(zip(keys, multipliers, strict=True)),
-        derived,
+        {rf"\psi_{k}^*(t_f)": l for k, l in enumerate(multipliers, start=1)},
+        lambda: (transition(tf - t).T * multipliers).subs(t, tf),
         display=r"l_{10} = \psi_1^*(t_f),\; l_{20} = \psi_2^*(t_f),\; l_{30} = \psi_3^*(t_f)",
     )
 
 
 @claim("before (3.4): conditions", "max ∫h0 u = 1 with max |u| = 1/ρ0, and u0 = 1/ρ0", verdict="holds")
 def conditions_on_the_optimum() -> Evidence:
-    key = "u_0"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # The level of a control with two switches, from its moments and the h with the same zeros.
         moments = two_switches(v, first, second, T)
-        return {key: sp.cancel(paired_with(moments) / area_with_two_zeros())}
+        return sp.cancel(paired_with(moments) / area_with_two_zeros())
 
     def argument() -> Steps:
         norm = area_with_two_zeros() / paired_with(two_switches(v, first, second, T))
@@ -173,7 +160,7 @@ def conditions_on_the_optimum() -> Evidence:
 
     return Proof(
         argument,
-        Equality({key: v}, derived),
+        Equality({"u_0": v}, derived),
         display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1;\quad "
         r"\max_{\tau} \left| u(\tau) \right| = \frac{1}{\rho_0};\quad u_0 = \frac{1}{\rho_0}",
     )
@@ -223,8 +210,7 @@ def least_peak_programme() -> Steps:
 def general_structure() -> Steps:
     zeros = sp.Poly(parabola.parabola(), tau).degree()
     yield "h0 changes sign at most twice", zeros == 2
-    minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-    yield "h0 is not zero, so sign h0 is ±1 almost everywhere", all(minor.is_positive for minor in minors)
+    yield "h0 is not zero, so sign h0 is ±1 almost everywhere", gramian_is_definite()
     determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
     yield (
         "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
@@ -262,10 +248,9 @@ def one_to_one() -> Evidence:
             "initial equilibrium: 0 for the time w, then the control, performs the T + w manoeuvre",
             vanishes(later - moments(rest, channel.final, positive)),
         )
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield (
             "so u0(T + w) ≤ u0(T), and it is less because no h vanishes during the wait: l'c < u0(T) ∫|h|",
-            all(minor.is_positive for minor in minors),
+            gramian_is_definite(),
         )
 
     def counterexample() -> Steps:

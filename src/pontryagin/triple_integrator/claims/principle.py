@@ -3,8 +3,16 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Sides, Steps, vanishes
-from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN, unit_turn
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, RightSides, Sides, Steps, vanishes
+from pontryagin.triple_integrator.claims.energy import gramian_is_definite, silent_control
+from pontryagin.triple_integrator.claims.turn import (
+    BANG_BANG,
+    IMPULSE_DUAL,
+    IMPULSES,
+    PEAK_DUAL,
+    TURN,
+    unit_turn,
+)
 from pontryagin.triple_integrator.derivation import chebyshev, energy
 from pontryagin.triple_integrator.derivation.channel import drive, kick
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
@@ -28,8 +36,7 @@ T1, T2 = lengths
 
 @claim.proof("after (1.11): minimal element", "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖")
 def minimal_element_exists() -> Steps:
-    minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-    yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", all(minor.is_positive for minor in minors)
+    yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", gramian_is_definite()
     yield "l = 0 is not on the plane l'c = 1: least positive there", (sp.zeros(1, 3) * c)[0] != 1
     element = energy.minimal_element().subs(unit_turn())
     size = sp.sqrt(sp.integrate(sp.expand(element**2), (s, 0, 1)))
@@ -37,7 +44,7 @@ def minimal_element_exists() -> Steps:
     steered = piecewise_moments(BANG_BANG)
     yield "L1: a control of peak 32 makes the turn, so no ‖h‖ is below 1/32", steered == TURN
     yield "and one is 1/32", area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)
-    turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
+    turned = three_impulses(IMPULSES)
     yield "L∞: impulses of total 16 make it, so no ‖h‖ is below 1/16", turned == TURN
     yield "and one is 1/16", peak_of(dual_function_of(IMPULSE_DUAL), sp.S.One) == R(1, 16)
 
@@ -46,12 +53,12 @@ def minimal_element_exists() -> Steps:
     "after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds"
 )
 def functional_on_the_dual_set() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         program = energy.minimum_energy_control()
         h = (multipliers.T * impulse_response())[0]
         paired = sp.expand(sp.integrate(sp.expand(h * program), (s, 0, T)))
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
-        return {r"\Phi(h(\cdot))": sp.simplify(paired.subs(multipliers[2], third))}
+        return sp.simplify(paired.subs(multipliers[2], third))
 
     return Equality({r"\Phi(h(\cdot))": sp.S.One}, derived)
 
@@ -78,11 +85,7 @@ def solvable_where_norm_is_positive() -> Steps:
     display=r"\lVert \Phi \rVert_{L_p^*} \ge \frac{1}{\rho_0}",
 )
 def norm_estimate() -> Steps:
-    extra = sp.symbols("n_0:4", real=True)
-    noise = sum(a * s**k for k, a in enumerate(extra))
-    silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
-    noise = sp.expand(noise.subs(silent))
-    program = energy.minimum_energy_control()
+    program, noise = energy.minimum_energy_control(), silent_control()
     cross = sp.integrate(sp.expand(noise * program), (s, 0, T))
     yield "L2: any other control is u* + n with n orthogonal to u*", vanishes(cross) and noise != 0
     own = sp.integrate(sp.expand(program**2), (s, 0, T))
@@ -150,7 +153,7 @@ def isometry() -> Evidence:
         yield "|h| = 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
         between = [room.subs(s, x) for x in (R(1, 4), R(3, 4))]
         yield "|h| is smaller between them: hence 1 < ‖u‖/16 for every integrable u", min(between) > 0
-        turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
+        turned = three_impulses(IMPULSES)
         yield "impulses of total 16 make the turn, and narrow pulses approach them", turned == TURN
         width = sp.Symbol("epsilon", positive=True)
         pulses = sum(

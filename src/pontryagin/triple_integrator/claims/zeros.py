@@ -11,7 +11,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     LinearSystem,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -27,15 +27,13 @@ from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
 from pontryagin.triple_integrator.derivation.duality import peak_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
-from pontryagin.triple_integrator.derivation.parabola import apex, lower, t1, t2, upper
+from pontryagin.triple_integrator.derivation.parabola import lower, t1, t2, upper
 
 claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
 c1, c2, c3 = c
 l1, l2, l3 = multipliers
-conjugate = T - apex
-"""The paper's conjugate parameter, written tau_m with a tilde."""
 
 
 @claim(
@@ -112,7 +110,7 @@ def multipliers_from_the_zeros() -> Evidence:
     }
     return Equality(
         printed,
-        lambda: dict(zip(printed, parabola.multipliers_from_zeros(), strict=True)),
+        parabola.multipliers_from_zeros,
         display=r"l_{10} = \frac{1}{c_0};\quad l_{20} = -\frac{1}{c_0}\left(t_f - \frac{t_1 + t_2}{2}\right);"
         r"\quad l_{30} = \frac{(t_f - t_1)(t_f - t_2)}{2c_0}",
     )
@@ -122,9 +120,22 @@ def multipliers_from_the_zeros() -> Evidence:
 def denominator_of_the_multipliers() -> Evidence:
     return Equality(
         {"c_0": denominator()},
-        lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]},
+        lambda: 1 / parabola.multipliers_from_zeros()[0],
         display=r"c_0 = c_1 - c_2\left(t_f - \frac{t_1 + t_2}{2}\right) + \frac12 c_3 (t_f - t_1)(t_f - t_2)",
     )
+
+
+def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
+    """Integral over [lo, hi] of h = (tau - early)(tau - late)."""
+    return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
+
+
+def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
+    """S1 - S2 + S3 of h = (tau - early)(tau - late) on [0, T]."""
+    first_area, second_area, third_area = (
+        between(early, late, *ends) for ends in ((0, early), (early, late), (late, T))
+    )
+    return sp.expand(first_area - second_area + third_area)
 
 
 @claim.proof(
@@ -135,14 +146,6 @@ def denominator_of_the_multipliers() -> Evidence:
 )
 def bounds_may_be_dropped() -> Steps:
     outside, other = sp.symbols("x y", positive=True)
-
-    def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
-        h = sp.expand((tau - early) * (tau - late))
-        parts = [sp.integrate(h, (tau, *ends)) for ends in ((0, early), (early, late), (late, T))]
-        return sp.expand(parts[0] - parts[1] + parts[2])
-
-    def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
-        return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
 
     early, late = -outside, second
     inside = between(early, late, late, T) - between(early, late, 0, late)
@@ -177,9 +180,7 @@ def bounds_may_be_dropped() -> Steps:
     display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|",
 )
 def least_signed_area() -> Steps:
-    h = (tau - first) * (tau - second)
-    signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
-    total = sp.expand(signed[0] - signed[1] + signed[2])
+    total = signed(first, second)
     yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
     moments = two_switches(v, first, second, T)
     yield (
@@ -196,15 +197,12 @@ def least_signed_area() -> Steps:
 
 @claim("after (3.6): limits", "the three pieces are [t0, t1], [t1, t2], [t2, tf]", verdict="holds")
 def limits_of_the_pieces() -> Evidence:
-    keys = (r"b_1 - a_1", r"b_2 - a_2", r"b_3 - a_3")
-    printed = dict(zip(keys, (t1 - t0, t2 - t1, tf - t2), strict=True))
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         cuts = (t0, *sorted((t1, t2), key=str), tf)
-        return dict(zip(keys, (b - a for a, b in itertools.pairwise(cuts)), strict=True))
+        return [b - a for a, b in itertools.pairwise(cuts)]
 
     return Equality(
-        printed,
+        {"b_1 - a_1": t1 - t0, "b_2 - a_2": t2 - t1, "b_3 - a_3": tf - t2},
         derived,
         display=r"S_k = \int_{a_k}^{b_k} \psi_3^*(\tau)\,d\tau,\quad (a_1, b_1) = (t_0, t_1),\; (a_2, b_2) "
         r"= (t_1, t_2),\; "
@@ -220,7 +218,7 @@ def piece_of_the_integral() -> Evidence:
     )
     return Equality(
         {"S_k": printed},
-        lambda: {"S_k": parabola.piece()},
+        parabola.piece,
         display=r"S_k = (b_k - a_k)\left[\left(\tfrac12 l_{10} t_f^2 + l_{20} t_f + l_{30}\right) - "
         r"\tfrac12 (l_{10} t_f + l_{20})(b_k + a_k) + \tfrac16 l_{10}(b_k^2 + b_k a_k + a_k^2)\right]",
     )
