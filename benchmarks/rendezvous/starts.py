@@ -73,7 +73,8 @@ def is_meeting(extremal: Extremal, six: Array) -> bool:
     """Whether the extremal of these costates satisfies (5) and (6)."""
     scaled, setting = extremal.problem.scaled, problems.setting(extremal.problem)
     flight = fly(scaled, six, float(setting.duration or 0))
-    return bool(np.abs(mismatch(flight, goal_of(setting, float(flight.end[3]))[0])[0]).max() < TRUE)
+    goal, _ = goal_of(setting, float(flight.end[3]))
+    return bool(np.abs(mismatch(flight, goal).residual).max() < TRUE)
 
 
 def ends(extremal: Extremal, starts: Array) -> dict[str, Ends]:

@@ -330,7 +330,7 @@ class TestBatch:
                 "line 3: x30 takes a number, got 'much'",
             ),
             ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: 5 entries under 9 columns"),
-            ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got 1.0 and 1.0"),
+            ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got t0 = 1.0 and tf = 1.0"),
             ([[*ROWS[1][:8], "nan"]], HEADER, "line 2: tf takes a number"),
             (ROWS, ["name", "y10", *HEADER[2:]], "line 1: column x10 is missing"),
             ([], HEADER, "line 2: there is no problem"),

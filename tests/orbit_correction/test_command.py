@@ -75,7 +75,7 @@ def test_what_two_impulses_do_needs_no_fewer():
 
 def test_nothing_to_correct():
     assert "Nothing is to be corrected." in solve("--z0", "0,0,0").stdout
-    assert_refused(solve("--z0", "0,0,0", "--plot", "a.svg"), "--plot shows impulses")
+    assert_refused(solve("--z0", "0,0,0", "--plot", "a.svg"), "--plot needs a plan with impulses")
 
 
 @pytest.mark.slow

@@ -59,7 +59,7 @@ def test_progress_is_shown_when_asked_for_only(capsys):
     [
         (np.eye(2), 5, "covariance must be a symmetric"),
         ([[1, 1, 0], [0, 1, 0], [0, 0, 1]], 5, "covariance must be a symmetric"),
-        (np.diag([1.0, 1.0, -1.0]), 5, "must not be indefinite"),
+        (np.diag([1.0, 1.0, -1.0]), 5, "covariance must have no negative eigenvalue, got -1"),
         (np.full((3, 3), np.nan), 5, "covariance must be"),
         (np.eye(3), 0, "samples must be"),
     ],

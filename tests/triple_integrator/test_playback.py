@@ -159,6 +159,6 @@ def test_any_solution_can_be_recorded(tmp_path, solution):
 
 def test_a_stack_cannot_be_recorded(tmp_path):
     stack = minimum_energy(Maneuver(np.zeros((2, 3)), np.ones((2, 3)), tf=1.0))
-    with pytest.raises(ValueError, match="programme must be"):
+    with pytest.raises(ValueError, match=r"^solution must be the solution of one manoeuvre"):
         playback.record_solution(stack, tmp_path / "one.rrd")
     assert not list(tmp_path.iterdir())

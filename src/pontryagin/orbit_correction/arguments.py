@@ -13,7 +13,7 @@ def state(z0: ArrayLike) -> Array:
     """One deviation z0 as a new array (3,)."""
     array = vectors("z0", z0, 3)
     if array.ndim != 1:
-        raise ArgumentValueError(f"z0 must be (3,), got shape {array.shape}", "z0")
+        raise ArgumentValueError(f"z0 must be an array (3,), got shape {array.shape}", "z0")
     return array
 
 

@@ -19,15 +19,24 @@ File = Path | None
 
 def solve(
     z0: Annotated[
-        Text, typer.Option("--z0", metavar="DR,DVR,DVT", help="Deviation: radius, both speeds.")
+        Text,
+        typer.Option(
+            "--z0",
+            metavar="DR,DVR,DVT",
+            help="Deviations of the radius, of the radial and of the transverse speed.",
+        ),
     ] = None,
     interval: Annotated[
-        str, typer.Option(metavar="DT", help="Time between impulses, rad of the orbit.")
+        str, typer.Option(metavar="DT", help="Time between impulses, in radians of the orbit.")
     ] = "0.25",
-    peak: Annotated[str, typer.Option(metavar="W", help="Bound on an impulse, orbital speeds.")] = "0.0035",
+    peak: Annotated[
+        str, typer.Option(metavar="W", help="Bound on an impulse, in units of the orbit's speed.")
+    ] = "0.0035",
     thrust: Annotated[
         str,
-        typer.Option(metavar="ball|disc|box", help="Impulses: the paper's ball, a disc, a square."),
+        typer.Option(
+            metavar="ball|disc|box", help="Set of impulses: ball (as in the paper), disc, or box (a square)."
+        ),
     ] = "ball",
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     samples: Annotated[
@@ -38,13 +47,13 @@ def solve(
     ] = None,
     record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
     batch: Annotated[
-        File, typer.Option(metavar="FILE", help="States from a CSV file, a row each, instead of --z0.")
+        File, typer.Option(metavar="FILE", help="CSV file with one state in each row, instead of --z0.")
     ] = None,
     out: Annotated[
         str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
     ] = "-",
 ) -> None:
-    """Bring a satellite beside its circular orbit back to it with the fewest impulses, and a proof.
+    """Bring a satellite back to its circular orbit with the fewest impulses, and prove that they are.
 
     Deviations are in units of the orbit's radius and speed. Numbers may be written like pi/2 or 1e-3.
 
@@ -93,9 +102,8 @@ def _planned(z0: Any, engine: tuple[float, float, str]) -> Any:
 
 def _files(plan: Any, plot: File, record: File) -> None:
     if (plot or record) and not int(plan.impulse_count):
-        raise console.Refusal(
-            "--plot" if plot else "--record", "shows impulses, and here nothing is to be corrected"
-        )
+        option = "--plot" if plot else "--record"
+        raise console.Refusal(option, "needs a plan with impulses, but this --z0 needs no correction")
     if plot:
         from pontryagin.orbit_correction.figures.impulses import plan_figure
 

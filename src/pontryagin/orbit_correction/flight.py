@@ -113,7 +113,7 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
     """
     start, kicks = arguments.state(z0), vectors("impulses", impulses, 2)
     if kicks.ndim != 2:
-        raise ArgumentValueError(f"impulses must be (M, 2), got shape {kicks.shape}", "impulses")
+        raise ArgumentValueError(f"impulses must be an array (M, 2), got shape {kicks.shape}", "impulses")
     step = arguments.positive_number("interval", interval)
     states, angles = [start], [float(angle)]
     for kick in kicks:
@@ -200,7 +200,8 @@ def close_loop(
     flights: list[Flight] = []
     while np.linalg.norm(state) > bound:
         if len(plans) == ROUNDS:
-            raise NotConverged(f"{ROUNDS} plans leave more than {bound}", float(np.linalg.norm(state)))
+            reason = f"after {ROUNDS} plans the deviation is still longer than tolerance = {bound}"
+            raise NotConverged(reason, float(np.linalg.norm(state)))
         plans.append(correct(state, interval, peak, thrust))
         flights.append(fly(state, plans[-1].impulses, interval, angle))
         state, angle = flights[-1].states[-1], float(flights[-1].angles[-1])

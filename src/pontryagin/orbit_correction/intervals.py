@@ -15,7 +15,7 @@ from pontryagin.errors import Infeasible
 from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.plan.correction import correct
 from pontryagin.orbit_correction.system.satellite import impulse_columns, step_factors
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import positive
 from pontryagin.value import value_class
 
 
@@ -110,7 +110,7 @@ def sweep(z0: ArrayLike, intervals: ArrayLike, peak: float = 0.0035, thrust: str
     >>> found.impulses.tolist()
     [6.0, 8.0, nan]
     """
-    state, spacings = vectors("z0", z0, 3), np.atleast_1d(positive("intervals", intervals))
+    state, spacings = arguments.state(z0), np.atleast_1d(positive("intervals", intervals))
     counts, gauges = np.full(len(spacings), np.nan), np.full(len(spacings), np.nan)
     for i, interval in enumerate(spacings):
         try:

@@ -68,7 +68,7 @@ def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Arra
     values, axes = np.linalg.eigh(matrix)
     if values[0] < -1e-12 * max(values[-1], 0.0) or values[-1] < 0:
         raise ArgumentValueError(
-            f"covariance must not be indefinite, its least eigenvalue is {values[0]:.3g}", "covariance"
+            f"covariance must have no negative eigenvalue, got {values[0]:.3g}", "covariance"
         )
     normal = np.random.default_rng(seed).standard_normal((number, 3))
     return np.asarray(normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T)

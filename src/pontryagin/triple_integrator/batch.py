@@ -32,7 +32,7 @@ def read(path: Path, least_time: bool) -> rows.Rows:
     t0 = problems.columns.get("t0", np.zeros_like(tf))
     for line, start, end in zip(problems.lines, t0, tf, strict=True):
         if not end > start:
-            raise ValueError(f"line {line}: tf must be later than t0, got {start} and {end}")
+            raise ValueError(f"line {line}: tf must be later than t0, got t0 = {start} and tf = {end}")
     return problems
 
 

@@ -29,15 +29,23 @@ def solve(
     xf: Annotated[Text, typer.Option("--xf", metavar="X1,X2,X3", help="State at the end.")] = None,
     norm: Annotated[
         Text,
-        typer.Option(metavar="1|2|inf|Q", help="Norm of u to minimise: impulse, energy, peak, any Q > 1."),
+        typer.Option(
+            metavar="1|2|inf|Q",
+            help="Norm of u to minimise: 1 (impulse), 2 (energy), inf (peak) or any Q > 1.",
+        ),
     ] = None,
     duration: Annotated[Text, typer.Option(metavar="T", help="Time from start to end.")] = None,
-    t0: Annotated[Text, typer.Option("--t0", metavar="TIME", help="Start; 0 unless given.")] = None,
+    t0: Annotated[
+        Text, typer.Option("--t0", metavar="TIME", help="Time at the start; 0 unless given.")
+    ] = None,
     peak: Annotated[
-        Text, typer.Option(metavar="U", help="Least time under |u| <= U, instead of --norm and --duration.")
+        Text,
+        typer.Option(
+            metavar="U", help="Find the least time under |u| <= U, instead of --norm and --duration."
+        ),
     ] = None,
     disturbance: Annotated[
-        Text, typer.Option(metavar="F", help="Acceleration f beside the control: a number or a formula in t.")
+        Text, typer.Option(metavar="F", help="Disturbing acceleration f: a number or a formula in t.")
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     samples: Annotated[
@@ -49,7 +57,7 @@ def solve(
     record: Annotated[File, typer.Option(metavar="FILE", help="Record the motion: .rrd for rerun.")] = None,
     batch: Annotated[
         File,
-        typer.Option(metavar="FILE", help="Problems from a CSV file, a row each, instead of --x0, --xf."),
+        typer.Option(metavar="FILE", help="CSV file with one problem in each row, instead of --x0 and --xf."),
     ] = None,
     out: Annotated[
         str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
@@ -114,7 +122,7 @@ def _goal(norm: Text, peak: Text, times: dict[str, object]) -> Goal:
         console.excluded("--peak", {"--norm": norm} | times)
         return Goal(peak=console.positive("--peak", peak))
     if norm is None:
-        raise console.Refusal("--norm", "is missing (or --peak for the least time): takes 1, 2, inf or Q > 1")
+        raise console.Refusal("--norm", "is missing: takes 1, 2, inf or a number above 1; or give --peak")
     if norm.strip().lower() in ("inf", "infinity", "oo"):
         return Goal(math.inf)
     return Goal(console.number("--norm", norm, "1, 2, inf or a number greater than 1", at_least=1.0))
@@ -123,7 +131,7 @@ def _goal(norm: Text, peak: Text, times: dict[str, object]) -> Goal:
 def _force(disturbance: Text, goal: Goal) -> Any:
     force = None if disturbance is None else console.formula("--disturbance", disturbance, "t")
     if goal.least_time and not isinstance(force, float | None):
-        raise console.Refusal("--disturbance", f"takes a number with --peak, got {disturbance!r}")
+        raise console.Refusal("--disturbance", f"takes a number if --peak is given, got {disturbance!r}")
     return force
 
 
@@ -133,7 +141,7 @@ def _ends(goal: Goal, x0: str, xf: str, t0: str, duration: str) -> Ends:
         return Ends(start, end)
     first, elapsed = console.number("--t0", t0), console.positive("--duration", duration)
     if not first + elapsed > first:
-        raise console.Refusal("--duration", f"is lost to rounding beside --t0 {t0}, got {duration!r}")
+        raise console.Refusal("--duration", f"is lost to rounding when added to --t0 {t0}, got {duration!r}")
     return Ends(start, end, first, first + elapsed)
 
 
@@ -152,7 +160,8 @@ def _solved(goal: Goal, ends: Ends, force: Any) -> Any:
 @without_warnings
 def _files(solution: Any, plot: File, record: File) -> None:
     if (plot or record) and not transcript.moves(solution):
-        raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
+        option = "--plot" if plot else "--record"
+        raise console.Refusal(option, "needs a motion, but --x0 and --xf are the same state")
     if plot:
         from pontryagin.triple_integrator.figures import solution_figure
 

@@ -88,7 +88,8 @@ def test_impulses_at_one_place_span_no_space():
     [
         (([Z0, Z0], 4, 8), "z0 must be"),
         ((Z0, 0, 8), "steps must be"),
-        ((Z0, 4, 1.0), "p must be greater than 1"),
+        ((Z0, 4, 1.0), "p must be a number greater than 1, got 1.0"),
+        ((Z0, 4, [2.0, 3.0]), r"p must be a number greater than 1, got \[2.0, 3.0\]"),
         ((Z0, 4, np.inf), "p must be"),
         ((Z0, 4, 8, -1.0), "interval must be positive"),
     ],

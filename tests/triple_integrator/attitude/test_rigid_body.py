@@ -192,5 +192,7 @@ def test_an_inertia_that_no_body_has_is_named(inertia, word):
 
 def test_times_outside_the_motion_are_refused():
     motion = simulate(RigidBody(np.eye(3)), (0.0, 1.0), [1, 0, 0, 0], [0, 0, 0], STILL, free)
-    with pytest.raises(ValueError, match=r"t must be .* from 0.0 to 1.0"):
-        motion.rate([1.5])
+    with pytest.raises(ValueError, match=r"t must be .* from 0.0 to 1.0, got 1.5$"):
+        motion.rate([0.5, 1.5])
+    with pytest.raises(ValueError, match=r"t must be .* from 0.0 to 1.0, got shape \(1, 1\)"):
+        motion.rate([[0.5]])

@@ -279,15 +279,20 @@ def test_beyond_the_threshold_the_miss_grows_and_is_told():
     ("channels", "kind", "word"),
     [
         (rest_to_rest(ENDS)[:2], ValueError, "three"),
-        ([*rest_to_rest(ENDS)[:2], 0.3], TypeError, "float at 2"),
+        ([*rest_to_rest(ENDS)[:2], 0.3], TypeError, "float at index 2"),
         ([REST] * 3, ValueError, "to be programmed"),
         ([*rest_to_rest(ENDS)[:2], Maneuver([0, 0, 0], [1, 0, 0], tf=3.0)], ValueError, "one interval"),
         (
             [*rest_to_rest(ENDS)[:2], Maneuver([0, 0, 0], [1, 0, 0], 2.0, disturbance=1.0)],
             ValueError,
-            "disturbance",
+            "disturbance, .* got .*1.* at index 2",
         ),
         ([*rest_to_rest(ENDS)[:2], Maneuver([[0, 0, 0]], [1, 0, 0], 2.0)], ValueError, "single"),
+        (
+            [*rest_to_rest(ENDS)[:2], minimum_energy(Maneuver([[0, 0, 0]], [1, 0, 0], 2.0))],
+            ValueError,
+            "single",
+        ),
         (rest_to_rest([4.0, 4.0, 4.0]), ValueError, "less than 2 pi.* at xf"),
     ],
 )
@@ -296,7 +301,7 @@ def test_channels_that_make_no_manoeuvre_are_named(channels, kind, word):
         couple(BODY, channels, minimum_energy)
 
 
-@pytest.mark.parametrize("angle", [0.0, 7.0, np.nan])
-def test_an_angle_without_a_factor_is_named(angle):
-    with pytest.raises(ValueError, match="angle must"):
+@pytest.mark.parametrize(("angle", "got"), [(0.0, "0.0"), (7.0, "7.0"), ([1.0, 7.0], "7.0"), (np.nan, "nan")])
+def test_an_angle_without_a_factor_is_named(angle, got):
+    with pytest.raises(ValueError, match=f"angle must.*, got {got}"):
         spherical_factor(angle)

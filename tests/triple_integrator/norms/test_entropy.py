@@ -185,10 +185,10 @@ def test_a_stack_with_nothing_to_do():
 def test_outside_the_cone_and_on_its_boundary_there_is_none(c, reason):
     with pytest.raises(Infeasible) as raised:
         maximum_entropy(Maneuver([0, 0, 0], c, tf=1.0))
-    assert reason in str(raised.value)
+    assert str(raised.value).endswith(reason) and raised.value.argument == "maneuver"
     assert minimum_impulse(Maneuver([0, 0, 0], c, tf=1.0)).unique
 
 
 def test_the_member_of_a_stack_is_named():
-    with pytest.raises(Infeasible, match="manoeuvre 1 of the stack"):
+    with pytest.raises(Infeasible, match=r"got c = \[1.0, 0.0, 0.0\] \(manoeuvre 1 of the stack\)"):
         maximum_entropy(Maneuver([0, 0, 0], [[0.2, 0.5, 1], [1, 0, 0]], tf=1.0))

@@ -20,7 +20,7 @@ def optimal(system: ExactSystem) -> tuple[list[sp.Matrix], list[sp.Matrix]]:
 
 @claim.proof(
     "Theorem 1, i)",
-    "an optimal trajectory from the boundary stays on the boundaries",
+    "an optimal trajectory that starts on the boundary has every x*(k) on the boundary of X(N_min − k, k)",
     display=r"x^*(k) \in \partial X(N_{\min} - k, k),\quad k = \overline{0, N_{\min}}",
 )
 def trajectory_on_the_boundaries() -> Steps:
@@ -39,8 +39,8 @@ def trajectory_on_the_boundaries() -> Steps:
 @claim.proof(
     "Theorem 1, ii)",
     "the normal cone at x*(k) lies in A'(k) times the normal cone at x*(k+1)",
-    remark="It is an inclusion, not an equality: A(k) = I, U(0) a disc, U(1) a lens, x*(1) the lens's "
-    "corner.",
+    remark="The inclusion can be strict: for A(k) = I, U(0) a disc, U(1) a lens and x*(1) the corner of "
+    "the lens, the two cones differ.",
     display=r"N(x^*(k), X(N_{\min}-k, k)) \subset A^T(k)N(x^*(k+1), X(N_{\min}-k-1, k+1)),\quad k = "
     r"\overline{0, N_{\min}-2}",
 )
@@ -91,7 +91,7 @@ def unique_trajectory() -> Proof:
 
 @claim(
     "proof of Theorem 1: induction",
-    "the step of the induction, from x*(k) on the boundary to x*(k+1)",
+    "the step of the induction: if x*(k) lies on the boundary, so does x*(k+1)",
     verdict="misprint",
     remark="Printed for k from 1 to N_min − 2. The induction starts at k = 0: the step is needed for k from "
     "0 to N_min − 1. As printed, nothing is said of x*(1), nor of x*(N_min − 1) when N_min = 2.",
@@ -134,7 +134,7 @@ def steps_of_the_induction() -> Slip:
 
 @claim.proof(
     "(3)",
-    "A(k)x*(k) = x*(k+1) + u* with u* in −U(k) is the step of the system, u*(k) = −u*",
+    "with u* in −U(k) and u*(k) = −u*, the decomposition A(k)x*(k) = x*(k+1) + u* is a step of the system",
     display=r"A(k)x^*(k) = x^*(k+1) + u^*,\quad x^*(k+1) = A(k)x^*(k) + u^*(k)",
 )
 def decomposition_as_a_step() -> Steps:
@@ -153,7 +153,8 @@ def decomposition_as_a_step() -> Steps:
 @claim.proof(
     "(4)",
     "the normal cone at A(k)x*(k) is the intersection of those at x*(k+1) and at u*",
-    remark="By the equality that Lemma 5 proves, not by the inclusion that it states.",
+    remark="This follows from the equality that the proof of Lemma 5 shows. The inclusion that Lemma 5 "
+    "states is not enough.",
     display=r"N(A(k)x^*(k), A(k)X(N_{\min}-k, k)) = N(x^*(k+1), X(N_{\min}-k-1, k+1)) \cap N(u^*, -U(k))",
 )
 def normals_of_a_step() -> Steps:

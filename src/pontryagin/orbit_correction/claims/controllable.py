@@ -17,7 +17,7 @@ R = sp.Rational
 
 @claim.proof(
     "(2)",
-    "X(N, k): states that admissible controls bring from step k to 0 in N steps",
+    "X(N, k) is the set of states that admissible controls bring to 0 in the N steps from step k on",
     display=r"X(N, k) = \{x(k) \in \mathbb{R}^n : \exists u(k) \in U(k), \dots, u(N+k-1) \in U(N+k-1) : "
     r"x(N+k) = 0\},\ N \in \mathbb{N};\quad \{0\},\ N = 0",
 )
@@ -42,8 +42,8 @@ def controllable_sets() -> Steps:
 @claim.proof(
     "after (2): N_min finite",
     "N_min < ∞ means that x0 lies in the union of X(N, 0)",
-    remark="It is an assumption and does not follow from 0 in int U(k): for x(k+1) = 2x(k) + u(k), |u| ≤ 1, "
-    "the union is the interval (−1, 1).",
+    remark="N_min < ∞ is an assumption. It does not follow from 0 in int U(k): for x(k+1) = 2x(k) + "
+    "u(k), |u| ≤ 1, the union is the interval (−1, 1).",
     display=r"x_0 \in \bigcup_{N=0}^{\infty} X(N, 0)",
 )
 def finite_number_of_steps() -> Steps:
@@ -58,8 +58,9 @@ def finite_number_of_steps() -> Steps:
     "after (2): N_min",
     "N_min is the least natural N with x0 in X(N, 0)",
     verdict="conditional",
-    remark="True for x0 ≠ 0. The paper's naturals start at 1 (it writes k ∈ N ∪ {0}), so x0 = 0, which lies "
-    "in X(0, 0), would get N_min = 1; the least is to be taken over N ∪ {0}.",
+    remark="True for x0 ≠ 0. The paper's natural numbers start at 1, since it writes k ∈ N ∪ {0}. For x0 "
+    "= 0, which lies in X(0, 0), the formula therefore gives N_min = 1; the least N is to be "
+    "taken over N ∪ {0}.",
 )
 def least_number_of_steps() -> Conditional:
     def argument() -> Steps:
@@ -114,7 +115,7 @@ def printed_state(N: int) -> sp.Expr:
     return sp.Add(*(-summands.backward_product([A(j) for j in range(i + 1)]) * u(i) for i in range(N)))
 
 
-@claim("Lemma 1", "X(N, k) as a sum of linear images of U(k), ..., U(k+N−1)", verdict="holds")
+@claim("Lemma 1", "X(N, k) is a sum of linear images of U(k), ..., U(k+N−1)", verdict="holds")
 def sum_of_images() -> Proof:
     sizes = (1, 2, 3, 4)
 
@@ -155,7 +156,8 @@ def state_after_steps() -> Equality:
     "proof of Lemma 1: x(k)",
     "the state x(k) that the controls bring to 0, with the inverse of the product in front",
     verdict="misprint",
-    remark="Printed without its minus: x(k) = (A(N+k−1)…A(k))⁻¹(…). The next line has it.",
+    remark="Printed: x(k) = (A(N+k−1)…A(k))⁻¹(…). Right: with a minus in front, as in the next line of "
+    "the paper.",
 )
 def state_with_the_product_inverted() -> Misprint:
     controls = A(2) * A(1) * u(0) + A(2) * u(1) + u(2)

@@ -16,10 +16,10 @@ claim = Page("Ibragimov 2017")
 
 @claim(
     "Lemma 10",
-    "the optimal controls from ψ0 and H~(k+1)",
+    "the optimal control u*(k) as a function of ψ0 and H~(k+1)",
     verdict="holds",
-    remark="For x0 on the boundary, with H~ as corrected. For inner points the factor α of Theorem 4 "
-    "belongs to it.",
+    remark="True for x0 on the boundary, with the corrected H~. For inner points the right-hand side has "
+    "to be multiplied by the α of Theorem 4.",
 )
 def controls_from_the_costate() -> Equality:
     def printed(system: ExactSystem, k: int) -> sp.Matrix:
@@ -45,7 +45,7 @@ def numerator() -> Equality:
     )
 
 
-@claim("proof of Lemma 10: root", "under the root stands (ψ0, H~^−1(k+1)ψ0)", verdict="holds")
+@claim("proof of Lemma 10: root", "the expression under the root is (ψ0, H~^−1(k+1)ψ0)", verdict="holds")
 def root_of_the_controls() -> Equality:
     def printed(system: ExactSystem, k: int) -> sp.Expr:
         return (system.psi0.T * shape_inverse(system, k + 1) * system.psi0)[0]

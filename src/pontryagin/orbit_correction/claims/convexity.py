@@ -22,11 +22,12 @@ def deficit(X: Ellipsoid, p: sp.Matrix, x: sp.Matrix) -> sp.Expr:
 
 @claim(
     "section 3: the class U_2",
-    "strictly convex compact sets: with any two points, the open segment between them lies inside",
+    "U_2 is the class of the strictly convex compact sets: the open segment between any two "
+    "points of such a set lies in its interior",
     verdict="misprint",
-    remark="Printed for all x1, x2 in X; meant for x1 ≠ x2. As printed, x1 = x2 = e1 puts the boundary "
-    "point e1 of the unit disc inside: no set with a boundary, so no compact set but the empty one, would "
-    "belong.",
+    remark="Printed: for all x1, x2 in X. Right: for x1 ≠ x2. As printed, x1 = x2 = e1 would make the "
+    "boundary point e1 of the unit disc an inner point. Then no set with a boundary would belong "
+    "to the class, hence no compact set but the empty one.",
 )
 def strictly_convex_sets() -> Slip:
     def argument() -> Steps:
@@ -93,7 +94,7 @@ def support_function() -> Steps:
 
 @claim(
     "section 3: normal cone",
-    "N(x, X): the vectors that support X at x",
+    "N(x, X) is the set of the vectors that support X at x",
     verdict="misprint",
     remark="Printed: s(p, X) ≥ (p, x), which every p satisfies for x in X. Right: s(p, X) ≤ (p, x), hence "
     "equality. As printed, e2 would be normal to the unit disc at e1, and Corollary 2 would fail.",
@@ -130,7 +131,7 @@ def normal_cones() -> Slip:
     "Lemma 2",
     "for p in R^n exactly one x' in X has (p, x') = s(p, X), and x' lies on the boundary",
     verdict="conditional",
-    remark="True for p ≠ 0, the domain of ρ_X. For p = 0 every point of X is one.",
+    remark="True for p ≠ 0, the domain of ρ_X. For p = 0 every point x' of X has (p, x') = s(p, X).",
 )
 def one_support_point() -> Conditional:
     def argument() -> Steps:
@@ -161,7 +162,8 @@ def one_support_point() -> Conditional:
 
 @claim(
     "proof of Lemma 2",
-    "moved by εp, the middle of two support points would do better: (p, ·) = s + ε(p, p)",
+    "if (p, x') = (p, x'') = s(p, X), the point εp beyond the middle of x' and x'' has (p, ·) = "
+    "s(p, X) + ε(p, p)",
     verdict="holds",
 )
 def moved_midpoint() -> Equality:
@@ -205,7 +207,7 @@ def support_map() -> Steps:
 
 @claim.proof(
     "Corollary 2",
-    "normal cones at two different boundary points have nothing in common",
+    "the normal cones at two different boundary points have no vector in common",
     display=r"N(x^1, X) \cap N(x^2, X) = \emptyset",
 )
 def disjoint_normal_cones() -> Steps:

@@ -32,9 +32,9 @@ def levels(system: ExactSystem, points: Sequence[sp.Matrix]) -> list[sp.Expr]:
 
 @claim(
     "Lemma 9",
-    "−x0 as a sum over ψ0: the equation for the initial costate",
+    "the equation for the initial costate ψ0, with −x0 as a sum of N_min vectors that depend on ψ0",
     verdict="holds",
-    remark="With H~(k) as corrected.",
+    remark="True with the corrected H~(k).",
 )
 def equation_for_the_costate() -> Equality:
     return Equality(
@@ -47,7 +47,7 @@ def equation_for_the_costate() -> Equality:
 
 @claim.proof(
     "(8)",
-    "x0 has one decomposition into boundary points of the E_k",
+    "x0 is in exactly one way a sum of boundary points x^k of the E_k",
     display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k",
 )
 def decomposition_into_ellipsoids() -> Steps:
@@ -64,7 +64,7 @@ def decomposition_into_ellipsoids() -> Steps:
 
 @claim.proof(
     "(9)",
-    "−ψ0 is normal at x0 and at all x^k",
+    "−ψ0 is normal to X(N_min, 0) at x0, and to every E_k at x^k",
     display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
 )
 def common_normal() -> Steps:
@@ -98,7 +98,7 @@ def rays() -> Steps:
 
 @claim.proof(
     "after (9): one ray",
-    "so N(x0, X(N_min, 0)) = N(x^k, E_k) for every k",
+    "hence N(x0, X(N_min, 0)) = N(x^k, E_k) for every k",
     display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)",
 )
 def one_ray() -> Steps:
@@ -124,7 +124,7 @@ def parts_as_support_points() -> Steps:
             yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
 
 
-@claim("after (10): x^k", "x^k by Lagrange's multipliers", verdict="holds")
+@claim("after (10): x^k", "x^k as a function of ψ0, by Lagrange's multipliers", verdict="holds")
 def parts_by_multipliers() -> Equality:
     X, _, _ = plane()
     psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
@@ -161,9 +161,10 @@ def homogeneous_of_degree_zero() -> Steps:
     "(11)",
     "with (ψ0, ψ0) = 1 the system has exactly one solution",
     verdict="conditional",
-    remark="True for x0 on the boundary of X(N_min, 0), as Lemma 9 assumes: n + 1 equations for n unknowns "
-    "agree there and only there. For the inner points of section 5, the worked example among them, there is "
-    "no solution; with α as a factor and a further unknown there are two, (ψ, α) and the spurious (−ψ, −α).",
+    remark="True for x0 on the boundary of X(N_min, 0), as Lemma 9 assumes: there, and only there, the n "
+    "+ 1 equations for n unknowns are consistent. For the inner points of section 5, among them "
+    "the z0 of the worked example, the system has no solution. With α as a further unknown, as a "
+    "factor of the sum, it has two: (ψ, α) and the spurious (−ψ, −α).",
 )
 def system_for_the_costate() -> Conditional:
     def argument() -> Steps:

@@ -21,9 +21,9 @@ def transformed() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
 
 @claim.proof(
     "Lemma 3",
-    "a nonsingular A maps boundary to boundary, normals by A^−T, and the class U_2 into itself",
-    remark="The proof of ii) shows that A^−T N(x, X) lies in N(Ax, AX); the other inclusion is the same "
-    "with A^−1.",
+    "a nonsingular A maps the boundary of X to that of AX, A^−T maps the normals, and AX belongs to U_2",
+    remark="The proof of ii) shows that A^−T N(x, X) lies in N(Ax, AX). The other inclusion follows in "
+    "the same way, with A^−1 for A.",
     display=r"A\,\partial X = \partial(AX),\quad N(Ax, AX) = (A^{-1})^T N(x, X),\quad AX \in U_2",
 )
 def nonsingular_images() -> Steps:
@@ -79,7 +79,7 @@ def segments_under_a_map() -> Equality:
 @claim.proof(
     "Lemma 4",
     "the sum of two sets of U_2 belongs to U_2",
-    remark="Its printed proof has a gap, see the entry on it.",
+    remark="The printed proof has a gap: see the entry on its parts, below.",
     display=r"X_1, X_2 \in U_2 \;\Rightarrow\; X_1 + X_2 \in U_2",
 )
 def sums_stay_strictly_convex() -> Steps:
@@ -101,8 +101,8 @@ def sums_stay_strictly_convex() -> Steps:
 
 @claim.proof(
     "proof of Lemma 4: balls",
-    "a ball about x1 plus a ball about x2 holds the ball of the smaller radius about x1 + x2",
-    remark="O_r(x0) is written as a part of a space L that is not introduced: R^n is meant.",
+    "the sum of a ball about x1 and a ball about x2 contains the ball of the smaller radius about x1 + x2",
+    remark="The paper defines O_r(x0) as a part of a space L that it does not introduce; R^n is meant.",
     display=r"O_{\min\{\varepsilon_1,\varepsilon_2\}}(x^1 + x^2) \subset O_{\varepsilon_1}(x^1) + "
     r"O_{\varepsilon_2}(x^2) \subset Y",
 )
@@ -121,7 +121,11 @@ def sums_of_balls() -> Steps:
     )
 
 
-@claim("proof of Lemma 4: segment", "λy1 + (1 − λ)y2 is the sum of the middles of the parts", verdict="holds")
+@claim(
+    "proof of Lemma 4: segment",
+    "λy1 + (1 − λ)y2 is the sum of λx11 + (1 − λ)x12 and λx21 + (1 − λ)x22",
+    verdict="holds",
+)
 def segments_of_a_sum() -> Equality:
     parts = sp.Matrix(2, 2, sp.symbols("x11 x12 x21 x22"))
 
@@ -138,8 +142,8 @@ def segments_of_a_sum() -> Equality:
     "for y1 = x11 + x21 and y2 = x12 + x22 both λx11 + (1 − λ)x12 and λx21 + (1 − λ)x22 are inner points",
     verdict="conditional",
     remark="True where x11 ≠ x12 and x21 ≠ x22. From y1 ≠ y2 only one of the two follows: for two unit "
-    "discs, y1 = e1 + e2 and y2 = e1 − e2, the first is e1, on the boundary. The lemma stands: x + int X2 "
-    "is open.",
+    "discs, y1 = e1 + e2 and y2 = e1 − e2, the first point is e1, which lies on the boundary. "
+    "Lemma 4 is true all the same, because x + int X2 is open.",
 )
 def parts_inside() -> Conditional:
     def argument() -> Steps:

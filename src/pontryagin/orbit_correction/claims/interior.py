@@ -28,7 +28,8 @@ def interior_state(system: ExactSystem) -> sp.Matrix:
 
 @claim.proof(
     "(5)",
-    "the case x0 in int X(N_min, 0) without X(N_min − 1, 0): together with the boundary it is every case",
+    "the case that x0 lies in int X(N_min, 0) but not in X(N_min − 1, 0); the only other case is "
+    "x0 on the boundary of X(N_min, 0)",
     display=r"x_0 \in \operatorname{int} X(N_{\min}, 0) \setminus X(N_{\min} - 1, 0)",
 )
 def interior_points() -> Steps:
@@ -60,7 +61,8 @@ def no_normal_inside() -> Steps:
 @claim.proof(
     "Lemma 6",
     "if optimal controls from an inner point obey (6), then ψ0 = 0",
-    remark="With Arg max for arg max: at ψ0 = 0 the maximum is attained everywhere, and (6) says nothing.",
+    remark="True with Arg max, the set of all maximum points, in place of arg max: for ψ0 = 0 every "
+    "control attains the maximum, so that (6) says nothing about the controls.",
     display=r"\psi_0 = 0",
 )
 def zero_costate_inside() -> Steps:
@@ -83,7 +85,7 @@ def zero_costate_inside() -> Steps:
 
 @claim.proof(
     "(6)",
-    "the maximum principle with the recursion from ψ(0) = ψ0",
+    "the maximum principle, with the costates of the recursion that starts at ψ(0) = ψ0",
     display=r"u^*(k) = \arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad \psi(k+1) = "
     r"(A^{-1}(k))^T\psi(k),\quad \psi(0) = \psi_0",
 )

@@ -41,9 +41,9 @@ RADIAL, TRANSVERSE = sp.Matrix([sin, cos, -sin]), sp.Matrix([2 - 2 * cos, 2 * si
     "section 7: equations of motion",
     "motion in the field 1/r² in polar coordinates",
     verdict="misprint",
-    remark="Printed: v_R' = v_R²/r − 1/r². Right: v_R' = v_T²/r − 1/r², which the linearised system below "
-    "comes from. As printed, the circle is no solution (v_R' = −1 on it), and its second row would be (2, "
-    "0, 0), not (1, 0, 2).",
+    remark="Printed: v_R' = v_R²/r − 1/r². Right: v_R' = v_T²/r − 1/r², from which the linearised system "
+    "below follows. As printed, the circle is no solution (v_R' = −1 on it), and the second row "
+    "of the linearised system would be (2, 0, 0) instead of (1, 0, 2).",
 )
 def equations_of_motion() -> Misprint:
     keys = (r"\dot r", r"\dot\theta", r"\dot v_R", r"\dot v_T")
@@ -68,7 +68,7 @@ def equations_of_motion() -> Misprint:
 @claim.proof(
     "section 7: θ",
     "the angle of rotation does not matter",
-    remark="For the shape of the orbit; the phase on it is not restored.",
+    remark="True for the shape of the orbit. The position of the satellite along the orbit is not restored.",
 )
 def angle_does_not_matter() -> Steps:
     angle = sp.Symbol("theta")
@@ -93,7 +93,11 @@ def circular_orbit() -> Steps:
     yield "for r0 = 1: v_T0 = 1", derivation.equations_of_motion().subs(CIRCLE).is_zero_matrix
 
 
-@claim("section 7: deviations", "Δr, Δv_R, Δv_T as differences from the circle", verdict="holds")
+@claim(
+    "section 7: deviations",
+    "Δr, Δv_R and Δv_T are the differences from the values on the circle",
+    verdict="holds",
+)
 def deviations_from_the_circle() -> Equality:
     keys = ("r", "v_R", "v_T")
     start = sp.symbols("r_0 v_R0 v_T0")
@@ -127,7 +131,8 @@ z, rate = sp.symbols("z z'", real=True)
     "section 7: Cauchy problem",
     "the linearised system as a matrix equation for z(t)",
     verdict="unreadable",
-    remark="The dot over z on the left cannot be seen. Without it z = Az, which only z = 0 satisfies.",
+    remark="The dot over z on the left-hand side cannot be seen. Without it the equation would be z = "
+    "Az, which only z = 0 satisfies.",
 )
 def cauchy_problem() -> Unreadable:
     return Unreadable(
@@ -159,7 +164,7 @@ def solution_matrix() -> Proof:
     "section 7: impulse",
     "an impulse at the start of the interval: z(0) = y(k) + (0, w1(k), w2(k))",
     verdict="unreadable",
-    remark="The dot over z on the left cannot be seen, as above.",
+    remark="The dot over z on the left-hand side cannot be seen, as in the Cauchy problem above.",
 )
 def impulsive_cauchy_problem() -> Unreadable:
     keys = (r"\text{left side}", "A", "z(0) - y(k)")
@@ -213,8 +218,8 @@ def impulse_matrix() -> Equality:
 @claim.proof(
     "section 7: dimensions",
     "state and control differ in dimension, so the maximum principle of Theorems 1 to 3 does not apply",
-    remark="Its conditions fail: B~w fills a flat set without inner points. The gauge and its dual do not "
-    "need them.",
+    remark="The conditions of these theorems fail: the vectors B~w form a flat set without inner points. "
+    "The gauge and its dual problem do not need these conditions.",
 )
 def flat_controls() -> Steps:
     inputs = sp.Matrix.hstack(*derivation.impulse_directions())

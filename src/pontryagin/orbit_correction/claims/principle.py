@@ -17,7 +17,8 @@ R = sp.Rational
 
 @claim(
     "after Theorem 1: adjoint vectors",
-    "the adjoint vectors of system (1): −ψ(k) normal at x*(k), for k from 0 to N_min − 1",
+    "the adjoint vectors of system (1) are a family of ψ(k) with −ψ(k) normal at x*(k), for k "
+    "from 0 to N_min − 1",
     verdict="misprint",
     remark="Printed: the family {ψ(0)}, k = 0, ..., N_min − 1. Right: {ψ(k)}.",
 )
@@ -50,10 +51,11 @@ def adjoint_vectors() -> Slip:
     "Theorem 2",
     "the family of adjoint vectors obeys ψ(k+1) = A^−T(k)ψ(k), with −ψ(0) normal at x0",
     verdict="conditional",
-    remark="The recursion gives a family of adjoint vectors (that is what the proof shows), and for smooth "
-    "sets the only one up to a factor for each k. It does not hold for every family: normals are cones. "
-    "A(k) = I, unit discs, x0 = −2e1: ψ(0) = e1, ψ(1) = 2e1 are adjoint; with a lens not even the direction "
-    "is fixed.",
+    remark="The recursion gives a family of adjoint vectors (that is what the proof shows). For smooth "
+    "sets it is the only family up to a factor for each k. Other families need not obey the "
+    "recursion, because the normals at a point form a cone: for A(k) = I, unit discs and x0 = "
+    "−2e1, the vectors ψ(0) = e1 and ψ(1) = 2e1 are adjoint but do not obey it. If U(1) is a "
+    "lens and x*(1) its corner, not even the direction of ψ(1) is fixed.",
 )
 def adjoint_recursion() -> Conditional:
     def argument() -> Steps:
@@ -142,7 +144,7 @@ def unique_control() -> Steps:
 
 @claim.proof(
     "proof of Theorem 3: normals",
-    "−A^−T(k)ψ(k) is normal at A(k)x*(k), hence at u*, and its negative at u*(k)",
+    "−A^−T(k)ψ(k) is normal at A(k)x*(k), hence at u*; so A^−T(k)ψ(k) is normal at u*(k)",
     display=r"-(A^{-1}(k))^T\psi(k) \in N(u^*, -U(k)),\quad (A^{-1}(k))^T\psi(k) \in N(u^*(k), U(k))",
 )
 def normals_at_the_controls() -> Steps:
@@ -166,8 +168,8 @@ def normals_at_the_controls() -> Steps:
     "proof of Theorem 3: arg max",
     "u*(k) = ρ_U(k)(A^−T(k)ψ(k)), written as an arg max",
     verdict="misprint",
-    remark="Printed: arg max ((A^−1(k))^T, u), the product of a matrix and a vector that is no number. ψ(k) "
-    "is missing, see i) of the theorem.",
+    remark="Printed: arg max ((A^−1(k))^T, u), where the scalar product of a matrix and a vector is not "
+    "defined. Right: arg max ((A^−1(k))^T ψ(k), u), as in part i) of the theorem.",
 )
 def argument_of_the_maximum() -> Slip:
     def argument() -> Steps:
@@ -202,8 +204,9 @@ def argument_of_the_maximum() -> Slip:
 
 @claim.proof(
     "section 4: criterion",
-    "the maximum principle is a criterion of optimality: what it gives is optimal",
-    remark="For x0 on the boundary and −ψ(0) normal there; the sufficiency is used, not proved.",
+    "the maximum principle is a criterion of optimality: the controls that it gives are optimal",
+    remark="True for x0 on the boundary and −ψ(0) normal there. The paper uses that the principle is "
+    "sufficient, but does not prove it.",
 )
 def sufficiency() -> Steps:
     for system in family():

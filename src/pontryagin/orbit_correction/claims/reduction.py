@@ -31,8 +31,9 @@ def cube_is_not_strictly_convex() -> Steps:
     "regrouping: ball",
     "the cube of admissible u~ is replaced by the ball of radius α_max",
     verdict="conditional",
-    remark="Safe: the ball lies in the cube, so its plans are admissible. Not without loss: the answer "
-    "changes. For the paper's z0 five impulses in the square suffice, and the ball fires six.",
+    remark="The replacement is safe: the ball lies in the cube, so its plans are admissible. But it "
+    "changes the answer: for the paper's z0 five impulses in the square suffice, and the plan for "
+    "the ball fires six.",
 )
 def ball_in_the_cube() -> Conditional:
     def argument() -> Steps:
@@ -56,7 +57,7 @@ def ball_in_the_cube() -> Conditional:
 @claim.proof(
     "before (12): system",
     "x(k+1) = A(k)x(k) + B(k)u~(k) with (u~, u~) ≤ α_max²",
-    remark="With B(k) as corrected.",
+    remark="True with the corrected B(k).",
     display=r"x(k+1) = A(k)x(k) + B(k)\tilde u(k),\quad x(0) = z_0,\quad \tilde u(k) \in \{u \in "
     r"\mathbb{R}^3 : (u, u) \le \alpha_{\max}^2\}",
 )
@@ -76,7 +77,8 @@ def regrouped_system() -> Steps:
     "(12)",
     "the same system with u(k) in the ellipsoid (u, B^−T(k)B^−1(k)u) ≤ α_max²",
     verdict="holds",
-    remark="Right as a set. In the form (u, H(k)u) ≤ 1 of section 6 it has H(k) = B^−T B^−1/α_max².",
+    remark="The set is right. In the form (u, H(k)u) ≤ 1 of section 6 its matrix is H(k) = "
+    "B^−T(k)B^−1(k)/α_max².",
 )
 def system_with_ellipsoids() -> Equality:
     B, peak = sp.Matrix(2, 2, sp.symbols("B11 B12 B21 B22", real=True)), sp.Symbol("alpha_max", positive=True)
@@ -97,9 +99,10 @@ def system_with_ellipsoids() -> Equality:
     "after (12): ellipsoids",
     "every U(k) is an ellipsoid in R³, so it belongs to U_2",
     verdict="conditional",
-    remark="With B(k) as corrected, for Δt that is no multiple of π: det B(k) is −sin Δt for even k and 2(1 "
-    "− cos Δt) for odd. At Δt = π the even U(k) are flat and H(k) does not exist, though the satellite can "
-    "still be corrected. With B(k) as printed det B(k) = 0 for every Δt.",
+    remark="True with the corrected B(k), for Δt that is no multiple of π: det B(k) is −sin Δt for even "
+    "k and 2(1 − cos Δt) for odd k. At Δt = π the sets U(k) with even k are flat, so that H(k) "
+    "does not exist, though the satellite can still be corrected. With B(k) as printed, det B(k) "
+    "= 0 for every Δt.",
 )
 def ellipsoids_of_the_satellite() -> Conditional:
     def argument() -> Steps:
@@ -124,8 +127,9 @@ def ellipsoids_of_the_satellite() -> Conditional:
     "after (12): conditions",
     "system (12) satisfies the conditions of Theorems 1 to 4 and Lemmas 9 and 10",
     verdict="conditional",
-    remark="With H(k) = B^−T(k)B^−1(k)/α_max², for Δt no multiple of π. With the H(k) = B^−T B^−1 that the "
-    "print suggests, the bound would be 1 instead of 0.0035: then μ(z0, X(1, 0)) = 0.026, and N_min = 1.",
+    remark="True with H(k) = B^−T(k)B^−1(k)/α_max², for Δt that is no multiple of π. With H(k) = "
+    "B^−T(k)B^−1(k), which the print suggests, the bound would be 1 instead of 0.0035; then μ(z0, "
+    "X(1, 0)) = 0.026 and N_min = 1.",
 )
 def conditions_of_the_theorems() -> Conditional:
     def argument() -> Steps:
@@ -149,8 +153,8 @@ def conditions_of_the_theorems() -> Conditional:
     "after (12): steps and impulses",
     "the fewest steps of (12) are the answer to the problem of the fewest correcting impulses",
     verdict="false",
-    remark="A step is an impulse and a half: N_min = 4 steps fire 6 impulses, and 5 are enough within the "
-    "square.",
+    remark="A step of (12) is an impulse and a half: the N_min = 4 steps fire 6 impulses, and 5 impulses "
+    "within the square are enough.",
 )
 def steps_and_impulses() -> Refutation:
     return Refutation(worked.box_certificate)

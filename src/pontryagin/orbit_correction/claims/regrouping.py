@@ -87,11 +87,12 @@ def regrouped_matrices() -> Equality:
 
 @claim(
     "regrouping: B(k)",
-    "B(k) for even and odd k",
+    "the matrix B(k), for even and for odd k",
     verdict="misprint",
-    remark="Printed: the first columns b1 (even k) and b2 (odd k). Right: A~b1 and A~b2, for these impulses "
-    "act an interval before the others of their step. As printed, columns 1 and 3 are equal, det B(k) = 0 "
-    "and U(k) is no ellipsoid; the worked example would have α = 0.9424 instead of the printed 0.9286.",
+    remark="Printed: the first column is b1 for even k and b2 for odd k. Right: A~b1 and A~b2, because "
+    "these impulses act an interval before the last one of their step. As printed, columns 1 and "
+    "3 are equal, det B(k) = 0 and U(k) is no ellipsoid; the worked example would have α = 0.9424 "
+    "instead of the printed 0.9286.",
 )
 def regrouped_inputs() -> Misprint:
     keys = ("B(2k)", "B(2k+1)")
@@ -122,9 +123,9 @@ def regrouped_inputs() -> Misprint:
     "regrouping: B(k) and the tables",
     "the tables were computed with B(k)",
     verdict="misprint",
-    remark="They were computed with the corrected B(k): it gives all 39 printed numbers to a unit of the "
-    "last digit, and the printed controls have |B(k)⁻¹u(k)| = 0.9286 α_max in all four steps. The printed "
-    "B(k) misses by thousands of units and has no inverse.",
+    remark="The tables were computed with the corrected B(k): it gives all 39 printed numbers to a unit "
+    "of the last digit, and the printed controls have |B(k)⁻¹u(k)| = 0.9286 α_max in all four "
+    "steps. The printed B(k) misses the numbers by thousands of units and has no inverse.",
 )
 def inputs_behind_the_tables() -> Slip:
     def argument() -> Steps:

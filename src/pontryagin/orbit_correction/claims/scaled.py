@@ -18,7 +18,7 @@ R = sp.Rational
 @claim.proof(
     "before (7): α",
     "α = μ(x0, X(N_min, 0)), the Minkowski functional, is below 1 in case (5)",
-    remark="The reference [22] for it is not in the list, which ends at 21.",
+    remark="The paper's reference [22] for this functional is missing: its list ends at 21.",
     display=r"\alpha = \mu(x_0, X(N_{\min}, 0)) < 1",
 )
 def minkowski_functional() -> Steps:
@@ -34,7 +34,7 @@ def minkowski_functional() -> Steps:
 
 @claim.proof(
     "(7)",
-    "the system with αU(k) for U(k)",
+    "the system (1) with αU(k) in place of U(k)",
     display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in \alpha U(k)",
 )
 def scaled_system() -> Steps:
@@ -53,7 +53,7 @@ def scaled_system() -> Steps:
     "Lemma 7, i)",
     "the 0-controllable sets of (7) are αX(N, k)",
     verdict="holds",
-    remark="In the proof once X(N, t) for X(N, k).",
+    remark="The proof once prints X(N, t) where X(N, k) is meant.",
 )
 def scaled_sets() -> Equality:
     keys = [rf"x(1)\ (N = {N})" for N in (0, 1, 2, 3)]
@@ -68,8 +68,8 @@ def scaled_sets() -> Equality:
 
 @claim.proof(
     "Lemma 7, ii)",
-    "they lie in X(N, k)",
-    remark="By α < 1, 0 ∈ X(N, k) and convexity.",
+    "the 0-controllable sets of (7) lie in X(N, k)",
+    remark="This follows from α < 1, 0 ∈ X(N, k) and the convexity of X(N, k).",
     display=r"X_\alpha(N, k) \subset X(N, k)",
 )
 def scaled_sets_inside() -> Steps:
@@ -103,7 +103,7 @@ def on_the_scaled_boundary() -> Proof:
 
 @claim(
     "proof of Lemma 7: ε",
-    "with ε = 1/α' − 1/α, α' < α: x0/α + εx0 = x0/α', and α times it is x0 + εαx0",
+    "for α' < α and ε = 1/α' − 1/α the vector x0/α + εx0 is x0/α', and α times it is x0 + εαx0",
     verdict="holds",
 )
 def stretched_state() -> Equality:
@@ -151,8 +151,8 @@ def which_boundary() -> Slip:
 @claim.proof(
     "Theorem 4",
     "α times the arg max, with −ψ(k) normal to X_α at x'(k), is optimal for system (1)",
-    remark="α stays the gauge of x'(k) in X(N_min − k, k) along the trajectory. From an inner point the "
-    "optimal control is not unique: this one has the least peak.",
+    remark="Along the trajectory the gauge of x'(k) in X(N_min − k, k) remains α. From an inner point "
+    "the optimal control is not unique: this one has the least peak.",
     display=r"x'(0) = x_0,\quad u'(k) = \alpha\arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad "
     r"-\psi(k) \in N(x'(k), X_\alpha(N_{\min}-k, k)),\quad x'(k+1) = A(k)x'(k) + u'(k)",
 )
@@ -177,8 +177,9 @@ def optimal_from_inside() -> Steps:
     "system (7) satisfies the conditions of the maximum principle for boundary points, so its control is "
     "the optimal one",
     verdict="conditional",
-    remark="It is optimal for (1), and the only one for (7). For (1) it is one of many: A = I, unit discs, "
-    "x0 = −3/2 e1, is brought to 0 by 3/4 e1 twice, and by e1 and e1/2.",
+    remark="This control is optimal for (1), and the only optimal one for (7). For (1) it is one of "
+    "many: with A = I and unit discs, x0 = −3/2 e1 is brought to 0 by 3/4 e1 twice, and also by "
+    "e1 and then e1/2.",
 )
 def conditions_of_the_scaled_system() -> Conditional:
     def argument() -> Steps:

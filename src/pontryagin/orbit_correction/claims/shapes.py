@@ -21,7 +21,7 @@ def shape_inverse(system: ExactSystem, k: int) -> sp.Matrix:
 
 @claim.proof(
     "section 6: U(k)",
-    "(u, Hu) ≤ 1 with H positive definite is a set of U_2, for (u, Hu) is strictly convex",
+    "the set (u, Hu) ≤ 1 with H positive definite belongs to U_2, because (u, Hu) is strictly convex",
     display=r"U(k) = \{u \in \mathbb{R}^n : (u, H(k)u) \le 1\}",
 )
 def ellipsoids_are_strictly_convex() -> Steps:
@@ -176,7 +176,7 @@ def shape_of_a_summand() -> Misprint:
 @claim.proof(
     "after Lemma 8: X(N, 0)",
     "X(N, 0) is the sum of E_1, ..., E_N",
-    remark="With E_k as corrected.",
+    remark="True with the corrected E_k.",
     display=r"X(N, 0) = \sum_{k=1}^{N} E_k",
 )
 def sum_of_ellipsoids() -> Steps:

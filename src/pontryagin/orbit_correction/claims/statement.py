@@ -17,9 +17,10 @@ R = sp.Rational
     "abstract",
     "the original problem reduces to a time-optimal problem of a linear nonstationary discrete system",
     verdict="false",
-    remark="Not to the one of the paper: a step of it spends an impulse and a half, and its ball is smaller "
-    "than the square of admissible impulses. For the paper's own z0 five impulses suffice, and the four "
-    "steps fire six. The reduction without loss is y(k+1) = A~y(k) + B~w(k), one impulse a step, which is "
+    remark="The problem does not reduce to the paper's system (12): a step of (12) spends an impulse and "
+    "a half, and its ball of controls is smaller than the cube of the admissible ones. For the "
+    "paper's own z0 five impulses suffice, while the four steps of (12) fire six. The reduction "
+    "without loss is y(k+1) = A~y(k) + B~w(k), with one impulse in each step, and this system is "
     "stationary.",
 )
 def reduction_of_the_problem() -> Refutation:
@@ -28,10 +29,12 @@ def reduction_of_the_problem() -> Refutation:
 
 @claim(
     "section 1: firings",
-    "with any number of impulses, least time is the least number of times the engine is switched on",
+    "if the number of impulses is free, the least time is the least number of times that the "
+    "engine is switched on",
     verdict="false",
-    remark="An engine may rest. For the paper's z0 and square of impulses four firings suffice, at the "
-    "starts of intervals 0, 2, 3 and 5, while the least time, five intervals, takes five.",
+    remark="The two differ, because the engine may skip an interval. For the paper's z0 and its square "
+    "of impulses four firings suffice, at the starts of intervals 0, 2, 3 and 5, while the least "
+    "time, five intervals, takes five firings.",
 )
 def firings_and_time() -> Refutation:
     def counterexample() -> Steps:
@@ -52,8 +55,9 @@ def firings_and_time() -> Refutation:
     "in continuous time, for a linear autonomous system and a convex set of controls, the time-optimal "
     "control is piecewise constant with finitely many switches",
     verdict="false",
-    remark="True for a polytope in general position. For a ball, the kind of set that this paper uses, the "
-    "control turns: x1' = x2 + u1, x2' = u2, |u| ≤ 1, with the costate (1, −t) has u = (1, −t)/√(1 + t²).",
+    remark="True for a polytope in general position. For a ball, the kind of set that this paper uses, "
+    "the control turns: for x1' = x2 + u1, x2' = u2, |u| ≤ 1 and the costate (1, −t) it is u = "
+    "(1, −t)/√(1 + t²).",
 )
 def piecewise_constant_controls() -> Refutation:
     time = sp.Symbol("t", real=True)
@@ -93,9 +97,9 @@ def piecewise_constant_controls() -> Refutation:
 
 @claim.proof(
     "(1)",
-    "nonstationary linear system, A(k) nonsingular, 0 inside U(k), U(k) strictly convex and compact: the "
-    "satellite of section 7 is one",
-    remark="At the paper's Δt = 0.25.",
+    "a nonstationary linear system with A(k) nonsingular, 0 inside U(k), and U(k) strictly convex "
+    "and compact; the satellite of section 7 is such a system",
+    remark="Checked for the satellite at the paper's Δt = 0.25.",
     display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in U(k),\quad k = 0, 1, 2, \dots",
 )
 def system() -> Steps:

@@ -13,7 +13,7 @@ claim = Page("Ibragimov 2017")
 
 @claim.proof(
     "Lemma 5, i)",
-    "a boundary point of a sum has one decomposition",
+    "a boundary point of X1 + X2 is in exactly one way a sum of a point of X1 and a point of X2",
     display=r"y^* = x^{1*} + x^{2*},\quad x^{1*} \in X_1,\ x^{2*} \in X_2",
 )
 def one_decomposition() -> Steps:
@@ -39,7 +39,7 @@ def one_decomposition() -> Steps:
 
 @claim.proof(
     "Lemma 5, ii)",
-    "its parts are boundary points",
+    "these two points lie on the boundaries of X1 and X2",
     display=r"x^{1*} \in \partial X_1,\ x^{2*} \in \partial X_2",
 )
 def parts_on_the_boundary() -> Steps:
@@ -66,9 +66,10 @@ def lens_and_disc() -> Steps:
 
 @claim.proof(
     "Lemma 5, iii)",
-    "a normal of the sum is a normal of both summands",
-    remark="Printed as an inclusion; it is an equality, as the last line of the proof says and as (4) and "
-    "(9) need it. For a corner of one summand the intersection is smaller than that summand's cone.",
+    "a normal of the sum at this point is a normal of both summands at their points",
+    remark="Printed as an inclusion. It is an equality, as the last line of the proof says and as (4) "
+    "and (9) require. At a corner of one summand the intersection is smaller than the normal cone "
+    "of that summand.",
     display=r"N(y^*, Y) \subset N(x^{1*}, X_1) \cap N(x^{2*}, X_2)",
 )
 def normals_of_a_sum() -> Steps:
@@ -87,8 +88,9 @@ def normals_of_a_sum() -> Steps:
     "proof of Lemma 5: maximum",
     "the maxima over X1 and X2 add up to the maximum over Y",
     verdict="misprint",
-    remark="Printed: (p, x1 + x2) maximised over x1 in X1 alone, twice. Right: over x1 in X1 and x2 in X2 "
-    "(the second line may be lost in the scan). For two unit discs, p = e1 and x2 = 0 that is 1, not 2.",
+    remark="Printed, twice: the maximum of (p, x1 + x2) over x1 in X1 alone. Right: over x1 in X1 and x2 "
+    "in X2 (the second line may be lost in the scan). For two unit discs, p = e1 and x2 = 0 the "
+    "print gives 1 instead of 2.",
 )
 def maximum_over_the_sum() -> Misprint:
     p, second = E1, sp.zeros(2, 1)
@@ -110,7 +112,7 @@ def maximum_over_the_sum() -> Misprint:
 @claim.proof(
     "proof of Lemma 5: uniqueness",
     "another decomposition, with x1 ≠ x1* on the boundary of X1, would have (p, x1) < (p, x1*)",
-    remark="Inner points x1 of X1 are not considered; the same inequality excludes them.",
+    remark="The paper does not consider inner points x1 of X1; the same inequality excludes them.",
     display="(p, x^1) < (p, x^{1*})",
 )
 def other_decompositions() -> Steps:
@@ -127,7 +129,7 @@ def other_decompositions() -> Steps:
 @claim.proof(
     "proof of Lemma 5: equality",
     "N(y*, Y) is the intersection of the two normal cones",
-    remark="The second set is once printed X² for X_2.",
+    remark="The paper once prints X² where X_2 is meant.",
     display=r"N(y^*, Y) = N(x^{1*}, X_1) \cap N(x^{2*}, X_2)",
 )
 def equality_of_normal_cones() -> Steps:

@@ -47,8 +47,8 @@ def units_off(inputs: worked.Inputs = derivation.step_inputs, z0: Array = worked
     "after (12): N_min",
     "the least number of steps is 4",
     verdict="holds",
-    remark="Printed for system (7); (12) is meant, for (7) is built from N_min. Four steps fire six "
-    "impulses.",
+    remark="The paper says this of system (7), but (12) is meant, because (7) is built from N_min. Four "
+    "steps fire six impulses.",
 )
 def number_of_steps() -> Decimals:
     return Decimals(
@@ -67,7 +67,7 @@ def gauge_of_the_example() -> Decimals:
 @claim.proof(
     "after (12): boundary",
     "z0 is on the boundary of X_0.9286(4, 0)",
-    remark="To the printed digits: the gauge is 0.928574, so z0 is inside by 3 parts in 100,000.",
+    remark="True to the printed digits: the gauge is 0.928574, so z0 lies inside by 3 parts in 100,000.",
     display=r"z_0 \in \partial X_{0.9286}(4, 0)",
 )
 def on_the_scaled_boundary() -> Steps:
@@ -80,9 +80,9 @@ def on_the_scaled_boundary() -> Steps:
     "after (12): ψ0 from (11)",
     "ψ0 is found from the system (11)",
     verdict="conditional",
-    remark="From (11) of system (7), that is with α² H~^−1(k) for H~^−1(k). For system (12) itself (11) has "
-    "no solution: z0 is an inner point of X(4, 0), with the gauge 0.9286, and every sum in (11) is on the "
-    "boundary.",
+    remark="True for the system (11) that belongs to (7), with α² H~^−1(k) in place of H~^−1(k). For "
+    "(12) itself the system (11) has no solution: z0 is an inner point of X(4, 0), with the gauge "
+    "0.9286, and every sum in (11) lies on the boundary.",
 )
 def costate_of_the_example() -> Conditional:
     def argument() -> Steps:
@@ -110,8 +110,8 @@ def costate_of_the_example() -> Conditional:
     "after (12): controls from Lemma 10",
     "the optimal control follows from Lemma 10",
     verdict="conditional",
-    remark="With the factor α of Theorem 4, which Lemma 10 leaves out and the table holds: without it "
-    "u2*(0) would be −0.26686·10⁻², printed −0.24779·10⁻².",
+    remark="True with the factor α of Theorem 4, which the formula of Lemma 10 lacks and the table "
+    "contains: without it u2*(0) would be −0.26686·10⁻² instead of the printed −0.24779·10⁻².",
 )
 def controls_of_the_example() -> Conditional:
     printed = float(CONTROLS[0][1])
@@ -176,10 +176,11 @@ for k in range(4):
 
 @claim(
     "tables: rounding",
-    "the tables are those of the printed z0, rounded",
+    "the numbers of the tables are those of the printed z0, rounded",
     verdict="conditional",
-    remark="All 39 numbers agree to one unit of the last digit, five are off by more than half a unit. z0 "
-    "was rounded for print too: a z0 within half a unit of it rounds to every printed digit.",
+    remark="All 39 numbers agree to one unit of the last digit, but five are off by more than half a "
+    "unit. The printed z0 is rounded too: a z0 within half a unit of it gives every printed digit "
+    "by rounding.",
 )
 def rounded_tables() -> Conditional:
     def argument() -> Steps:
@@ -204,7 +205,9 @@ def rounded_tables() -> Conditional:
 
 
 @claim.proof(
-    "tables: consistency", "the printed numbers fit each other", remark="With A(k) and the corrected B(k)."
+    "tables: consistency",
+    "the printed numbers fit each other",
+    remark="Checked with A(k); B(k) does not enter.",
 )
 def consistent_tables() -> Steps:
     states, costates, controls = (

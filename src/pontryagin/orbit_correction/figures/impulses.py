@@ -34,7 +34,7 @@ def plan_figure(plan: Plan) -> Figure:
     """
     count = int(single(plan).impulse_count)
     if count == 0:
-        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
+        raise ArgumentValueError("plan must have an impulse, got a plan without any", "plan")
     figure, (above, below) = subplots(2, height=4.6, sharex=True, height_ratios=(1.5, 1))
     times, states = linear_path(plan)
     for values, colour, name in zip(states.T, (BLUE, RED, GREEN), labels.STATES, strict=True):

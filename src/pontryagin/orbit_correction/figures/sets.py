@@ -96,7 +96,7 @@ def remaining_sets(plan: Plan) -> Figure:
     """
     steps = _steps(plan)
     if steps > 6:
-        raise ArgumentValueError(f"plan must be of at most 6 steps, got {steps}", "plan")
+        raise ArgumentValueError(f"plan must have at most 6 steps, got {steps}", "plan")
     figure, grid = subplots(1, steps, height=3.25, sharey=True, squeeze=False)
     axes, square = grid[0], plan.thrust.name == "box"
     for k, ax in enumerate(axes):
@@ -162,7 +162,7 @@ def _steps(plan: Plan) -> int:
     """The number of steps of a plan of one state, at least one."""
     steps = int(single(plan).steps)
     if steps == 0:
-        raise ArgumentValueError("plan must have a step, got that of no deviation", "plan")
+        raise ArgumentValueError("plan must have a step, got a plan without any", "plan")
     return steps
 
 

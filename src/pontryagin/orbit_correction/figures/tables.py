@@ -43,7 +43,8 @@ def _beside(numbers: Sequence[Sequence[str]], ours: Array, symbol: str, digits: 
     """A printed table, without its common factor 10^-2, beside our numbers in the same units."""
     if ours.shape != (len(numbers), 3):
         raise ArgumentValueError(
-            f"plan must have {len(numbers)} rows of this table, got shape {ours.shape}", "plan"
+            f"plan must have {len(numbers)} rows of 3 numbers like the printed table, got shape {ours.shape}",
+            "plan",
         )
     columns: Columns = {"$k$": list(range(len(numbers)))}
     for i in range(3):

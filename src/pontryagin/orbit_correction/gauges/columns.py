@@ -91,7 +91,9 @@ def mixture(
         if found.status == 0:
             break
     else:
-        raise NotConverged(f"HiGHS stopped: {found.message}", float("inf"))
+        raise NotConverged(
+            f"HiGHS did not solve the linear programme of {steps} steps: {found.message}", float("inf")
+        )
     controls = np.zeros((steps, columns.points.shape[1]))
     np.add.at(controls, columns.owners, found.x[:-1, None] * columns.points)
     miss = target - np.einsum("kij,kj->i", factors, controls)

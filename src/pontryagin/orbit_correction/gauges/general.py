@@ -102,7 +102,7 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     reach = np.abs(factors).max(axis=(0, 2))
     reach = np.where(reach > 0, reach, reach.max(initial=0.0))
     if not (reach > 0).all():
-        raise Infeasible("the controls do nothing: only the zero state needs none")
+        raise Infeasible("the controls do nothing in these steps: all factors G_k are zero")
     scaled = factors / reach[:, None]
     scaled[np.abs(scaled).max(axis=(1, 2)) < VANISHING] = 0.0
     rows = -x0.reshape(int(np.prod(shape)), n)
@@ -139,6 +139,6 @@ def _require_reachable(left: Array, x0: Array) -> None:
         state = x0.reshape(left.shape)[int(np.argmax(outside))]
         raise Infeasible(
             f"the controls do not span the state space: x0 = {state.tolist()} is out of their reach, "
-            "whatever their size",
+            "however large they are",
             "x0",
         )

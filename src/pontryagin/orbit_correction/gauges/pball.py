@@ -98,13 +98,15 @@ def power_gauge(
     [0.9286, 0.6944, 0.6585]
     """
     state, number = arguments.state(z0), arguments.count("steps", steps)
-    exponent = float(finite("p", p, "a number greater than 1"))
-    if exponent <= 1:
-        raise ArgumentValueError(f"p must be greater than 1, got {p}", "p")
+    given = finite("p", p, "a number greater than 1")
+    if given.ndim or not given > 1:
+        raise ArgumentValueError(f"p must be a number greater than 1, got {given.tolist()}", "p")
+    exponent = float(given)
     spacing, bound = arguments.positive_number("interval", interval), arguments.positive_number("peak", peak)
     size, plain = float(np.linalg.norm(state)), bound * step_factors(number, spacing)
     if np.linalg.matrix_rank(np.hstack(list(plain)), tol=1e-9 * bound) < 3:
-        raise Infeasible(f"{number} steps of interval {spacing} do not span the space of states", "steps")
+        reason = f"steps = {number} of interval = {spacing} do not span the space of states"
+        raise Infeasible(reason, "steps")
     if size == 0:
         zero = np.array(0.0)
         return PowerGauge(exponent, number, state, 0 * plain[:, 0], Certificate(zero, zero, zero))
@@ -150,7 +152,8 @@ def fewest_power_steps(
         following = int(np.ceil(guess * min(lower, 1e3)))
         guess = min(max(following, too_few + 1), enough - 1, MOST_STEPS)
     if best is None:
-        raise Infeasible(f"z0 = {np.asarray(z0).tolist()} is not corrected in {MOST_STEPS} steps", "z0")
+        state = np.asarray(z0).tolist()
+        raise Infeasible(f"z0 = {state} is not corrected in {MOST_STEPS} steps of interval {interval}", "z0")
     return best, proof
 
 
@@ -170,7 +173,7 @@ def _generate(factors: Array, target: Array, p: float) -> tuple[Array, Array, fl
         if peak - bound <= CLOSED * peak:
             return controls, costate, bound
         columns = columns.joined(np.arange(steps), offered, np.zeros(steps))
-    raise NotConverged("the gauge of p-balls was not found", peak / bound - 1)
+    raise NotConverged(f"the gauge for p = {p} was not found in {ITERATIONS} iterations", peak / bound - 1)
 
 
 def _support_points(along: Array, p: float) -> tuple[Array, Array]:

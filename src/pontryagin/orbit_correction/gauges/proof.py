@@ -31,4 +31,5 @@ def require_closed(proof: Certificate, what: str) -> None:
     """Raise `NotConverged` if a residual, or the gap between the bounds on a gauge, exceeds `PROVED`."""
     with np.errstate(all="ignore"):
         if not (proof.residual <= PROVED).all():
-            raise NotConverged(f"{what} could not be proved: lost to rounding", float(proof.residual.max()))
+            reason = f"{what} could not be proved: rounding leaves a residual or gap above {PROVED:g}"
+            raise NotConverged(reason, float(proof.residual.max()))

@@ -206,7 +206,8 @@ def _least_energy(factors: Array, target: Array, square: bool) -> tuple[Array, f
             length *= 0.5
         psi = trial
     if np.abs(miss).max() > 1e-10:
-        raise NotConverged("the least energy within the bounds was not found", float(np.abs(miss).max()))
+        reason = f"the controls of least energy were not found in {ITERATIONS} iterations"
+        raise NotConverged(reason, float(np.abs(miss).max()))
     return controls, value
 
 
@@ -251,7 +252,7 @@ def _generate(factors: Array, target: Array, start: Array, room: float, turning:
             return controls, bound
         new = np.flatnonzero(gains > 0)
         columns = columns.joined(new, offered[new], cost(offered[new]))
-    raise NotConverged("the least fuel was not found", value - bound)
+    raise NotConverged(f"the controls of least fuel were not found in {ITERATIONS} iterations", value - bound)
 
 
 def _length(points: Array) -> Array:

@@ -184,7 +184,8 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         lower, upper = thrust.bounds(rows[open_rows], count)
         reached = ~(lower > 1 + ROUNDING)
         if (reached & ~(upper <= 1 + PROVED)).any():
-            raise NotConverged("the gauge could not be proved: lost to rounding", float(upper[reached].max()))
+            reason = "the gauge could not be proved: rounding leaves a gap between its bounds"
+            raise NotConverged(reason, float((upper - lower)[reached].max()))
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
         too_few[open_rows] = np.where(reached, too_few[open_rows], count)

@@ -268,7 +268,7 @@ class Thrust:
         if z0[:, 0].any():
             raise Infeasible(
                 f"interval = {self.interval} is a whole number of revolutions: all impulses act at one place "
-                f"of the orbit and leave the radius as it is; z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
+                f"of the orbit, where none changes the radius; z0 = {z0[np.argmax(z0[:, 0] != 0)].tolist()} "
                 "cannot be corrected",
                 "interval",
             )

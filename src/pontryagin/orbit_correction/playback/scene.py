@@ -61,7 +61,7 @@ def record_plan(plan: Plan, path: Path) -> None:
         If the plan is that of a stack, or of no impulse.
     """
     if int(single(plan).impulse_count) == 0:
-        raise ArgumentValueError("plan must have an impulse, got that of no deviation", "plan")
+        raise ArgumentValueError("plan must have an impulse, got a plan without any", "plan")
     factor = magnification(plan)
     plots: list[View] = [
         Plot("deviation of the true flight, thousandths", "state"),

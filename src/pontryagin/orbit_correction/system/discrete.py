@@ -55,7 +55,7 @@ class DiscreteSystem:
                 matrices = finite(name, given, "an (n, n) matrix, a sequence of them, or a callable of k")
                 if matrices.ndim not in (2, 3):
                     raise ArgumentValueError(
-                        f"{name} must be (n, n) or (steps, n, n), got shape {matrices.shape}", name
+                        f"{name} must be an array (n, n) or (steps, n, n), got shape {matrices.shape}", name
                     )
                 object.__setattr__(self, name, matrices)
 
@@ -74,16 +74,15 @@ class DiscreteSystem:
             dynamics, shape = _matrix("A", self.A, index), _matrix("H", self.H, index)
             if shape.shape != dynamics.shape:
                 raise ArgumentValueError(
-                    f"H({index}) must be {dynamics.shape} like A({index}), got {shape.shape}", "H"
+                    f"H({index}) must have shape {dynamics.shape} like A({index}), got {shape.shape}", "H"
                 )
             if index and dynamics.shape != self._steps[0][0].shape:
-                raise ArgumentValueError(
-                    f"A({index}) must be {self._steps[0][0].shape} like A(0), got {dynamics.shape}", "A"
-                )
-            if np.linalg.cond(dynamics) > SINGULAR:
-                raise ArgumentValueError(
-                    f"A({index}) must be nonsingular, its condition is above {SINGULAR:g}", "A"
-                )
+                takes = f"have shape {self._steps[0][0].shape} like A(0)"
+                raise ArgumentValueError(f"A({index}) must {takes}, got {dynamics.shape}", "A")
+            condition = np.linalg.cond(dynamics)
+            if condition > SINGULAR:
+                takes = f"be nonsingular, with a condition number up to {SINGULAR:g}"
+                raise ArgumentValueError(f"A({index}) must {takes}, got {condition:.3g}", "A")
             self._steps.append((dynamics, _ellipsoid_factor(shape, index)))
         return self._steps[k]
 
@@ -97,7 +96,9 @@ class DiscreteSystem:
                 result.append(inverse @ factor)
             if not np.isfinite(result[-1]).all():
                 raise ArgumentValueError(
-                    f"A: the inverse of A({k}) ... A(0) is beyond the range of floating numbers", "A"
+                    "A must have inverses of its products A(k) ... A(0) within the range of floating-point "
+                    f"numbers, got one beyond it at k = {k}",
+                    "A",
                 )
         return np.array(result)
 
@@ -125,15 +126,15 @@ def _ellipsoid_factor(shape: Array, k: int) -> Array:
     if not np.allclose(shape, shape.T, rtol=1e-12, atol=0):
         difference = np.abs(shape - shape.T).max()
         raise ArgumentValueError(
-            f"H({k}) must be symmetric, it differs from its transpose by {difference:.3g}", "H"
+            f"H({k}) must be symmetric, got one that differs from its transpose by {difference:.3g}", "H"
         )
     values, axes = np.linalg.eigh(shape)
     if values[0] <= 0:
         raise ArgumentValueError(
-            f"H({k}) must be positive definite, its least eigenvalue is {values[0]:.3g}", "H"
+            f"H({k}) must be positive definite, got the least eigenvalue {values[0]:.3g}", "H"
         )
     if values[0] <= 1e-15 * values[-1]:
         raise ArgumentValueError(
-            f"H({k}) must be nonsingular, its condition is {values[-1] / values[0]:.3g}", "H"
+            f"H({k}) must have a condition number below 1e15, got {values[-1] / values[0]:.3g}", "H"
         )
     return np.asarray(axes / np.sqrt(values))

@@ -10,6 +10,7 @@ from pontryagin.rendezvous.elements.arcs import (
     Constants,
     Mode,
 )
+from pontryagin.rendezvous.terminal_law import end_switching
 
 
 @dataclass(frozen=True)
@@ -46,12 +47,9 @@ class Law:
     @property
     def end_switching(self) -> float:
         """|n(t_k)| for a free duration, by (n, p) = L; for "fuel" with the jump itself and alpha1 > 0."""
-        if self.bang:
-            return 1 / self.peak
-        if self.kind == "fuel":
+        if self.kind == "fuel" and not self.bang:
             return 1 + self.ratio / self.peak
-        root = np.sqrt(self.ratio)
-        return float(2 * root if root <= self.peak else self.ratio / self.peak + self.peak)
+        return end_switching(self.ratio, self.peak)
 
     def mode(self, size: float) -> Mode:
         """The mode of thrust for a given size of n."""

@@ -20,7 +20,6 @@ from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.conditions import (
     ReducedEquations,
     Setting,
-    by_goal,
     end_rates,
     equations,
     goal_of,
@@ -59,15 +58,13 @@ def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[
     shift[CHI] = flight.chart
     goal, goal_rate = goal_of(setting, float(flight.end[3]))
     shifted = replace(flight, end=flight.end - angle * shift)
-    values, by_state, by_start = mismatch(shifted, goal)
-    columns = by_state @ flight.slopes
-    columns[:, 3:6] += by_start
+    met = mismatch(shifted, goal)
     jacobian, residual = unrotated.jacobian.copy(), unrotated.residual.copy()
-    jacobian[:6, :6], residual[:6] = columns[:, :6], values
+    jacobian[:6, :6], residual[:6] = met.by_start[:, :6], met.residual
     if setting.free:
-        jacobian[:6, 6] = by_state @ end_rates(flight) + by_goal(shifted, goal, goal_rate)
+        jacobian[:6, 6] = met.by_end @ end_rates(flight) + met.by_goal @ goal_rate
     by_angle = np.zeros(len(residual))
-    by_angle[:6] = -by_state @ shift
+    by_angle[:6] = -met.by_end @ shift
     return replace(unrotated, jacobian=jacobian, residual=residual), by_angle
 
 

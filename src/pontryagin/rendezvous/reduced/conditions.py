@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.numerics.complex_step import derivative, jacobian
+from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.rotation import about_third, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
@@ -21,6 +21,7 @@ from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
+from pontryagin.rendezvous.terminal_law import end_switching, end_switching_slopes
 from pontryagin.value import value_class
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
@@ -74,18 +75,7 @@ class Setting:
     @property
     def end_switching(self) -> float:
         """|n(t_k)| by the terminal law."""
-        if self.bang:
-            return 1 / self.peak
-        root = math.sqrt(self.ratio)
-        return 2 * root if root <= self.peak else self.ratio / self.peak + self.peak
-
-    @property
-    def end_switching_slopes(self) -> tuple[float, float]:
-        """Derivatives of `end_switching` in log(alpha1/alpha2) and log p_max."""
-        root = math.sqrt(self.ratio)
-        if root <= self.peak:
-            return root, 0.0
-        return self.ratio / self.peak, self.peak - self.ratio / self.peak
+        return end_switching(self.ratio, self.peak)
 
     def replace(self, **changes: Any) -> "Setting":
         """A copy with some attributes changed."""
@@ -117,22 +107,37 @@ class ReducedEquations:
     by_lead: Array
 
 
-def mismatch(flight: Flight, goal: Array) -> tuple[Array, Array, Array]:
-    """Residuals of (5) and (6) with a goal (7,) of r, v1, c and lambda0~ o lambda in the target's place.
+@dataclass(frozen=True)
+class Mismatch:
+    """Residuals of (5) and (6) at the end of a flight, and their derivatives.
 
-    Returns the residuals (6,), their derivatives (6, 12) in the final states and (6, 3) in nu at the start.
+    Attributes
+    ----------
+    residual : (6,) array
+        Residuals.
+    by_start : (6, 7) array
+        Derivatives in the six costates at t0 and in p_max.
+    by_end : (6, 12) array
+        Derivatives in the twelve states at the end.
+    by_goal : (6, 7) array
+        Derivatives in the goal.
     """
-    inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x, flight.chart, *goal]), inputs)
-    by_state = np.zeros((6, 12))
-    by_state[:, SEEN] = slopes[:, :7]
-    return values, by_state, slopes[:, 7:]
+
+    residual: Array
+    by_start: Array
+    by_end: Array
+    by_goal: Array
 
 
-def by_goal(flight: Flight, goal: Array, direction: Array) -> Array:
-    """Derivative of the residuals of `mismatch` as the goal moves in a direction (7,)."""
-    inputs = np.concatenate([flight.end[SEEN], flight.costates[3:]])
-    return derivative(lambda x: kernels.mismatch(*[*inputs, flight.chart, *x]), goal, direction)[1]
+def mismatch(flight: Flight, goal: Array) -> Mismatch:
+    """Residuals of (5) and (6) with a goal (7,) of r, v1, c and lambda0~ o lambda in the target's place."""
+    inputs = np.concatenate([flight.end[SEEN], flight.costates[3:], goal])
+    values, slopes = jacobian(lambda x: kernels.mismatch(*[*x[:10], flight.chart, *x[10:]]), inputs)
+    by_end = np.zeros((6, 12))
+    by_end[:, SEEN] = slopes[:, :7]
+    by_start = by_end @ flight.slopes
+    by_start[:, 3:6] += slopes[:, 7:10]
+    return Mismatch(values, by_start, by_end, slopes[:, 10:])
 
 
 def end_rates(flight: Flight) -> Array:
@@ -169,28 +174,25 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
         rough=setting.rough,
     )
     goal, moving = goal_of(setting, float(flight.end[3]))
-    values, by_state, by_start = mismatch(flight, goal)
-    columns = by_state @ flight.slopes
-    columns[:, 3:6] += by_start
+    met = mismatch(flight, goal)
+    columns = met.by_start
     peak = setting.peak if setting.peak < math.inf else 0.0
-    turning = np.concatenate([np.zeros(3), product(goal[3:], I3) / 2])
-    by_lead = by_goal(flight, goal, turning)
+    by_lead = met.by_goal[:, 3:] @ product(goal[3:], I3) / 2
     if not setting.free:
         zero = np.zeros(6)
-        return ReducedEquations(flight, values, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
+        return ReducedEquations(flight, met.residual, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
     rates = end_rates(flight)
-    by_time = by_state @ rates + by_goal(flight, goal, moving)
+    by_time = met.by_end @ rates + met.by_goal @ moving
     law, law_by_state = _terminal(setting, flight)
     law_columns = law_by_state @ flight.slopes
     jacobian = np.block(
         [[columns[:, :6], by_time[:, None]], [law_columns[None, :6], np.array([[law_by_state @ rates]])]]
     )
-    wanted = setting.end_switching
-    by_ratio, by_peak = (0.0, -1.0 / setting.peak) if setting.bang else setting.end_switching_slopes
-    share = (law + 1) / wanted
+    by_ratio, by_peak = end_switching_slopes(setting.ratio, setting.peak)
+    share = (law + 1) / setting.end_switching
     return ReducedEquations(
         flight,
-        np.append(values, law),
+        np.append(met.residual, law),
         jacobian,
         np.append(columns[:, 6] * peak, law_columns[6] * peak - share * by_peak),
         np.append(np.zeros(6), -share * by_ratio),

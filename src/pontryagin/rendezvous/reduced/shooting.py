@@ -14,6 +14,7 @@ from pontryagin.rendezvous.reduced.flight import (
     Flight,
 )
 from pontryagin.rendezvous.root import Root, root, scales
+from pontryagin.rendezvous.terminal_law import end_switching_slopes
 
 WITHIN = 5.0
 """Largest factor by which a step of Newton's method may change a free duration."""
@@ -67,7 +68,7 @@ def family(setting: Setting, name: str) -> Family[ReducedEquations]:
 
     def over_ratio(unknowns: Array, parameter: float) -> tuple[ReducedEquations, Array]:
         there = setting.replace(ratio=math.exp(parameter))
-        scale, growth = _end_scale(there), there.end_switching_slopes[0]
+        scale, (growth, _) = _end_scale(there), end_switching_slopes(there.ratio, there.peak)
         values = equations(there, unknowns * scale)
         by_ratio = values.by_ratio + values.jacobian[:, :6] @ unknowns[:6] * growth
         return replace(values, jacobian=values.jacobian * scale), by_ratio

@@ -18,7 +18,7 @@ from pontryagin.numerics.rotation import about_third, conjugate, product
 from pontryagin.rendezvous.estimate import ballistic_lead, gap_duration, orbit_change_duration
 from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.conditions import I3, Setting, by_goal, goal_of, mismatch
+from pontryagin.rendezvous.reduced.conditions import I3, Mismatch, Setting, goal_of, mismatch
 from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
@@ -168,20 +168,17 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path:
     scaled, duration = setting.scaled, float(setting.duration or 0)
     goal, rate = path(done)
 
-    def evaluate(z: Array, towards: Array) -> tuple[Flight, Array, Array]:
+    def towards(goal: Array, z: Array) -> Mismatch:
         flight = fly(scaled, z, duration, taylor=setting.taylor, rough=True)
-        values, by_state, by_start = mismatch(flight, towards)
-        columns = (by_state @ flight.slopes)[:, :6]
-        columns[:, 3:] += by_start
-        return flight, values, columns
+        return mismatch(flight, goal)
 
     try:
-        flight, _, columns = evaluate(costates, goal)
-        z = costates - np.linalg.solve(columns, by_goal(flight, goal, rate)) * (reached - done)
-        last = np.inf
+        start = towards(goal, costates)
+        z = costates - np.linalg.solve(start.by_start[:, :6], start.by_goal @ rate) * (reached - done)
+        goal, last = path(reached)[0], np.inf
         for _ in range(8):
-            _, values, columns = evaluate(z, path(reached)[0])
-            step = np.linalg.solve(columns, -values)
+            here = towards(goal, z)
+            step = np.linalg.solve(here.by_start[:, :6], -here.residual)
             size = float(np.linalg.norm(step))
             if not size < max(last, 1e-9):
                 return None

@@ -178,8 +178,8 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     return Turn(body, e, programme, bool(feedforward), motion)
 
 
-def single(programme: Programme) -> Maneuver:
-    """The manoeuvre of a programme.
+def single(programme: Programme, name: str = "programme") -> Maneuver:
+    """The manoeuvre of a programme, which is the caller's argument of this name.
 
     Raises
     ------
@@ -189,7 +189,7 @@ def single(programme: Programme) -> Maneuver:
     maneuver = programme.maneuver
     if maneuver.shape != ():
         raise ArgumentValueError(
-            f"programme must be that of one manoeuvre, got a stack of shape {maneuver.shape}", "programme"
+            f"{name} must be the solution of one manoeuvre, got a stack of shape {maneuver.shape}", name
         )
     return maneuver
 
@@ -207,7 +207,7 @@ def _unit(axis: ArrayLike) -> Array:
     size = np.linalg.norm(direction)
     if direction.shape != (3,) or not size > 0:
         raise ArgumentValueError(
-            f"axis must be an array (3,) other than zero, got {direction.tolist()}", "axis"
+            f"axis must be an array (3,) that is not zero, got {direction.tolist()}", "axis"
         )
     return direction / size
 

@@ -74,8 +74,8 @@ class RigidBody:
             )
         if moments[2] > (moments[0] + moments[1]) * (1 + 1e-12):
             raise ArgumentValueError(
-                "inertia must be that of a body: no principal moment exceeds the sum of the other two, "
-                f"got principal moments {listed}",
+                "inertia must be that of a rigid body, whose principal moments each are at most the sum of "
+                f"the other two, got principal moments {listed}",
                 "inertia",
             )
         freeze(tensor)
@@ -123,10 +123,12 @@ class Motion:
         """Attitude (4), rate (3) and commands (n) at the times t, (k,) -> (k, 7+n)."""
         time = np.atleast_1d(finite("t", t, "a number or an array (k,) of times"))
         first, last = self.edges[0], self.edges[-1]
-        if time.ndim != 1 or np.any(time < first) or np.any(time > last):
-            raise ArgumentValueError(
-                f"t must be an array (k,) of times from {first} to {last}, got shape {time.shape}", "t"
-            )
+        takes = f"t must be an array (k,) of times from {first} to {last}"
+        if time.ndim != 1:
+            raise ArgumentValueError(f"{takes}, got shape {time.shape}", "t")
+        outside = (time < first) | (time > last)
+        if outside.any():
+            raise ArgumentValueError(f"{takes}, got {time[outside][0]}", "t")
         index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.stretches) - 1)
         result = np.empty((time.size, self.start.size))
         for i in np.unique(index):
@@ -221,7 +223,10 @@ def simulate(
             dense_output=True,
         )
         if not run.success:
-            raise NotConverged(f"the motion was not integrated past t = {run.t[-1]}", float(b - run.t[-1]))
+            reason = (
+                f"the integration of the motion stopped at t = {run.t[-1]}, before t = {b}: {run.message}"
+            )
+            raise NotConverged(reason, float(b - run.t[-1]))
         stretches.append(cast(OdeSolution, run.sol))
         state = _after_impulses(run.y[:, -1], b, commands)
     return Motion(edges, stretches, start, state)

@@ -91,7 +91,7 @@ def third_area_conjugate() -> Evidence:
     )
 
 
-@claim("after (3.12): S1", "S1 has the same form with τ_m for T − τ_m", verdict="holds")
+@claim("after (3.12): S1", "S1 has the same form with τ_m in place of T − τ_m", verdict="holds")
 def first_area_conjugate() -> Evidence:
     printed = alpha / 3 * (apex**3 - 3 * apex * half_width**2 + 2 * half_width**3)
 
@@ -118,9 +118,9 @@ def condition_on_the_zeros() -> Evidence:
 
 @claim(
     "before (3.14): F",
-    "F = S1 − S2 + S3, to be least with (3.13); for α_m > 0 it is ∫|ψ3*|",
+    "F = S1 − S2 + S3 is to be minimised under (3.13); for α_m > 0 it is ∫|ψ3*|",
     verdict="holds",
-    remark="For α_m < 0 it is −∫|ψ3*|: see the entry on the sign of α_m.",
+    remark="For α_m < 0, F is −∫|ψ3*|: see the entry on the sign of α_m.",
 )
 def signed_area() -> Evidence:
     sides = (
@@ -136,7 +136,11 @@ def signed_area() -> Evidence:
     return Equality({"F": sides[0] - sides[1] + sides[2]}, derived, display="F = S_1 - S_2 + S_3")
 
 
-@claim("(3.14)", "auxiliary function F + λ(…): (3.13) divided by α_m as the condition", verdict="holds")
+@claim(
+    "(3.14)",
+    "the auxiliary function F + λ(…), where the condition in the brackets is (3.13) divided by α_m",
+    verdict="holds",
+)
 def auxiliary_function() -> Evidence:
     first_area = alpha / 3 * (apex - half_width) ** 2 * (apex + 2 * half_width)
     third_area = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)

@@ -92,7 +92,7 @@ def condition_on_the_multipliers() -> Evidence:
 
 @claim(
     "after (4.3): Chebyshev",
-    "for arbitrary ends the minimal element is ±ρ0 T2, the polynomial least deviating from zero",
+    "for arbitrary ends the minimal element is ±ρ0 T2, the polynomial that deviates least from zero",
     verdict="conditional",
     remark="True where a0, am, aT of (4.10) are all ≥ 0 for s0 = sign F (a cone of c), and nowhere else. For "
     "c = (1/6, 1/2, 1), T = 1, which u = 1 reaches, ±ρ0 T2 would have the norm 3, but h = 1 has the norm 1: "
@@ -157,7 +157,7 @@ def minimal_element_in_powers() -> Evidence:
     "(4.5)",
     "T2 in the variable τ",
     verdict="holds",
-    remark="The scan reads τ as φ in the sentence before it.",
+    remark="In the sentence before it the scan shows φ in place of τ.",
 )
 def chebyshev_in_time() -> Evidence:
     printed = 8 * tau**2 / T**2 - 8 * tau / T + 1

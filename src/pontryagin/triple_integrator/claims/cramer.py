@@ -40,7 +40,9 @@ ROOM = 16 * tau * (T - tau) * (T - 2 * tau) ** 2 / F**2
 """The same as a product that is zero at 0, T/2 and T, and positive between them."""
 
 
-@claim("before (4.6): system", "equal coefficients of h0 and ρ~0 T2, and (4.3)", verdict="holds")
+@claim(
+    "before (4.6): system", "the coefficients of h0 and ρ~0 T2 are equal, and (4.3) holds", verdict="holds"
+)
 def matching_system() -> Evidence:
     printed = [
         T**2 * l1 / 16 - signed_norm,
@@ -81,7 +83,7 @@ def cramers_rule() -> Evidence:
     )
 
 
-@claim("after (4.6): determinants", "D1, D2, D3, Dρ", verdict="holds")
+@claim("after (4.6): determinants", "the determinants D1, D2, D3 and Dρ", verdict="holds")
 def cramer_numerators() -> Evidence:
     printed = {"D_1": T / 8, "D_2": -(T**2) / 16, "D_3": T**3 / 128, r"D_\rho": T**3 / 128}
     return Equality(printed, lambda: chebyshev.cramer(chebyshev.matching())[0])
@@ -129,7 +131,7 @@ def chebyshev_element() -> Evidence:
     "after (4.6): ρ0",
     "its norm is ρ0 = T²/|F|, and sign s0 = sign F",
     verdict="holds",
-    remark="The norm of this h0; that it is the least norm is another claim, above.",
+    remark="This is the norm of this h0. That it is the least norm is the claim after (4.3).",
 )
 def norm_of_the_chebyshev_element() -> Evidence:
     def derived() -> RightSides:
@@ -147,7 +149,7 @@ def norm_of_the_chebyshev_element() -> Evidence:
     )
 
 
-@claim("after (4.6): extremes", "h0 is extreme at 0, T/2 and T", verdict="holds")
+@claim("after (4.6): extremes", "h0 takes its extreme values at 0, T/2 and T", verdict="holds")
 def instants_of_the_extremes() -> Evidence:
     def derived() -> RightSides:
         inner = sp.solve(element().diff(tau), tau)[0]

@@ -191,7 +191,7 @@ def norm_of_the_programme() -> Evidence:
     )
 
 
-@claim.proof("after (2.2): solution", "this solves problem 1 for arbitrary ends")
+@claim.proof("after (2.2): solution", "this programme solves problem 1 for arbitrary ends")
 def general_solution() -> Steps:
     force = sp.Symbol("f_0", real=True)
     end = channel.transfer(force).subs(tau, T)

@@ -63,7 +63,9 @@ def symmetry_of_example_1() -> Evidence:
     )
 
 
-@claim("after (2.5): ends", "its end values 60γ_T/T³ are its maximum", verdict="holds")
+@claim(
+    "after (2.5): ends", "the maximum of the programme is 60γ_T/T³, its value at both ends", verdict="holds"
+)
 def end_values_of_example_1() -> Evidence:
     def argument() -> Steps:
         program = programme_of_example_1()
@@ -79,7 +81,7 @@ def end_values_of_example_1() -> Evidence:
     )
 
 
-@claim("after (2.5): middle", "its value −30γ_T/T³ at T/2 is its minimum", verdict="holds")
+@claim("after (2.5): middle", "the minimum of the programme is −30γ_T/T³, its value at T/2", verdict="holds")
 def middle_value_of_example_1() -> Evidence:
     def argument() -> Steps:
         program = programme_of_example_1()

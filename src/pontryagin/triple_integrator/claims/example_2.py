@@ -81,7 +81,7 @@ def least_peak_of_the_turn() -> Evidence:
     return Proof(argument, Equality({"u_0": 32 * turn / T**3}, lambda: bang_bang_turn()[0][1]))
 
 
-@claim("after (3.20): R", "its total impulse, R = u0 T = 32γ_T/T²", verdict="holds")
+@claim("after (3.20): R", "the total impulse of this programme is R = u0 T = 32γ_T/T²", verdict="holds")
 def impulse_of_the_bang_bang_turn() -> Evidence:
     return Equality(
         {"R": 32 * turn / T**2}, lambda: sum(duration * sp.Abs(value) for duration, value in bang_bang_turn())

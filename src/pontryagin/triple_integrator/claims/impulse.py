@@ -80,9 +80,10 @@ def conditions_on_the_optimum() -> Evidence:
     "(4.8)",
     "pulses that approximate the impulses, and their intervals",
     verdict="misprint",
-    remark="Printed: I_m = [−ε_m, +ε_m]. Right: [T/2 − ε_m, T/2 + ε_m], where the sign h0(T/2) in the same "
-    "line and (4.9) put it. As printed, half the middle pulse falls on τ = 0: example 1 (γ = T = 1) would "
-    "end at (0, 0, 4) instead of (1, 0, 0).",
+    remark="Printed: I_m = [−ε_m, +ε_m]. Right: [T/2 − ε_m, T/2 + ε_m], as the sign h0(T/2) in the same "
+    "line and the middle impulse of (4.9) show. As printed, the middle pulse lies about τ = 0 and "
+    "only half of it is applied: example 1 (γ = T = 1) would end at (0, 0, 4) instead of (1, 0, "
+    "0).",
 )
 def approximating_pulses() -> Evidence:
     printed = {
@@ -123,7 +124,8 @@ def approximating_pulses() -> Evidence:
 @claim.proof(
     "after (4.8)",
     "impulses away from the extremes of h0 do not attain the maximum",
-    remark="For the h0 of (4.4). Where the minimal element is a constant, every instant is extreme.",
+    remark="True for the h0 of (4.4). Where the minimal element is a constant, it is extreme at every "
+    "instant.",
 )
 def only_at_the_extremes() -> Steps:
     yield "|h0| < ρ0 except at 0, T/2, T", vanishes(room() - ROOM)
@@ -136,8 +138,8 @@ def only_at_the_extremes() -> Steps:
     "(4.9)",
     "the limit of the pulses: impulses s0 a0, −s0 am, s0 aT at 0, T/2, T",
     verdict="holds",
-    remark="With δ(τ + 0) and δ(τ − T − 0) read as the impulses wholly inside [0, T]; a shift by that sign "
-    "would put them outside. (4.8) is taken with its middle pulse at T/2.",
+    remark="True if δ(τ + 0) and δ(τ − T − 0) are read as impulses wholly inside [0, T]; a shift by that "
+    "sign would put them outside. (4.8) is taken with its middle pulse at T/2.",
 )
 def limit_of_the_pulses() -> Evidence:
     printed = three_impulses((sign * a0, -sign * am, sign * aT), T)

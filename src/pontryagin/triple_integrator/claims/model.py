@@ -138,8 +138,8 @@ def rate_of_the_torque() -> Evidence:
     "before (0.4)",
     "electromechanical actuators: the torque m(t) is continuous",
     verdict="conditional",
-    remark="True for every integrable u. The impulsive programme (4.9), the paper's own answer to problem 3, "
-    "makes m jump: in example 1 by 4γ/T² at once.",
+    remark="True for every integrable u. The impulsive programme (4.9), the paper's own answer to "
+    "problem 3, makes m jump: in example 1 the first jump is 4γ/T².",
 )
 def torque_is_continuous() -> Evidence:
     def argument() -> Steps:

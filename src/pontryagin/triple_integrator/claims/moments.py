@@ -84,7 +84,7 @@ def response() -> Evidence:
     )
 
 
-@claim("(1.6)", "its components h1, h2, h3", verdict="holds")
+@claim("(1.6)", "the components h1, h2, h3 of this response", verdict="holds")
 def response_components() -> Evidence:
     printed = {r"h_1(\tau)": to_go**2 / 2, r"h_2(\tau)": to_go, r"h_3(\tau)": sp.S.One}
 

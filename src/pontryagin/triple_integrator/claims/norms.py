@@ -96,9 +96,9 @@ def moment_equalities() -> Evidence:
     "after (1.11): form of Φ",
     "every bounded functional on L_p is an integral with some u in L_q",
     verdict="conditional",
-    remark="True for 1 ≤ p < ∞ (Riesz). For p = ∞ (q = 1, problem 3) it is false: the value at one instant, "
-    "extended from the continuous functions, is bounded with norm 1 and is no integral with an integrable u. "
-    "It is just such functionals that solve problem 3, (4.9).",
+    remark="True for 1 ≤ p < ∞ (Riesz). For p = ∞ (q = 1, problem 3) it is false: the value at one "
+    "instant, extended from the continuous functions, is bounded with norm 1 and is no integral "
+    "with an integrable u. Functionals of this kind solve problem 3, see (4.9).",
 )
 def form_of_the_functional() -> Evidence:
     def argument() -> Steps:

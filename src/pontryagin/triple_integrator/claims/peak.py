@@ -70,7 +70,7 @@ def dual_norm_in_l1() -> Steps:
     yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
 
 
-@claim("(3.1)", "the dual problem is least ∫|ψ3| on l'c = 1, ψ3 = h", verdict="holds")
+@claim("(3.1)", "the dual problem is to minimise ∫|ψ3| on l'c = 1, where ψ3 = h", verdict="holds")
 def dual_problem() -> Evidence:
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
     return Equality(

@@ -68,7 +68,7 @@ def adjoint_equation() -> Evidence:
     )
 
 
-@claim("(1.16)", "its final condition: ψ'(tf) c = l'c = 1", verdict="holds")
+@claim("(1.16)", "the final condition of the adjoint equation: ψ'(tf) c = l'c = 1", verdict="holds")
 def adjoint_end() -> Evidence:
     def derived() -> RightSides:
         psi = (transition(tf - t).T * multipliers).subs(t, tf)
@@ -128,9 +128,9 @@ def problem_3() -> Evidence:
     "after (1.20)",
     "problem 3 has a solution u in L_1 for arbitrary ends",
     verdict="conditional",
-    remark="True where a control of one sign has the moments c (c3 ≠ 0 and 2c1c3 > c2², Tc2/c3 > 2c1/c3). "
-    "Otherwise no integrable control attains the infimum, which belongs to impulses: so already in example "
-    "1.",
+    remark="True where a control of one sign has the moments c (c3 ≠ 0 and 2c1c3 > c2², Tc2/c3 > "
+    "2c1/c3). Otherwise no integrable control attains the infimum; only impulses do, as already "
+    "in example 1.",
 )
 def minimiser_in_l1() -> Evidence:
     def argument() -> Steps:

@@ -52,8 +52,9 @@ def pulse_certificate() -> Steps:
     "after (4.10): sum",
     "the sum of the impulses is 1/ρ0, so ρ0 = T²/(s0 F)",
     verdict="conditional",
-    remark="True where a0, am, aT ≥ 0. For u = 4 on [5/8, 7/8], T = 1, F = −11/24: (4.10) pays 59/48, and "
-    "1/ρ0 = 1, not |F|/T² = 11/24, which no control attains.",
+    remark="True where a0, am, aT ≥ 0. The moments of u = 4 on [5/8, 7/8], T = 1, have F = −11/24: the "
+    "impulses of (4.10) cost 59/48, and the least cost is 1/ρ0 = 1. No control attains |F|/T² = "
+    "11/24.",
 )
 def sum_of_the_impulses() -> Evidence:
     def argument() -> Steps:
@@ -106,10 +107,10 @@ def sign_of_the_first_impulse() -> Evidence:
     "after (4.10): F = 0",
     "if F = 0, the free motion u = 0 meets the boundary conditions",
     verdict="false",
-    remark="u = 0 does so only where c = 0. F = 0 is a plane of c on which the manoeuvre is as hard as "
-    "elsewhere: c = (1, 2, 0), T = 1 has F = 0, the free motion stays at 0, and every control costs at least "
-    "2. There a0 + am + aT = 0, so the three cannot all be positive, and other families of impulses are "
-    "optimal.",
+    remark="u = 0 does so only where c = 0. F = 0 is a plane of c on which the manoeuvre is no easier "
+    "than elsewhere: for c = (1, 2, 0), T = 1, F is 0, but the free motion stays at 0 and every "
+    "control costs at least 2. On this plane a0 + am + aT = 0, so the three cannot all be "
+    "positive, and other families of impulses are optimal.",
 )
 def free_motion_where_f_is_zero() -> Evidence:
     def counterexample() -> Steps:
@@ -130,9 +131,10 @@ def free_motion_where_f_is_zero() -> Evidence:
     "after (4.10): solution",
     "this completes the solution of problem 3 for arbitrary ends",
     verdict="false",
-    remark="The three impulses are optimal only where a0, am, aT ≥ 0. For u = 4 on [5/8, 7/8], T = 1, they "
-    "cost 59/48 against 1. Complete: any u ≥ 0 in the moment cone; 0, T/2, T on the Chebyshev cone; two "
-    "impulses, one of them at an end, in the rest.",
+    remark="The three impulses are optimal only where a0, am, aT ≥ 0. For the moments of u = 4 on [5/8, "
+    "7/8], T = 1, they cost 59/48, while this u costs 1. The complete solution has three cases: in the "
+    "moment cone any u ≥ 0 with these moments is optimal, on the Chebyshev cone impulses at 0, "
+    "T/2 and T are, and for all other c two impulses, one of them at an end.",
 )
 def complete_solution() -> Evidence:
     return Refutation(pulse_certificate)
@@ -163,7 +165,11 @@ def impulse_of_the_turn() -> Evidence:
     )
 
 
-@claim("end of section 4: half", "that is half of what example 2's programme spends", verdict="holds")
+@claim(
+    "end of section 4: half",
+    "this is half of the total impulse of the programme of example 2",
+    verdict="holds",
+)
 def half_of_example_2() -> Evidence:
     def derived() -> RightSides:
         bang_bang = sum(duration * abs(level) for duration, level in BANG_BANG)
@@ -177,9 +183,10 @@ def half_of_example_2() -> Evidence:
     "conclusion",
     "general solutions for arbitrary ends have been obtained for q = 1, 2 and ∞",
     verdict="false",
-    remark="Not for q = 1. For u = 4 on [5/8, 7/8], T = 1, (4.10) costs 59/48 against 1. Right: q = 2 yes, "
-    "with (2.3) corrected; q = ∞ yes, as a structure and an equation to solve; q = 1 only on the cone "
-    "a0, am, aT ≥ 0.",
+    remark="It is not true for q = 1: for the moments of u = 4 on [5/8, 7/8], T = 1, (4.10) costs 59/48, "
+    "while this u costs 1. It is true for q = 2, with (2.3) corrected, and for q = ∞, as a structure "
+    "and an equation to solve. For q = 1 the paper's solution is right only on the cone a0, am, "
+    "aT ≥ 0.",
 )
 def general_solutions() -> Evidence:
     return Refutation(pulse_certificate)

@@ -91,7 +91,7 @@ def transformed_conditions() -> Evidence:
     )
 
 
-@claim("(3.15)", "stationary in τ_m, with λ = α_m λ~", verdict="holds")
+@claim("(3.15)", "the condition for a stationary point in τ_m, with λ = α_m λ~", verdict="holds")
 def stationary_in_the_apex() -> Evidence:
     printed = T * (2 * apex - T) + 2 * slope * (c2 - (T - apex) * c3)
     return Equality(
@@ -101,7 +101,7 @@ def stationary_in_the_apex() -> Evidence:
     )
 
 
-@claim("(3.16)", "stationary in α_m", verdict="holds")
+@claim("(3.16)", "the condition for a stationary point in α_m", verdict="holds")
 def stationary_in_the_curvature() -> Evidence:
     return Equality(
         {"0": cubic() + slope / alpha},
@@ -111,7 +111,7 @@ def stationary_in_the_curvature() -> Evidence:
     )
 
 
-@claim("(3.17)", "stationary in Δ_m", verdict="holds")
+@claim("(3.17)", "the condition for a stationary point in Δ_m", verdict="holds")
 def stationary_in_the_width() -> Evidence:
     return Equality(
         {"0": 4 * half_width - T - slope * c3},
@@ -166,10 +166,11 @@ def switches_on_the_curve() -> Evidence:
     "after (3.19): search",
     "the problem (3.6) is now a one-dimensional search in λ~",
     verdict="conditional",
-    remark="True for the global minimum of |S1 − S2 + S3| (with the modulus) over the λ~ with T + λ~c3 > 0, "
-    "that is t1 < t2; λ~ = −1/v for the level v. Not over all λ~: for c = (0, 0, 1), T = 1, λ~ = −3.1 puts "
-    "t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a local minimum, 1.19, at λ~ = 1.19. And "
-    "for c2 = c3 = 0 (example 2) every λ~ gives the same t1, t2: λ~ is not found at all.",
+    remark="True for the global minimum of |S1 − S2 + S3| (with the modulus) over the λ~ with T + λ~c3 > "
+    "0, that is t1 < t2; λ~ = −1/v for the level v. It is not true over all λ~: for c = (0, 0, "
+    "1), T = 1, λ~ = −3.1 puts t1 after t2 and gives 0.152, below ρ0 = 0.228. There is also a "
+    "local minimum, 1.19, at λ~ = 1.19. And for c2 = c3 = 0 (example 2) every λ~ gives the same "
+    "t1, t2, so that the search does not determine λ~.",
 )
 def one_dimensional_search() -> Evidence:
     def argument() -> Steps:

@@ -69,9 +69,9 @@ def depth_of_the_parabola() -> Evidence:
     "after (3.8): sign",
     "the parabola is assumed convex, α_m > 0 and β_m > 0; otherwise both are negative",
     verdict="conditional",
-    remark="α_m and β_m do have one sign, and c → −c changes it; but for a given c the sign is not free. For "
-    "c = (−γ, 0, 0) condition (3.13) reads −2γα_m = 1: no α_m > 0. One has to solve for c and −c, or "
-    "minimise |F| instead of F in (3.14).",
+    remark="α_m and β_m do have the same sign, and replacing c by −c changes it; but for a given c the "
+    "sign is not free. For c = (−γ, 0, 0) condition (3.13) reads −2γα_m = 1, which no α_m > 0 "
+    "satisfies. One has to solve for c and −c, or minimise |F| instead of F in (3.14).",
 )
 def convex_parabola() -> Evidence:
     def argument() -> Steps:

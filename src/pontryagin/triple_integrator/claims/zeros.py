@@ -140,7 +140,8 @@ def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
 
 @claim.proof(
     "before (3.6): unconstrained",
-    "dropping t0 ≤ t1 and t2 ≤ tf leaves the minimum of (3.6) as it is: an unconstrained problem",
+    "without the constraints t0 ≤ t1 and t2 ≤ tf the minimum of (3.6) is the same, so that the "
+    "problem is unconstrained",
     remark="The paper assumes that the two bounds are not active. They may be; the claim holds all the same, "
     "for a zero outside only adds to S1 − S2 + S3. The order t1 < t2 must be kept.",
 )

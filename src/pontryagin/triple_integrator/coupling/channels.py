@@ -164,8 +164,10 @@ class Channels:
         low, high = motion.edges[:-1, None], motion.edges[1:, None]
         t = ((high + low) / 2 + (high - low) / 2 * nodes).ravel()
         phi, w = rotation_vector(motion.attitude(t)), motion.rate(t)
-        if np.linalg.norm(phi, axis=-1).max() > 0.99 * FULL_TURN:
-            raise NotConverged("the motion came to a full turn, where rotation vectors are singular", miss)
+        angle = float(np.linalg.norm(phi, axis=-1).max())
+        if angle > 0.99 * FULL_TURN:
+            reason = f"the motion reached the angle {angle:.4g} rad; at 2 pi rotation vectors are singular"
+            raise NotConverged(reason, miss)
         m = self.control_acceleration(t, phi, w, motion.commands(t))
         f = self.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
         series = np.einsum("dn,pnc->cpd", fit, f)

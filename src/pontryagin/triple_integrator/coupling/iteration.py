@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
 from pontryagin.numerics.rotation import FULL_TURN, rotation_vector, vector_rate_matrix
-from pontryagin.triple_integrator.attitude.fixed_axis import single
 from pontryagin.triple_integrator.attitude.rigid_body import Motion, RigidBody
 from pontryagin.triple_integrator.coupling.channels import Channels, Coupling
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
@@ -176,9 +175,13 @@ def couple(
         if misses[-1] <= tol:
             return CoupledManeuver(body, programmes, programmed, np.array(misses), motion)
         if not misses[-1] <= GROWN:
-            raise NotConverged("the cross-coupling grows from one iterate to the next", misses[-1])
+            reason = f"the iteration diverges: motion {len(misses)} misses its end by more than {GROWN:g} rad"
+            raise NotConverged(reason, misses[-1])
         couplings = system.couplings_along(motion, misses[-1])
-    raise NotConverged(f"the cross-coupling did not settle in {iterations} iterations", misses[-1])
+    reason = (
+        f"the cross-coupling did not settle in {iterations} iterations: the miss is above tol = {tol:g} rad"
+    )
+    raise NotConverged(reason, misses[-1])
 
 
 def spherical_factor(angle: ArrayLike) -> Array:
@@ -202,8 +205,10 @@ def spherical_factor(angle: ArrayLike) -> Array:
     [0.1, 1.0]
     """
     x = finite("angle", angle, "a number or an array (...)") / 2
-    if not np.all((x > 0) & (x < np.pi)):
-        raise ArgumentValueError(f"angle must be more than 0 and less than 2 pi, got {2 * x}", "angle")
+    outside = ~((x > 0) & (x < np.pi))
+    if outside.any():
+        wrong = 2 * x[outside].flat[0]
+        raise ArgumentValueError(f"angle must be more than 0 and less than 2 pi, got {wrong}", "angle")
     return np.asarray(np.hypot(1 - x / np.tan(x), x))
 
 
@@ -214,26 +219,28 @@ def _with(maneuver: Maneuver, coupling: Coupling | None) -> Maneuver:
 def _maneuvers_of(channels: Sequence[Maneuver | Programme]) -> tuple[list[Maneuver], tuple[int, ...]]:
     """The manoeuvres of the channels, checked, and which of them are to be programmed."""
     if len(channels) != 3:
-        raise _refusal(f"be three, got {len(channels)}")
+        raise _refusal(f"be three manoeuvres or solutions, got {len(channels)}")
     for i, channel in enumerate(channels):
         if not isinstance(channel, Maneuver) and not hasattr(channel, "maneuver"):
-            got = f"{type(channel).__name__} at {i}"
+            got = f"{type(channel).__name__} at index {i}"
             raise ArgumentTypeError(f"channels must be manoeuvres or solutions, got {got}", "channels")
     programmed = tuple(i for i, channel in enumerate(channels) if isinstance(channel, Maneuver))
-    maneuvers = [channel if isinstance(channel, Maneuver) else single(channel) for channel in channels]
+    maneuvers = [channel if isinstance(channel, Maneuver) else channel.maneuver for channel in channels]
     if not programmed:
-        raise _refusal("hold a Maneuver to be programmed, got three solutions")
+        raise _refusal("hold at least one Maneuver to be programmed, got three solutions")
     if any(maneuver.shape for maneuver in maneuvers):
         raise _refusal(f"be single manoeuvres, got shapes {[m.shape for m in maneuvers]}")
-    if any(maneuvers[i].disturbance is not None for i in programmed):
-        raise _refusal("have no disturbance of their own: the cross-coupling is theirs")
+    disturbed = [i for i in programmed if maneuvers[i].disturbance is not None]
+    if disturbed:
+        given = f"{maneuvers[disturbed[0]].disturbance!r} at index {disturbed[0]}"
+        raise _refusal(f"have no disturbance, since the cross-coupling takes its place, got {given}")
     intervals = {(float(m.t0), float(m.tf)) for m in maneuvers}
     if len(intervals) > 1:
-        raise _refusal(f"be of one interval, got {sorted(intervals)}")
+        raise _refusal(f"have one interval (t0, tf) in common, got {sorted(intervals)}")
     for end in ("x0", "xf"):
         angle = np.linalg.norm([getattr(m, end)[0] for m in maneuvers])
         if not angle < FULL_TURN:
-            raise _refusal(f"turn by less than 2 pi, got {angle:.6g} at {end}")
+            raise _refusal(f"give an attitude turned by less than 2 pi, got {angle:.6g} at {end}")
     return maneuvers, programmed
 
 

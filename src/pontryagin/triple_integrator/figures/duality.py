@@ -31,7 +31,7 @@ def dual_functions(maneuver: Maneuver) -> Figure:
     """
     energy, peak, impulse = labels.three(maneuver)
     if not maneuver.moments.any():
-        raise ArgumentValueError("maneuver: got one with c = 0, takes one that needs a control", "maneuver")
+        raise ArgumentValueError("maneuver must have moments c other than 0, got c = 0", "maneuver")
     solutions: list[Solution] = [energy, peak, impulse]
     figure, axes = subplots(1, 3, height=2.9, sharex=True, sharey=True)
     t = labels.instants(peak)

@@ -81,8 +81,9 @@ def single(solution: Any) -> Maneuver:
     """
     maneuver: Maneuver = solution if isinstance(solution, Maneuver) else solution.maneuver
     if maneuver.shape:
+        name = "maneuver" if solution is maneuver else "solution"
         raise ArgumentValueError(
-            f"solution: got a stack of shape {maneuver.shape}, takes that of one manoeuvre", "solution"
+            f"{name} must be that of one manoeuvre, got a stack of shape {maneuver.shape}", name
         )
     return maneuver
 

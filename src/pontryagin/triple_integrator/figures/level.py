@@ -79,14 +79,15 @@ def _roots(level: float, k: Array) -> tuple[float, float]:
     """The root of the least peak, and the one on the other side."""
     if not abs(level) > 0 or 1 - k[2] / level < 1e-9:
         raise ArgumentValueError(
-            "maneuver: got one with a constant control, takes one with two switches", "maneuver"
+            "maneuver must need a control with two switches, got one with a constant control", "maneuver"
         )
     nearer = 1 / level
     side = -np.sign(nearer)
     limit = 0.999 * abs(1 / k[2]) if side * k[2] > 0 else 100 * abs(nearer)
     if level_equation(side * limit, *k)[0] < 0:
         raise ArgumentValueError(
-            "maneuver: G has one root only, takes one with a root on either side", "maneuver"
+            f"maneuver must give G(t) a root on either side of t = 0, got one root only, t = {nearer:.6g}",
+            "maneuver",
         )
     farther = brentq(lambda t: level_equation(t, *k)[0], side * abs(nearer) * 1e-9, side * limit)
     return nearer, float(farther)

@@ -129,7 +129,9 @@ def minimum_time(
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
         arrived = bool((result[..., 0] < NEVER).all())
     if not arrived:
-        raise NotConverged("no root of the quartics reaches the target", float(result[..., 4].max()))
+        lost = ~(result[..., 0] < NEVER)
+        reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
+        raise NotConverged(reason, float(result[..., 4].max()))
     duration = result[..., 0]
     certificate = Certificate(result[..., 4], duration, result[..., 5])
     return TimeSolution(start, end, bound, force, duration, result[..., 1], result[..., 2:4], certificate)

@@ -129,7 +129,7 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     moving = (c1 != 0) | (c2 != 0) | (c3 != 0)
     total = np.where(c3 == 0, 1.0, c3)
     mean, square = c2 / T / total, 2 * c1 / T / T / total
-    _require_inside(moving, c3, mean, square)
+    _require_inside(maneuver.moments.reshape(-1, 3), moving, mean, square)
     coefficients = np.zeros((len(T), 3))
     moments = np.stack([np.ones_like(mean), mean, square], axis=-1)
     for start in range(0, len(T), CHUNK):
@@ -144,21 +144,27 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     certificate = certify(maneuver, exponent, peak, np.exp, 1.0, np.abs(maneuver.moments[..., 2]))
     worst = float(np.max(certificate.primal_residual, initial=0.0))
     if not worst <= CONVERGED:
-        raise NotConverged("maximum_entropy: the moments are missed next to the boundary of the cone", worst)
+        reason = "maximum_entropy: the moments lie too close to the boundary of the cone to be met"
+        raise NotConverged(f"{reason} to {CONVERGED:g}", worst)
     return EntropySolution(maneuver, peak, exponent, certificate)
 
 
-def _require_inside(moving: NDArray[np.bool_], c3: Array, mean: Array, square: Array) -> None:
+def _require_inside(c: Array, moving: NDArray[np.bool_], mean: Array, square: Array) -> None:
     """Check the inequalities of the cone's interior; the error names the first one that fails."""
     for holds, reason in (
-        (c3 != 0, "c3 = 0 although c is not 0"),
+        (c[:, 2] != 0, "c3 = 0 although c is not 0"),
         (square - mean * mean > BOUNDARY, "2 c1 c3 - c2^2 is not positive"),
         (mean - square > BOUNDARY, "c3 (T c2 - 2 c1) is not positive"),
     ):
         outside = moving & ~holds
         if outside.any():
-            which = f" (manoeuvre {int(np.argmax(outside))} of the stack)" if outside.size > 1 else ""
-            raise Infeasible(f"no control of one sign, impulses apart, has these moments: {reason}{which}")
+            first = int(np.argmax(outside))
+            which = f" (manoeuvre {first} of the stack)" if outside.size > 1 else ""
+            raise Infeasible(
+                f"maneuver must have moments c that a control of one sign without impulses can have, "
+                f"got c = {c[first].tolist()}{which}: {reason}",
+                "maneuver",
+            )
 
 
 def _exponent(w: Array) -> Array:

@@ -220,6 +220,6 @@ def _require_convergence(certificate: Certificate, q: float) -> None:
     bad = ~(left <= CONVERGED)
     if bad.any():
         raise NotConverged(
-            f"minimum_norm: {bad.sum()} of {bad.size} manoeuvres not solved for q = {q}",
+            f"minimum_norm did not solve {bad.sum()} of {bad.size} manoeuvres for q = {q}",
             float(left[bad].max()),
         )

@@ -50,7 +50,7 @@ def record_solution(solution: Programme, path: Path) -> None:
     ValueError
         If the solution is that of a stack.
     """
-    single(solution)
+    single(solution, "solution")
     _record_channels(path, "one channel", {"programme": solution})
 
 

@@ -204,7 +204,7 @@ class Panels:
         if result.shape != t.shape:
             raise ArgumentValueError(
                 f"disturbance must return one number for each time: got shape {result.shape} "
-                f"for times {t.shape}",
+                f"for times of shape {t.shape}",
                 "disturbance",
             )
         if not np.isfinite(result).all():
@@ -224,7 +224,7 @@ class Panels:
             ) from error
         if value.shape != ():
             raise ArgumentValueError(
-                f"disturbance must return one number for each time: got shape {value.shape} for a number",
+                f"disturbance must return one number for each time: got shape {value.shape} for one time",
                 "disturbance",
             )
         return float(value)

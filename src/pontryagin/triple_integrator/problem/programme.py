@@ -122,8 +122,9 @@ def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
-        where = f"; not so at index {lost}" if lost else ""
+        where = f", got one beyond it at index {lost}" if lost else ""
         raise ArgumentValueError(
-            f"xf must give, with x0 and tf - t0, a control within the range of floating point{where}", "xf"
+            f"xf must give, with x0 and tf - t0, a control within the range of floating-point numbers{where}",
+            "xf",
         )
     return numbers
