@@ -53,7 +53,7 @@ def solve(
         str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
     ] = "-",
 ) -> None:
-    """Bring a satellite back to its circular orbit with the fewest impulses, and prove that they are.
+    """Bring a satellite back to its circular orbit with the fewest impulses, and prove that fewer fail.
 
     Deviations are in units of the orbit's radius and speed. Numbers may be written like pi/2 or 1e-3.
 

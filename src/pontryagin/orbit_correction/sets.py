@@ -1,7 +1,8 @@
 """Points on the boundary of 0-controllable sets, and a frame in which flat sets can be drawn.
 
-The set X(N - k, k) of states that the steps from k on bring back is the sum of the remaining G_i U, carried
-along by the free motion. By Lemma 5 a boundary point of a sum is the sum of boundary points with one normal.
+The set X(N - k, k) of (2), of states that the steps from k on bring back, is the sum of the remaining G_i U,
+carried along by the free motion: by Corollary 1 each step takes one summand away. By Lemma 5 a boundary point
+of a sum is the sum of boundary points with one normal.
 """
 
 from dataclasses import dataclass

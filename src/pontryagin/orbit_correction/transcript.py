@@ -20,7 +20,7 @@ PROOF = ("primal_residual", "primal_value", "dual_value", "gap")
 """The quantities of a certificate that are reported."""
 
 TITLES = {
-    "ball": "Fewest steps, three impulse components each in a ball",
+    "ball": "Fewest steps, the three impulse components of each in a ball",
     "disc": "Fewest impulses, each in a disc",
     "box": "Fewest impulses, each in a square",
 }
@@ -86,15 +86,17 @@ def conclusion(plan: Plan) -> str:
     >>> conclusion(correct([0.0, 0.0, 0.0]))
     'Nothing is to be corrected.'
     """
-    if not int(plan.steps):
+    steps = int(plan.steps)
+    if not steps:
         return "Nothing is to be corrected."
-    counted = f"{int(plan.steps)} steps" if plan.thrust.name == "ball" else f"{int(plan.steps)} impulses"
+    unit = "step" if plan.thrust.name == "ball" else "impulse"
+    counted = f"{steps} {unit}" if steps == 1 else f"{steps} {unit}s"
     least = (
-        f"one fewer would take at least {float(plan.shorter_gauge):.12g} of the peak"
+        f"with one {unit} fewer it would need at least {float(plan.shorter_gauge):.12g} of the peak"
         if np.isfinite(plan.shorter_gauge)
-        else "fewer do not span the space of states"
+        else f"fewer {unit}s do not span the space of states"
     )
-    return f"{counted} take {float(plan.gauge):.12g} of the peak; {least}."
+    return f"With {counted} the plan needs {float(plan.gauge):.12g} of the peak; {least}."
 
 
 def to_csv(states: Rows, plan: Plan) -> str:

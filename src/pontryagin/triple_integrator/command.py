@@ -66,7 +66,7 @@ def solve(
     """Steer x1' = x2, x2' = x3 + f(t), x3' = u between two states, optimally and with a proof.
 
     The least norm of u for a given duration (--norm, --duration), or the least time under a bound on
-    |u| (--peak). Numbers may be written like pi/2 or 1e-3. Formulas hold t, pi, + - * / ^ and
+    |u| (--peak). Numbers may be written like pi/2 or 1e-3. Formulas may hold t, pi, + - * / ^ and
     abs, sign, sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, asin, acos, atan.
 
     A CSV file for --batch has the columns x10, x20, x30, x1f, x2f, x3f, for a given duration tf (and t0

@@ -12,15 +12,18 @@ from pontryagin.triple_integrator.derivation.model import T, c, moments_of, mult
 
 
 def test_the_programme_has_the_required_moments():
+    """(2.2) and (2.3) satisfy the moment equalities (1.9)."""
     assert moments_of(energy.minimum_energy_control()).applyfunc(sp.simplify) == c
 
 
 def test_the_programme_takes_the_channel_from_rest_to_c():
+    """(2.3), flown by (0.6)."""
     end = drive(sp.zeros(3, 1), T, energy.minimum_energy_control().subs(s, T - tau))
     assert end.applyfunc(sp.simplify) == c
 
 
 def test_the_gramian_is_an_integral_and_obeys_lyapunovs_equation():
+    """(2.1) by quadrature."""
     numbers = np.array(energy.gramian().subs(T, 1.7), dtype=float)
 
     def integrand(x):
@@ -33,6 +36,7 @@ def test_the_gramian_is_an_integral_and_obeys_lyapunovs_equation():
 
 
 def test_the_multipliers_are_stationary_and_normalised():
+    """The multipliers of (2.1), with l'c = 1, (1.16)."""
     price, least = energy.stationary()
     assert (2 * energy.gramian() * least + price * c).applyfunc(sp.simplify) == sp.zeros(3, 1)
     assert sp.simplify((least.T * c)[0]) == 1
@@ -40,6 +44,7 @@ def test_the_multipliers_are_stationary_and_normalised():
 
 @pytest.mark.parametrize("moments", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (2, -3, 5)])
 def test_norm_and_dual_norm_are_inverse(moments):
+    """(1.13) and (1.14): the least norm is 1/rho_0."""
     at = {T: 2, **dict(zip(c, moments, strict=True))}
     square = sp.integrate(sp.expand(energy.minimum_energy_control().subs(at) ** 2), (s, 0, 2))
     assert sp.simplify(energy.dual_norm().subs(at) ** 2 * square) == 1

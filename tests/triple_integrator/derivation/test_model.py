@@ -60,10 +60,12 @@ def test_a_rotation_keeps_lengths_its_axis_and_composes():
 
 
 def test_the_rate_of_rotation_is_the_rate_of_the_angle():
+    """(0.1): the angular rate is the rate of the angle."""
     assert channel.rate_of_rotation() == channel.gamma(channel.t).diff(channel.t)
 
 
 def test_eulers_equation_couples_one_channel_to_the_rates_of_the_others():
+    """(0.3): the cross-coupling joins the disturbances."""
     applied, external = sp.symbols("M d")
     j1, j2, j3 = sp.symbols("J_1:4", positive=True)
     w2, w3 = sp.symbols("omega_2:4", real=True)
@@ -74,6 +76,7 @@ def test_eulers_equation_couples_one_channel_to_the_rates_of_the_others():
 @pytest.mark.parametrize("program", [sp.S.Zero, sp.Integer(3), 2 - 5 * tau + tau**3])
 @pytest.mark.parametrize("force", [sp.S.Zero, R(1, 2) - 3 * tau**2])
 def test_driving_is_integrating_the_state_equations(program, force):
+    """(0.6) and (1.1) against SciPy's integration."""
     start = sp.Matrix([R(1, 2), -1, 2])
     end = channel.drive(start, R(3, 2), program, force)
     reference = integrated([0.5, -1, 2], 1.5, program + 0 * tau, force + 0 * tau)
@@ -89,17 +92,20 @@ def test_driving_is_causal_and_stops_where_it_is_taken_up_again():
 
 
 def test_a_kick_moves_only_the_third_state():
+    """(0.4): an impulse of the control is a jump of the torque."""
     state = sp.Matrix(sp.symbols("x y z"))
     assert channel.kick(state, 5) - state == sp.Matrix([0, 0, 5])
 
 
 def test_the_transition_matrix_composes():
+    """(1.4): Phi(a) Phi(b) = Phi(a + b)."""
     a, b = sp.symbols("a b")
     product = model.transition(a) * model.transition(b) - model.transition(a + b)
     assert product.applyfunc(sp.expand) == sp.zeros(3)
 
 
 def test_the_required_moments_are_those_of_any_control_that_gets_there():
+    """(1.6), (1.7), (1.9) and (1.10), and (1.8) for the disturbance."""
     program = sp.symbols("u_0") + sp.symbols("u_1") * tau + sp.symbols("u_2") * tau**4
     force = sp.symbols("f_0") + sp.symbols("f_1") * tau
     end = channel.drive(channel.initial, T, program, force)
@@ -109,6 +115,7 @@ def test_the_required_moments_are_those_of_any_control_that_gets_there():
 
 
 def test_the_transfer_meets_both_ends():
+    """(0.2) and (0.5), which are (0.8) and (0.9), as vectors (1.2)."""
     path = channel.transfer(sp.Symbol("f"))
     assert (path.subs(tau, 0) - channel.initial).applyfunc(sp.simplify) == sp.zeros(3, 1)
     assert (path.subs(tau, T) - channel.final).applyfunc(sp.simplify) == sp.zeros(3, 1)
@@ -118,6 +125,7 @@ def test_the_transfer_meets_both_ends():
     "coefficients", [(1, 0, 0), (2, -1, R(3, 16)), (-3, 1, 1), (0, 2, -1), (0, 0, -2), (4, -5, R(1, 2))]
 )
 def test_peak_and_area_of_a_quadratic_are_those_of_a_fine_sampling(coefficients):
+    """The norms of the dual problems (3.1), (3.2) and (4.1)."""
     h = duality.dual_function_of(sp.Matrix(coefficients))
     grid = np.linspace(0, 1.5, 300_001)
     values = np.abs(np.polyval([float(coefficients[0]) / 2, *map(float, coefficients[1:])], grid))
@@ -136,6 +144,7 @@ CASES = [(1, 0, 0), (0, 0, 1), (R(1, 3), -R(1, 5), R(2, 7)), (-1, R(1, 2), 2)]
 @pytest.mark.parametrize("moments", CASES)
 @pytest.mark.parametrize("multipliers", [(1, -R(1, 2), R(3, 32)), (0, 0, 1), (3, -1, R(1, 7))])
 def test_no_dual_function_bounds_more_than_the_best_control_on_a_grid(moments, multipliers):
+    """(1.13): no h with l'c = 1 proves more than the least norm."""
     c, l = sp.Matrix(moments), sp.Matrix(multipliers)
     numbers = tuple(float(m) for m in moments)
     assert float(duality.peak_bound(l, c, sp.S.One)) <= grid_peak(numbers) + 1e-6
@@ -152,6 +161,7 @@ def test_the_bounds_of_the_unit_turn_are_tight():
 
 @pytest.mark.parametrize("q", [sp.S.One, R(3, 2), sp.S(2), sp.S(3), sp.oo])
 def test_the_conjugate_norm_is_the_norm(q):
+    """The norms of (1.18), (1.19) and (1.20), and two between them."""
     values = {duality.levels[0]: -2, duality.levels[1]: R(3, 2)}
     values |= {duality.lengths[0]: R(1, 4), duality.lengths[1]: 2}
     u, n = np.array([-2, 1.5]), np.array([0.25, 2])

@@ -40,6 +40,7 @@ def bang_bang(early, late, height):
 
 
 def test_the_multipliers_put_the_zeros_where_they_are_and_are_normalised():
+    """The multipliers (3.5) of the parabola (3.3)."""
     found = dict(zip(multipliers, parabola.multipliers_from_zeros(), strict=True))
     h = parabola.parabola().subs(found)
     assert sp.simplify(h.subs(tau, t1)) == sp.simplify(h.subs(tau, t2)) == 0
@@ -47,12 +48,14 @@ def test_the_multipliers_put_the_zeros_where_they_are_and_are_normalised():
 
 
 def test_vertex_and_multipliers_are_inverse_to_each_other():
+    """(3.8) and (3.9) against (3.10)."""
     there = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
     for symbol, value in parabola.vertex().items():
         assert sp.simplify(value.subs(tf, T).subs(there) - symbol) == 0
 
 
 def test_the_zeros_are_zeros():
+    """The zeros of (3.8)."""
     for zero in parabola.zeros():
         assert sp.simplify(parabola.vertex_form().subs(tau, zero)) == 0
 
@@ -60,6 +63,7 @@ def test_the_zeros_are_zeros():
 @given(switching)
 @settings(max_examples=10, deadline=None)
 def test_the_areas_are_integrals(case):
+    """S1 - S2 + S3, by (3.7) in the form (3.12), is the integral of the modulus."""
     early, late, height = exact(case[0]), exact(case[1]), case[2]
     numbers = {alpha: height, apex: (early + late) / 2, half_width: (late - early) / 2, T: 1}
     grid = np.linspace(0, 1, 20_001)
@@ -72,6 +76,7 @@ def test_the_areas_are_integrals(case):
 @given(switching)
 @settings(max_examples=10, deadline=None)
 def test_the_optimum_solves_all_four_conditions(case):
+    """(3.15), (3.16) and (3.17) on the curve (3.18), (3.19); (3.13) is (3.11) with the zeros."""
     early, late, height = exact(case[0]), exact(case[1]), case[2]
     moments = bang_bang(early, late, height)
     at = {T: 1, slope: -R(1, height), **dict(zip(c, moments, strict=True))}
@@ -96,6 +101,7 @@ def test_the_level_is_the_root_of_largest_modulus(case):
 
 
 def test_the_gradient_is_a_gradient():
+    """The derivatives of (3.14) by difference quotients."""
     point = {alpha: R(2, 3), apex: R(5, 7), half_width: R(3, 11), T: R(13, 9), parabola.price: R(-1, 4)}
     point |= dict(zip(c, (R(1, 2), R(-2, 3), R(4, 5)), strict=True))
     for symbol, derivative in parabola.gradient().items():
@@ -106,6 +112,7 @@ def test_the_gradient_is_a_gradient():
 
 @pytest.mark.parametrize("places", [(R(1, 5), R(2, 3)), (-R(1, 2), R(1, 3)), (R(1, 4), R(3, 2)), (-2, -1)])
 def test_the_objective_never_falls_below_the_optimum(places):
+    """(3.6): its least modulus is rho0 of (3.1) and (3.2)."""
     moments = bang_bang(R(1, 6), R(3, 5), 4)
     assert abs(parabola.objective(places, moments, sp.S.One)) > R(1, 4)
     assert abs(parabola.objective((R(1, 6), R(3, 5)), moments, sp.S.One)) == R(1, 4)

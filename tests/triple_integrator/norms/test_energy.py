@@ -20,7 +20,7 @@ def test_the_control_steers_the_true_state_to_the_target(maneuver):
 
 @given(moments(), multipliers)
 def test_any_other_control_with_the_same_moments_costs_more(c, polynomial):
-    """u + w with w orthogonal to 1, s, s^2 has the energy |u|^2 + |w|^2; Gauss quadrature is exact here."""
+    """(1.18): u + w, w orthogonal to 1, s, s^2, has the energy |u|^2 + |w|^2; Gauss quadrature is exact."""
     solution = minimum_energy(maneuver_with(c))
     nodes, weights = np.polynomial.legendre.leggauss(8)
     t, weights = (nodes + 1) / 2, weights / 2
@@ -44,7 +44,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(maneuvers())
 def test_the_control_is_the_minimal_element_over_its_square(maneuver):
-    """u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless c = 0."""
+    """(2.2): u = h0 / rho0^2 with rho0 = 1 / norm, and l'c = 1 unless c = 0."""
     solution = minimum_energy(maneuver)
     t = np.linspace(maneuver.t0, maneuver.tf, 7)
     assert_allclose(solution.multipliers @ maneuver.moments, float(maneuver.moments.any()), rtol=1e-10)
@@ -55,7 +55,7 @@ def test_the_control_is_the_minimal_element_over_its_square(maneuver):
 
 
 def test_rest_to_rest_over_one_radian():
-    """u = 60 (6 s^2 - 6 s + 1): its square integrates to 720."""
+    """(2.5) for the ends (2.4): u = 60 (6 s^2 - 6 s + 1), whose square integrates to 720."""
     solution = minimum_energy(Maneuver([0, 0, 0], [1, 0, 0], 1.0))
     assert_allclose(solution.control([0, 0.5, 1]), [60, -30, 60], rtol=1e-13)
     assert_allclose(solution.norm, np.sqrt(720), rtol=1e-14)

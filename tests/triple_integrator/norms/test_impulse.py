@@ -43,6 +43,7 @@ def test_the_impulses_steer_the_true_state_to_the_target(maneuver):
 @settings(max_examples=10)
 @given(moments())
 def test_it_lies_between_two_linear_programmes(c):
+    """The least value of (1.20)."""
     c = c / (np.abs(c * [2, 1, 1]).max() or 1.0)
     low, high = impulse_bracket(c, 1.0)
     norm = minimum_impulse(maneuver_with(c)).norm
@@ -58,7 +59,7 @@ def test_no_multipliers_give_a_bound_above_the_norm(c, l):
 
 @given(moments())
 def test_its_own_multipliers_attain_the_norm(c):
-    """R = 1 / max |h0|, and h0 has this modulus, with the sign of the impulse, wherever an impulse acts."""
+    """(4.1), (4.7): R = 1 / max |h0|, and h0 has this modulus, with its sign, where an impulse acts."""
     solution = minimum_impulse(maneuver_with(c))
     if not c.any():
         return
@@ -84,6 +85,7 @@ def test_impulses_are_ordered_and_add_up_to_the_norm(c):
 
 @given(signs, sizes, sizes, sizes)
 def test_regime_chebyshev(sign, first, second, third):
+    """The regime of (4.9) and (4.10)."""
     amplitudes = sign * np.array([first, -second, third])
     solution = minimum_impulse(maneuver_with(of_impulses([1.0, 0.5, 0.0], amplitudes)))
     assert solution.regime == "chebyshev"

@@ -84,6 +84,7 @@ def assert_same_control(found, expected, q):
 @few
 @given(maneuvers(), exponents)
 def test_the_control_has_the_required_moments(m, q):
+    """The moment equalities (1.11)."""
     s = minimum_norm(m, q)
     tf = float(m.tf)
     found = [integral(s, lambda t, u, j=j: u * (tf - t) ** j / max(j, 1)) for j in (2, 1, 0)]
@@ -143,7 +144,7 @@ def test_the_bound_is_the_pairing_over_the_conjugate_norm():
 @few
 @given(maneuvers(), exponents)
 def test_hoelders_inequality_is_an_equality(m, q):
-    """|u|^q is proportional to |psi_3|^p, and u has the sign of psi_3."""
+    """(1.14): |u|^q is proportional to |psi_3|^p, and u has the sign of psi_3."""
     s = minimum_norm(m, q)
     t = np.linspace(float(m.t0), float(m.tf), 23)
     u, h = s.control(t) / s.peak, s.costate(t)[:, 2]

@@ -40,6 +40,7 @@ def test_the_control_steers_the_true_state_to_the_target(maneuver):
 @settings(max_examples=10)
 @given(moments())
 def test_it_lies_between_two_linear_programmes(c):
+    """The least value of (1.19), which is the least bound u0 of (0.7)."""
     size = np.abs(c * [6, 2, 1]).max()
     c = c / (size or 1.0)
     low, high = peak_bracket(c, 1.0)
@@ -85,6 +86,7 @@ def test_a_bang_bang_control_is_its_own_optimum(level, switches):
 
 @given(maneuvers())
 def test_the_sign_of_the_control_is_that_of_the_third_costate(maneuver):
+    """(3.4)."""
     solution = minimum_peak(maneuver)
     edges = np.array([maneuver.t0, *solution.breakpoints, maneuver.tf], dtype=float)
     middle = (edges[1:] + edges[:-1]) / 2

@@ -50,6 +50,7 @@ def numeric(expression):
 @pytest.mark.parametrize("name", SMOOTH)
 @pytest.mark.parametrize("kind", ["expression", "callable", "scalar callable"])
 def test_smooth_forces_to_1e_12(name, kind):
+    """g1 and g2 of (1.8)."""
     expression = SMOOTH[name]
     given_as = {
         "expression": expression,

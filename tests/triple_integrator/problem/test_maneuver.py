@@ -17,7 +17,7 @@ ORIGIN, AHEAD = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]
 
 @given(maneuvers(), st.tuples(angles, angles, angles))
 def test_the_moments_are_those_of_the_control_that_reaches_the_target(maneuver, polynomial):
-    """u(s) = p0 + p1 s + p2 s^2 is integrated by SciPy; its moments must be c for the state reached."""
+    """(1.9): SciPy integrates u(s) = p0 + p1 s + p2 s^2; its moments must be c for the state reached."""
     end = float(maneuver.tf)
     reached, largest = propagate(maneuver, lambda time: np.polynomial.Polynomial(polynomial)(end - time))
     flown = Maneuver(maneuver.x0, reached, maneuver.tf, maneuver.t0, maneuver.disturbance)
@@ -39,6 +39,7 @@ def test_the_drift_starts_at_the_start_and_misses_the_target_by_the_moments(mane
 
 @given(maneuvers())
 def test_the_drift_is_the_motion_without_control(maneuver):
+    """(1.3) for u = 0."""
     middle = float(maneuver.t0 + maneuver.duration / 3)
     early = Maneuver(maneuver.x0, maneuver.xf, middle, maneuver.t0, maneuver.disturbance)
     reached, largest = propagate(early, lambda time: 0.0)

@@ -19,6 +19,7 @@ every_solver = pytest.mark.parametrize("solve", SOLVERS)
 @every_solver
 @given(maneuver=maneuvers())
 def test_the_state_joins_the_ends(solve, maneuver):
+    """(0.8) and (0.9)."""
     state = solve(maneuver).state([maneuver.t0, maneuver.tf])
     size = 1 + np.abs(solve(maneuver).state(np.linspace(maneuver.t0, maneuver.tf, 30))).max()
     assert_allclose(state, [maneuver.x0, maneuver.xf], atol=1e-11 * size)
@@ -45,7 +46,10 @@ def test_the_state_on_the_way_is_that_of_scipy(solve, maneuver, share):
 @every_solver
 @given(maneuver=maneuvers())
 def test_the_costate_solves_the_adjoint_equation(solve, maneuver):
-    """psi1' = 0, psi2' = -psi1, psi3' = -psi2, and psi(tf) = l: a quadratic, so differences are exact."""
+    """(1.15): psi1' = 0, psi2' = -psi1, psi3' = -psi2. (1.16): psi(tf) = l.
+
+    The costate is a quadratic, so that differences are exact.
+    """
     solution = solve(maneuver)
     t = np.linspace(maneuver.t0, maneuver.tf, 5)
     psi = solution.costate(t)
@@ -60,7 +64,10 @@ def test_the_costate_solves_the_adjoint_equation(solve, maneuver):
 @every_solver
 @given(maneuver=maneuvers())
 def test_the_minimal_element_has_the_inverse_norm(solve, maneuver):
-    """rho0 = 1 / norm in the dual norm: L2 of the energy, L1 of the peak, L-infinity of the impulses."""
+    """rho0 = 1 / norm in the dual norm, for h0 of (1.12), (1.13) and (1.17).
+
+    The dual norm is L2 for the energy, L1 for the peak, and L-infinity for the impulses.
+    """
     solution = solve(maneuver)
     if not maneuver.moments.any():
         return

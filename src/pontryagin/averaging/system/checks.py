@@ -116,16 +116,15 @@ def real_expression(name: str, value: object) -> sp.Expr:
         About the argument `name`, without the index in brackets that may follow it.
     """
     argument = name.partition("[")[0]
-    message = f"{name} must be a SymPy expression or a number, got {value!r}"
-    if isinstance(value, str):
-        message = f"{name} must be a SymPy expression or a number, got the text {value!r}"
-        raise ArgumentTypeError(message, argument)
     try:
-        expression = sp.sympify(value)
+        expression = None if isinstance(value, str) else sp.sympify(value)
     except sp.SympifyError:
-        raise ArgumentTypeError(message, argument) from None
+        expression = None
     if not isinstance(expression, sp.Expr):
-        raise ArgumentTypeError(message, argument)
+        given = "the text " if isinstance(value, str) else ""
+        raise ArgumentTypeError(
+            f"{name} must be a SymPy expression or a number, got {given}{value!r}", argument
+        )
     if expression.has(sp.nan, sp.oo, sp.zoo):
         raise ArgumentValueError(f"{name} must be finite, got {expression}", argument)
     if expression.has(sp.I):

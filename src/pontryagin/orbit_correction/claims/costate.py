@@ -7,7 +7,6 @@ import sympy as sp
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
 from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
@@ -191,15 +190,15 @@ def system_for_the_costate() -> Conditional:
 
     def counterexample() -> Steps:
         for system in family()[:2]:
-            psi, state = system.costates[0], interior_state(system)
-            yield f"{named(system)}: x0 with gauge α = {share_of(system)} is inside", share_of(system) < 1
+            psi, state = system.costates[0], system.inner_state()
+            yield f"{named(system)}: x0 with gauge α = {system.inner_gauge} is inside", system.inner_gauge < 1
             for other in (psi, -psi):
                 yield (
                     "every sum lies on the boundary: ( −ψ, Σ) is the support function",
                     -other.dot(total(system, other)) == system.support(-other, system.steps),
                 )
             yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
-            both = [share_of(system) * total(system, psi), -share_of(system) * total(system, -psi)]
+            both = [system.inner_gauge * total(system, psi), -system.inner_gauge * total(system, -psi)]
             yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
 
     return Conditional(

@@ -1,29 +1,13 @@
 """Section 5, (5) and (6): interior points, and Lemma 6 about them."""
 
-import functools
-
 import sympy as sp
 
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Equality, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation import summands
-from pontryagin.orbit_correction.derivation.exact import ExactSystem
 
 claim = Page("Ibragimov 2017")
-
-
-@functools.cache
-def share_of(system: ExactSystem) -> sp.Expr:
-    """An alpha below 1 for which alpha times the boundary state still needs all the steps."""
-    p = -system.costates[0]
-    whole, shorter = (system.support(p, N) for N in (system.steps, system.steps - 1))
-    return (whole + shorter) / (2 * whole)
-
-
-def interior_state(system: ExactSystem) -> sp.Matrix:
-    """A state as in (5), whose gauge in X(N, 0) is `share_of`."""
-    return share_of(system) * system.boundary_state()
 
 
 @claim.proof(
@@ -34,9 +18,12 @@ def interior_state(system: ExactSystem) -> sp.Matrix:
 )
 def interior_points() -> Steps:
     for system in family():
-        p, state = -system.costates[0], interior_state(system)
+        p, state = -system.costates[0], system.inner_state()
         whole, shorter = (system.support(p, N) for N in (system.steps, system.steps - 1))
-        yield f"{named(system)}: αx with x on the boundary and α < 1 is an inner point", share_of(system) < 1
+        yield (
+            f"{named(system)}: αx with x on the boundary and α < 1 is an inner point",
+            system.inner_gauge < 1,
+        )
         yield "and not in X(N − 1, 0): N_min = N", shorter < p.dot(state) < whole
         grown = system.summands(system.steps)[-1]
         yield (
@@ -48,7 +35,7 @@ def interior_points() -> Steps:
 @claim.proof("after (5): normal cone", "at an inner point there is no normal")
 def no_normal_inside() -> Steps:
     for system in family():
-        state = interior_state(system)
+        state = system.inner_state()
         for p in (-system.costates[0], -state, state):
             yield f"{named(system)}: (p, x0) < s(p)", bool(p.dot(state) < system.support(p, system.steps))
     radius, slope = sp.symbols("r m", positive=True)
@@ -67,10 +54,10 @@ def no_normal_inside() -> Steps:
 )
 def zero_costate_inside() -> Steps:
     for system in family():
-        state, controls = interior_state(system), system.controls()
+        state, controls = system.inner_state(), system.controls()
         end = system.fly(state, controls)[-1]
         yield f"{named(system)}: the controls of ψ0 ≠ 0 do not bring αx to 0", not end.is_zero_matrix
-        missed = (share_of(system) - 1) * system.boundary_state()
+        missed = (system.inner_gauge - 1) * system.boundary_state()
         for A in system.A:
             missed = A * missed
         yield "they miss it by A(N−1) ... A(0)(x0 − ρ(−ψ0))", vanishes(end - missed)

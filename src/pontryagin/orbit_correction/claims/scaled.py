@@ -6,7 +6,6 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2
 from pontryagin.orbit_correction.claims.family import family, named
-from pontryagin.orbit_correction.claims.interior import interior_state, share_of
 from pontryagin.orbit_correction.derivation import summands
 from pontryagin.orbit_correction.derivation.summands import alpha
 
@@ -23,13 +22,13 @@ R = sp.Rational
 )
 def minkowski_functional() -> Steps:
     for system in family():
-        p, state, N = -system.costates[0], interior_state(system), system.steps
-        yield f"{named(system)}: x0/α lies in X(N, 0)", state / share_of(system) == system.boundary_state()
+        p, state, N = -system.costates[0], system.inner_state(), system.steps
+        yield f"{named(system)}: x0/α lies in X(N, 0)", state / system.inner_gauge == system.boundary_state()
         yield (
             "and no smaller α does: (p, x0) = α s(p)",
-            p.dot(state) == share_of(system) * system.support(p, N),
+            p.dot(state) == system.inner_gauge * system.support(p, N),
         )
-        yield "0 < α < 1", 0 < share_of(system) < 1
+        yield "0 < α < 1", 0 < system.inner_gauge < 1
 
 
 @claim.proof(
@@ -39,13 +38,13 @@ def minkowski_functional() -> Steps:
 )
 def scaled_system() -> Steps:
     for system in family():
-        scaled = [share_of(system) * u for u in system.controls()]
-        states = system.fly(interior_state(system), scaled)
+        scaled = [system.inner_gauge * u for u in system.controls()]
+        states = system.fly(system.inner_state(), scaled)
         yield f"{named(system)}: the α-fold controls bring x0 to 0", states[-1].is_zero_matrix
         levels = [U.level(u) for U, u in zip(system.U, scaled, strict=True)]
         yield (
             "and lie on the boundaries of αU(k), inside U(k)",
-            levels == [share_of(system) ** 2] * system.steps,
+            levels == [system.inner_gauge**2] * system.steps,
         )
 
 
@@ -76,11 +75,13 @@ def scaled_sets_inside() -> Steps:
     for system in family():
         for k in range(system.steps):
             p, left = -system.costates[k], system.steps - k
-            point = share_of(system) * system.point(p, left, k)
-            mixed = share_of(system) * system.point(p, left, k) + (1 - share_of(system)) * sp.zeros(*p.shape)
+            point = system.inner_gauge * system.point(p, left, k)
+            mixed = system.inner_gauge * system.point(p, left, k) + (1 - system.inner_gauge) * sp.zeros(
+                *p.shape
+            )
             yield (
                 f"{named(system)}: a point of αX({left}, {k}) is a mixture of one of X and 0",
-                (point == mixed and 0 < share_of(system) < 1),
+                (point == mixed and 0 < system.inner_gauge < 1),
             )
             yield "and inside the half-space of X", p.dot(point) < system.support(p, left, k)
 
@@ -88,12 +89,12 @@ def scaled_sets_inside() -> Steps:
 def state_on_the_scaled_boundary() -> Steps:
     """x0 is the support point of the scaled set."""
     for system in family():
-        p, state = -system.costates[0], interior_state(system)
+        p, state = -system.costates[0], system.inner_state()
         yield (
             f"{named(system)}: (p, x0) is the support function of αX(N, 0)",
-            (p.dot(state) == share_of(system) * system.support(p, system.steps)),
+            (p.dot(state) == system.inner_gauge * system.support(p, system.steps)),
         )
-        yield "and x0 is its support point", state == share_of(system) * system.point(p, system.steps)
+        yield "and x0 is its support point", state == system.inner_gauge * system.point(p, system.steps)
 
 
 @claim("Lemma 7, iii)", "x0 is on the boundary of X_α(N_min, 0)", verdict="holds")
@@ -134,11 +135,11 @@ def which_boundary() -> Slip:
     def counterexample() -> Steps:
         for system in family():
             p = -system.costates[0]
-            state = interior_state(system)
-            stretched = state / share_of(system)
+            state = system.inner_state()
+            stretched = state / system.inner_gauge
             yield (
-                f"{named(system)}: x0/α, α = {share_of(system)}, is still in X(N, 0), so x0 is inside",
-                (share_of(system) < 1 and p.dot(stretched) == system.support(p, system.steps)),
+                f"{named(system)}: x0/α, α = {system.inner_gauge}, is still in X(N, 0), so x0 is inside",
+                (system.inner_gauge < 1 and p.dot(stretched) == system.support(p, system.steps)),
             )
 
     return Slip(
@@ -158,9 +159,9 @@ def which_boundary() -> Slip:
 )
 def optimal_from_inside() -> Steps:
     for system in family():
-        size, p = share_of(system), -system.costates[0]
+        size, p = system.inner_gauge, -system.costates[0]
         controls = [size * U.point(q) for U, q in zip(system.U, system.costates[1:], strict=True)]
-        states = system.fly(interior_state(system), controls)
+        states = system.fly(system.inner_state(), controls)
         yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
         yield "N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)
         yield (
@@ -184,7 +185,7 @@ def optimal_from_inside() -> Steps:
 def conditions_of_the_scaled_system() -> Conditional:
     def argument() -> Steps:
         for system in family():
-            size = share_of(system)
+            size = system.inner_gauge
             yield f"{named(system)}: α > 0, so αU(k) is an ellipsoid with 0 inside", size > 0
             yield (
                 "x0 is on its boundary of N steps and not in N − 1",

@@ -92,12 +92,26 @@ class ExactSystem:
         """x0 on the boundary of X(N, 0) for all N steps, with normal -psi_0 (9): Lemma 9, (8) and (11)."""
         return self.point(-self.costates[0], self.steps)
 
+    @cached_property
+    def inner_gauge(self) -> sp.Expr:
+        """An alpha below 1 for which alpha times the boundary state still needs all the steps."""
+        p = -self.costates[0]
+        whole, shorter = (self.support(p, N) for N in (self.steps, self.steps - 1))
+        return (whole + shorter) / (2 * whole)
+
+    def inner_state(self) -> sp.Matrix:
+        """x0 of the case (5): inside X(N, 0), with the gauge `inner_gauge`, and outside X(N - 1, 0)."""
+        return self.inner_gauge * self.boundary_state()
+
     def controls(self) -> list[sp.Matrix]:
-        """u(k) = arg max over U(k) of (A^-T(k) psi(k), u), Theorem 3; for ellipsoids this is Lemma 10."""
+        """u(k) = arg max over U(k) of (A^-T(k) psi(k), u), Theorem 3; for ellipsoids this is Lemma 10.
+
+        By (4) the normal psi(k+1) = A^-T(k) psi(k) of U(k) at u(k) is, but for its sign, one at x(k+1).
+        """
         return [U.point(costate) for U, costate in zip(self.U, self.costates[1:], strict=True)]
 
     def fly(self, x0: sp.Matrix, controls: list[sp.Matrix]) -> list[sp.Matrix]:
-        """The states from x0 under the controls, by (1); from the boundary they are those of Theorem 1."""
+        """The states from x0 under the controls, by (1); from the boundary the steps (3) of Theorem 1."""
         states = [x0]
         for A, u in zip(self.A, controls, strict=True):
             states.append(A * states[-1] + u)

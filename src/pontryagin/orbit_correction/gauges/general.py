@@ -39,8 +39,8 @@ class Gauge:
     Attributes
     ----------
     alpha : (...) array
-        Minkowski functional of the 0-controllable set X(N, 0) at the state: at most 1 if N steps suffice,
-        and only then.
+        Minkowski functional of the 0-controllable set X(N, 0) of (2) at the state: at most 1 if N steps
+        suffice, and only then.
     costate : (..., n) array
         psi_0, unit; zeros for the zero state.
     certificate : Certificate

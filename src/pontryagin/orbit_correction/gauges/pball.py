@@ -1,8 +1,8 @@
 """The gauge for impulses in p-balls, strictly convex sets between the paper's ball (p = 2) and the cube.
 
 Three successive impulse components form a control u with |u|_p <= peak; as p grows the set tends to the cube.
-The paper's results on strictly convex sets, Lemma 2 to Lemma 5, apply. The support function of G_k U is
-|G_k'psi|_q with 1/p + 1/q = 1.
+The paper's results on strictly convex sets, Lemma 2, Lemma 3, Lemma 4 and Lemma 5, apply. The support
+function of G_k U is |G_k'psi|_q with 1/p + 1/q = 1.
 """
 
 from dataclasses import dataclass

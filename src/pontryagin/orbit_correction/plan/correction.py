@@ -40,7 +40,8 @@ class Plan:
     initial_costate : (..., 3) array
         psi_0 of Lemma 9, unit; zeros for the zero state.
     step_controls : (..., N, components) array
-        Impulse components of each step, by Lemma 10 with the factor alpha; zeros beyond the steps of a state.
+        Impulse components of each step, by Theorem 3 and Lemma 10 with the factor alpha; zeros beyond the
+        steps of a state.
     certificate : Certificate
         The residual is what remains of the state at the end, relative to z0; the value is alpha of the plan;
         the bound is the one that psi_0 proves.
@@ -82,7 +83,11 @@ class Plan:
 
     @cached_property
     def states(self) -> Array:
-        """x(k) from z0 to the end, step by step as in (3), (..., N + 1, 3)."""
+        """x(k) from z0 to the end, step by step as in (3), (..., N + 1, 3).
+
+        By Corollary 1 each step leads from X(N - k, k) to X(N - k - 1, k + 1). By Theorem 1 for the system
+        (7) x(k) is on the boundary of alpha X(N - k, k).
+        """
         states = [self.z0]
         for k in range(self.controls.shape[-2]):
             states.append(states[-1] @ self.thrust.step_transition(k).T + self.controls[..., k, :])
@@ -90,7 +95,10 @@ class Plan:
 
     @cached_property
     def costates(self) -> Array:
-        """psi(k), with psi(k+1) = A(k)^-T psi(k) of Theorem 2 and (6), (..., N, 3)."""
+        """psi(k), with psi(k+1) = A(k)^-T psi(k) of Theorem 2 and (6), (..., N, 3).
+
+        By (4) psi(k+1) is a normal of the controls at u(k), and its negative one of the states at x(k+1).
+        """
         costates = np.empty_like(self.controls)
         current = self.initial_costate
         for k in range(costates.shape[-2]):

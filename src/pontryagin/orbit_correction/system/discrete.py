@@ -87,7 +87,10 @@ class DiscreteSystem:
         return self._steps[k]
 
     def factors(self, steps: int) -> Array:
-        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n): X(N, 0) = sum of G_k B, Lemma 1."""
+        """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n).
+
+        The set X(N, 0) of (2) is the sum of the G_k B, Lemma 1, which are ellipsoids by Lemma 8.
+        """
         inverse, result = None, []
         for k in range(steps):
             dynamics, factor = self.step(k)

@@ -70,13 +70,13 @@ class Turn:
         return self.rate(t) - self.motion.commands(t)[:, 1:2] * self.axis
 
     def angle(self, t: ArrayLike) -> Array:
-        """Angle turned about the axis, rad, (k,): the twist of the true attitude about the axis."""
+        """Angle gamma of (0.1), turned about the axis, rad, (k,): the twist of the true attitude about it."""
         turn = between(self.planned_attitude(t), self.attitude(t))
         twist: Array = 2 * np.arctan2(turn[:, 1:] @ self.axis, turn[:, 0])
         return self.motion.commands(t)[:, 0] + twist
 
     def channel_torque(self, t: ArrayLike) -> Array:
-        """J e x3, the torque that the programme commands, (k, 3)."""
+        """J e x3, the torque that the programme commands, the m of (0.3) times J e, (k, 3)."""
         return self.motion.commands(t)[:, 2:] * (self.body.inertia @ self.axis)
 
     def gyroscopic_torque(self, t: ArrayLike) -> Array:
@@ -89,7 +89,7 @@ class Turn:
         return channel + self.gyroscopic_torque(t) if self.feedforward else channel
 
     def torque_rate(self, t: ArrayLike) -> Array:
-        """Rate of change of `torque` between impulses, (k, 3); at an impulse du it jumps by J e du."""
+        """Rate of change of `torque` between impulses, (0.4), (k, 3); at an impulse du it jumps by J e du."""
         x2, x3 = self.motion.commands(t)[:, 1:].T
         control = self.programme.control(t)
         channel = np.where(np.isfinite(control), control, 0.0)[:, None] * (self.body.inertia @ self.axis)

@@ -30,7 +30,7 @@ def rotation(angle: sp.Expr, axis: sp.Matrix) -> sp.Matrix:
 
 
 def rate_of_rotation() -> sp.Expr:
-    """Angular velocity along a fixed axis, from the attitude matrix: R' dR/dt = omega [e]."""
+    """Angular velocity along a fixed axis, from the attitude matrix, (0.1): R' dR/dt = omega [e]."""
     lean = sp.symbols("theta", real=True)
     axis = sp.Matrix([sp.cos(lean), sp.sin(lean), 0])
     attitude = rotation(gamma(t), axis)
@@ -40,7 +40,7 @@ def rate_of_rotation() -> sp.Expr:
 
 
 def euler_acceleration(applied: sp.Expr, external: sp.Expr) -> sp.Expr:
-    """The first channel's angular acceleration from Euler's equations about principal axes."""
+    """The first channel's angular acceleration (0.3), from Euler's equations about principal axes."""
     inertia = sp.diag(*sp.symbols("J_1:4", positive=True))
     rates = sp.Matrix(sp.symbols("omega_1:4", real=True))
     moment = sp.Matrix([applied + external, 0, 0])
@@ -72,7 +72,7 @@ def required_moments(force: sp.Expr = sp.S.Zero) -> sp.Matrix:
 
 @cache
 def transfer(force: sp.Expr = sp.S.Zero) -> sp.Matrix:
-    """The state at the time tau after t0 under the least-energy programme between the given ends."""
+    """The state at the time tau after t0 under the least-energy programme between the ends (0.2), (0.5)."""
     program = minimum_energy_control().subs(s, T - tau)
     clock = sp.Dummy("t", positive=True)
     state = drive(initial, clock, program, force).subs(clock, tau)

@@ -72,13 +72,13 @@ def cramer(rows: tuple[sp.Expr, ...]) -> tuple[dict[str, sp.Expr], sp.Expr]:
 
 @cache
 def minimal_multipliers() -> dict[sp.Symbol, sp.Expr]:
-    """l10, l20, l30 and rho~ of the Chebyshev dual function with l'c = 1."""
+    """l10, l20, l30 and rho~ of the Chebyshev dual function (4.2) with l'c = 1, (4.3)."""
     equations = [*matching(), (multipliers.T * c)[0] - 1]
     return dict(sp.solve(equations, [*multipliers, signed_norm], dict=True)[0])
 
 
 def impulse_transfer() -> sp.Matrix:
-    """The state at T after impulses s0 a0, -s0 am and s0 aT at 0, T/2 and T, by integrating (0.6)."""
+    """The state at T after the impulses s0 a0, -s0 am, s0 aT of (4.9) at 0, T/2, T, by integrating (0.6)."""
     first, middle, last = impulses
     state = drive(kick(initial, sign * first), T / 2, sp.S.Zero)
     state = drive(kick(state, -sign * middle), T / 2, sp.S.Zero)
@@ -94,12 +94,12 @@ def amplitudes() -> dict[sp.Symbol, sp.Expr]:
 
 
 def total() -> sp.Expr:
-    """a0 + am + aT."""
+    """a0 + am + aT: the total impulse in (4.7), if no term is negative."""
     return sp.factor(sum(amplitudes().values()))
 
 
 def spike(start: sp.Expr, end: sp.Expr, weight: sp.Expr) -> sp.Matrix:
-    """Change of the state at T by a constant control of the given integral on [start, end]."""
+    """Change of the state at T by a pulse of (4.8): a constant control of given integral on [start, end]."""
     state = drive(sp.zeros(3, 1), end - start, weight / (end - start))
     return drive(state, T - end, sp.S.Zero).applyfunc(sp.factor)
 

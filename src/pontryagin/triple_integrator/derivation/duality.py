@@ -30,13 +30,13 @@ def _roots(h: sp.Expr) -> list[sp.Expr]:
 
 
 def peak_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
-    """Largest |h| on [0, duration] for a polynomial h with rational coefficients."""
+    """Largest |h| on [0, duration], the norm in (4.1), for a polynomial h with rational coefficients."""
     stationary = [x for x in _roots(sp.diff(h, s)) if 0 < x < duration]
     return sp.Max(*(abs(h.subs(s, x)) for x in [0, duration, *stationary]))
 
 
 def area_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
-    """Integral of |h| on [0, duration] for a polynomial h with rational coefficients."""
+    """Integral of |h| on [0, duration], the norm in (3.1) and (3.2); h has rational coefficients."""
     roots = [x for x in _roots(h) if 0 < x < duration]
     cuts = [sp.S.Zero, *roots, sp.sympify(duration)]
     primitive = sp.integrate(h, s)
@@ -46,12 +46,12 @@ def area_of(h: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 
 def peak_bound(multipliers: sp.Matrix, c: sp.Matrix, duration: sp.Expr) -> sp.Expr:
-    """Lower bound on the peak of every control with the moments c."""
+    """Lower bound on the peak (1.19) of every control with the moments c."""
     return abs((multipliers.T * c)[0]) / area_of(dual_function_of(multipliers), duration)
 
 
 def impulse_bound(multipliers: sp.Matrix, c: sp.Matrix, duration: sp.Expr) -> sp.Expr:
-    """Lower bound on the total impulse of every control with the moments c."""
+    """Lower bound on the total impulse (1.20) of every control with the moments c."""
     return abs((multipliers.T * c)[0]) / peak_of(dual_function_of(multipliers), duration)
 
 

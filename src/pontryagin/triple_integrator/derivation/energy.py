@@ -30,7 +30,7 @@ def lyapunov_residual(candidate: sp.Matrix) -> sp.Matrix:
 
 @cache
 def stationary() -> tuple[sp.Expr, sp.Matrix]:
-    """Multiplier lambda and vector l0 where l'Dl + lambda (c'l - 1) is stationary."""
+    """Multiplier lambda and vector l0 where l'Dl + lambda (c'l - 1) is stationary; c'l0 = 1 is (1.16)."""
     price = sp.Symbol("lambda", real=True)
     lagrangian = (multipliers.T * gramian() * multipliers)[0] + price * ((c.T * multipliers)[0] - 1)
     unknowns = [*multipliers, price]
@@ -39,7 +39,7 @@ def stationary() -> tuple[sp.Expr, sp.Matrix]:
 
 
 def dual_norm() -> sp.Expr:
-    """rho_0, the least L2 norm of a dual function with l'c = 1, by integrating its square."""
+    """rho_0 of (1.13), the least L2 norm of a dual function with l'c = 1, by integrating its square."""
     square = sp.integrate(sp.expand(minimal_element() ** 2), (s, 0, T))
     return sp.sqrt(sp.factor(square))
 
@@ -51,6 +51,9 @@ def minimal_element() -> sp.Expr:
 
 @cache
 def minimum_energy_control() -> sp.Expr:
-    """The least-energy programme u = h0 / rho_0^2, (2.2) and (2.3), as a polynomial in s."""
+    """The least-energy programme u = h0 / rho_0^2, (2.2) and (2.3), as a polynomial in s.
+
+    It is the solution of (1.14) for problem 1, (1.18).
+    """
     square = sp.integrate(sp.expand(minimal_element() ** 2), (s, 0, T))
     return sp.collect(sp.expand(sp.cancel(minimal_element() / square)), s)

@@ -30,10 +30,13 @@ def impulse_response() -> sp.Matrix:
 
 
 def moments_of(control: sp.Expr) -> sp.Matrix:
-    """The three moments of a control u(s), left-hand side of (1.9)."""
+    """The three moments of a control u(s): the left-hand sides of (1.9) and (1.11)."""
     return impulse_response().applyfunc(lambda h: sp.integrate(sp.expand(h * control), (s, 0, T)))
 
 
 def dual_function() -> sp.Expr:
-    """h(s) = l' h(s), the third costate as a function of the time to go, (1.12) and (3.3)."""
+    """h(s) = l' h(s), the third costate as a function of the time to go, (1.12) and (3.3).
+
+    It is the third component of the solution of (1.15) with the end value l, whose norm (1.17) minimises.
+    """
     return (multipliers.T * impulse_response())[0]

@@ -77,7 +77,7 @@ class TimeSolution(BangBang):
 def minimum_time(
     x0: ArrayLike, xf: ArrayLike, peak: ArrayLike, disturbance: ArrayLike | None = None
 ) -> TimeSolution:
-    """Least time between two states of the triple integrator under |u| <= peak.
+    """Least time between two states of the triple integrator under the bound (0.7), |u| <= peak.
 
     Section 3 calls this problem mutual to the least peak. This is true if one of the two states is an
     equilibrium. Otherwise the least peak need not fall as the time grows, and the least time is the first at

@@ -1,8 +1,8 @@
 """Least total impulse (L1), (1.20), in every regime of the moments; (4.10) is the solution in one regime.
 
-The least total impulse is the largest p.mu over the quadratics with |p| <= 1 on [0, 1], a maximum of a few
-closed forms; the impulses act where the best p touches its bounds. Here mu = (c3, c2/T, 2 c1/T^2) are the
-control's moments of 1, sigma and sigma^2 in sigma = s/T.
+The least total impulse is 1/rho0 of (4.1): the largest p.mu over the quadratics with |p| <= 1 on [0, 1], a
+maximum of a few closed forms. The impulses act where the best p touches its bounds. Here
+mu = (c3, c2/T, 2 c1/T^2) are the control's moments of 1, sigma and sigma^2 in sigma = s/T.
 """
 
 from dataclasses import dataclass
@@ -159,7 +159,7 @@ class ImpulseSolution(Programme):
 
     @cached_property
     def impulses(self) -> Array:
-        """Amplitudes at `impulse_times`, 0 for absent ones, (..., 3)."""
+        """Amplitudes at `impulse_times`, 0 for absent ones, (..., 3); for "chebyshev" those of (4.9)."""
         return np.take_along_axis(self.amplitudes, self._order, axis=-1)
 
     @property
@@ -172,7 +172,7 @@ class ImpulseSolution(Programme):
 
     @cached_property
     def multipliers(self) -> Array:
-        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+        """l0 of the minimal element h0 = l0'h(s) (4.2), with l0'c = 1 (4.3), (..., 3); zeros where c = 0."""
         T, regime = self.maneuver.duration, self.regime_index
         inside = np.where(regime == START, 1.0 - self.inner, self.inner)
         x = np.where(regime == CHEBYSHEV, 2.0, np.where(regime <= MOMENT, 0.0, 1.0 / inside))

@@ -168,7 +168,7 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     -------
     PeakSolution
         The solution is exact to rounding. The dual value of its certificate is |2 c1 - (a+b) c2 + ab c3| over
-        the integral of |(s - a)(s - b)|, which is a lower bound for any a and b.
+        the integral of |(s - a)(s - b)|, which is a lower bound for any a and b, by (3.1) and (3.2).
 
     Examples
     --------

@@ -33,7 +33,7 @@ class Maneuver:
     Parameters
     ----------
     x0, xf : (..., 3) array_like
-        State at the start and at the end: angle, rate, control acceleration.
+        State at the start (0.8) and at the end (0.9): angle and rate of (0.2), control acceleration of (0.5).
     tf, t0 : (...) array_like
         Time of the end and of the start, ``tf > t0``.
     disturbance : None, number or (...) array, callable f(t), or SymPy expression in ``t``
@@ -69,7 +69,7 @@ class Maneuver:
         disturbance: Disturbance = None,
     ) -> None:
         start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
-        first, last = (finite(name, time, NUMBERS) for name, time in (("t0", t0), ("tf", tf)))
+        first, last = finite("t0", t0, NUMBERS), finite("tf", tf, NUMBERS)
         force: tuple[int, ...] = ()
         if isinstance(disturbance, np.ndarray | list | tuple):
             numbers = finite("disturbance", disturbance, NUMBERS)
@@ -86,8 +86,10 @@ class Maneuver:
             wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
             raise ArgumentValueError(f"tf must be later than t0, got {wrong}", "tf")
         fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
-        freeze(fields)
         self.__dict__.update(fields)
+        for array in (start, end, last, first):
+            array.setflags(write=False)
+        freeze(disturbance)
         _ = self._integrals  # Raises if the disturbance is of the wrong kind.
 
     def __getstate__(self) -> dict[str, Any]:
@@ -130,7 +132,10 @@ class Maneuver:
 
     @cached_property
     def moments(self) -> Array:
-        """c of (1.10), the required integrals of (s^2/2, s, 1) u with s = tf - t, (..., 3)."""
+        """c of (1.7) and (1.10), the required integrals (1.9) of (s^2/2, s, 1) u with s = tf - t, (..., 3).
+
+        The functions s^2/2, s and 1 are the response (1.5), (1.6) of the end to the control.
+        """
         if not self.shape and self.disturbance is None:
             numbers = [*self.x0.tolist(), *self.xf.tolist()]
             return np.array(kernels.moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]

@@ -31,7 +31,7 @@ class Programme:
 
         @property
         def certificate(self) -> Certificate:
-            """Residual of the moments, primal value and dual value, each (...)."""
+            """Residual of the moment equalities (1.11), primal value and dual value, each (...)."""
             raise NotImplementedError
 
         @property
@@ -58,7 +58,7 @@ class Programme:
         raise NotImplementedError
 
     def costate(self, t: ArrayLike) -> Array:
-        """psi = Phi(tf, t)' l0 at the times t, the solution of (1.15), (k,) -> (..., k, 3)."""
+        """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3): it solves (1.15) and attains (1.17)."""
         s = self._interval[1][..., None] - self._times(t)
         l1, l2, l3 = (self.multipliers[..., None, i] for i in range(3))
         third = kernels.dual_function(l1, l2, l3, s)
@@ -122,9 +122,10 @@ def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
         lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
-        where = f", got one beyond it at index {lost}" if lost else ""
+        where = f" at index {lost}" if lost else ""
         raise ArgumentValueError(
-            f"xf must give, with x0 and tf - t0, a control within the range of floating-point numbers{where}",
+            "xf must give, with x0 and tf - t0, a control within the range of floating-point numbers, "
+            f"got one beyond it{where}",
             "xf",
         )
     return numbers

@@ -25,7 +25,7 @@ def area_from_zeros() -> Callable[..., tuple[Any, ...]]:
 
 @cache
 def zeros_from_multiplier() -> Callable[..., tuple[Any, ...]]:
-    """The function (lambda~, c1, c2, c3, T) -> t1 and t2 of (3.19), and alpha_m of (3.16)."""
+    """The function (lambda~, c1, c2, c3, T) -> t1, t2 of (3.18) and (3.19), and alpha_m of (3.16)."""
     curve = parabola.curve()
     apex, half_width = curve[parabola.apex], curve[parabola.half_width]
     outputs = {
