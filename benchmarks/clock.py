@@ -1,10 +1,11 @@
 """Processor time of contestants that run in turns, so that a busy machine slows all of them alike."""
 
 import gc
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from statistics import median
 from time import process_time
+from typing import Any
 
 LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SINGLE_THREAD = dict.fromkeys(LIMITS, "1")
@@ -18,6 +19,35 @@ class Timing:
     typical: float
     least: float
     count: int
+
+
+def timed(call: Callable[[], Any]) -> tuple[Any, float]:
+    """The result of one call, and its seconds of processor time."""
+    start = process_time()
+    result = call()
+    return result, process_time() - start
+
+
+def one_call(call: Callable[[], Any], count: int = 1) -> Callable[[], int]:
+    """A contestant that makes one call, which solves `count` problems."""
+
+    def run() -> int:
+        call()
+        return count
+
+    return run
+
+
+def one_by_one(solve: Callable[..., Any], *columns: Iterable[Any]) -> Callable[[], int]:
+    """A contestant that solves one problem after the other; each argument of `solve` is a column."""
+    problems = list(zip(*columns, strict=True))
+
+    def run() -> int:
+        for problem in problems:
+            solve(*problem)
+        return len(problems)
+
+    return run
 
 
 def repeated(run: Callable[[], int], times: int) -> Callable[[], int]:

@@ -1,12 +1,13 @@
 """Contestants on the same problems, and a row of results for each."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.clock import Timing, take_turns
+from benchmarks.clock import Timing, one_by_one, take_turns
 
 CALL, STACK = "pontryagin, one call", "pontryagin, in a stack"
 
@@ -50,6 +51,18 @@ def contest(problem: str, contestants: Mapping[str, Contestant], rounds: int) ->
         Row(problem, method, timing.count, timing, contestants[method].error, contestants[method].solved)
         for method, timing in timings.items()
     ]
+
+
+def peer(solve: Callable[..., float], optima: NDArray, *columns: Iterable[Any]) -> Contestant:
+    """A method that solves one problem after the other, judged by their optima; nan is no answer."""
+    ratios = np.array([solve(*problem) for problem in zip(*columns, strict=True)]) / optima
+    found = np.isfinite(ratios)
+    return Contestant(one_by_one(solve, *columns), worst(ratios[found] - 1), float(found.mean()))
+
+
+def worst_gap(lower: NDArray, upper: NDArray) -> float:
+    """The largest relative gap between a bound from below and one from above."""
+    return worst(1 - lower / upper)
 
 
 def worst(values: NDArray) -> float:

@@ -1,7 +1,10 @@
-"""The plot of accuracy against time that several papers use."""
+"""What the plots of several papers share: accuracy against time, bars of shares, rows of a panel."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -9,6 +12,7 @@ from benchmarks.contest import CALL, STACK, Row
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
+    INK,
     ORANGE,
     PURPLE,
     RED,
@@ -31,8 +35,35 @@ MARKS = {
 OURS = {CALL: ("one call", 5, "bottom"), STACK: ("stack", -5, "top")}
 """Label of our points, its vertical offset in points, and its vertical alignment."""
 
+PALE = "#cccccc"
+"""A fill that is written on in black."""
+
 FLOOR = 1e-16
 """Smaller errors are drawn at this value."""
+
+
+Table = Mapping[str, Sequence[Any]]
+"""Columns of a table by their headings."""
+
+
+def where(table: Table, wanted: Mapping[str, Any]) -> dict[str, list[Any]]:
+    """The rows of a table that hold the wanted values, as columns."""
+    values = zip(*(table[heading] for heading in wanted), strict=True)
+    rows = [i for i, row in enumerate(values) if row == tuple(wanted.values())]
+    return {heading: [column[i] for i in rows] for heading, column in table.items()}
+
+
+def bars_of_shares(axis: Axes, names: Sequence[str], parts: Iterable[tuple], written: float) -> None:
+    """A bar of 100 % for each name; its parts are shares, colour and label, numbered from `written` % on."""
+    left = np.zeros(len(names))
+    for shares, colour, label in parts:
+        share, ink = 100 * np.array(shares), INK if colour == PALE else "white"
+        axis.barh(names, share, left=left, color=colour, label=label, height=0.7)
+        for k in np.flatnonzero(share >= written):
+            axis.text(left[k] + share[k] / 2, k, f"{share[k]:.0f}", ha="center", va="center", color=ink)
+        left += share
+    axis.grid(visible=False)
+    axis.set(xlim=(0, 100), xlabel="starts, %")
 
 
 @styled

@@ -5,10 +5,16 @@ from importlib.metadata import PackageNotFoundError, version
 PEERS = ("scipy", "ruckig", "clarabel", "casadi", "cvxpy", "highspy")
 
 
+def installed(package: str) -> str | None:
+    """The version of a package; None if it is absent."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
+
+
 def absent(peer: str) -> str | None:
     """A line that says which rows are left out and how to get them; None if the peer is installed."""
-    try:
-        version(peer)
-    except PackageNotFoundError:
-        return f'{peer} is not installed: its rows are left out (pip install "pontryagin[bench]")'
-    return None
+    if installed(peer):
+        return None
+    return f'{peer} is not installed: its rows are left out (pip install "pontryagin[bench]")'

@@ -5,12 +5,11 @@ import io
 import platform
 import re
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from benchmarks.contest import CALL, STACK, Row
-from benchmarks.peers import PEERS
+from benchmarks.peers import PEERS, installed
 
 NOTES = (
     "Times are processor time of one thread, medians of rounds in which all contestants take turns;",
@@ -21,24 +20,30 @@ NOTES = (
 """Explanations that hold for all tables."""
 
 
+def by_heading(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
+    """The columns of a table, from rows that hold a value under each heading."""
+    return {heading: [row[heading] for row in rows] for heading in rows[0]}
+
+
 def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
     """The rows as columns; each time also as a multiple of our own times for the same problem."""
     ours = {(row.problem, row.method): row.timing.typical for row in rows}
-
-    def ratio(row: Row, method: str) -> float:
-        return row.timing.typical / ours[row.problem, method]
-
-    return {
-        "problem": [row.problem for row in rows],
-        "method": [row.method for row in rows],
-        "problems": [row.count for row in rows],
-        "microseconds": [1e6 * row.timing.typical for row in rows],
-        "fastest round": [1e6 * row.timing.least for row in rows],
-        "times our call": [ratio(row, CALL) for row in rows],
-        "times our stack": [ratio(row, STACK) for row in rows],
-        "worst relative error": [row.error for row in rows],
-        "solved": [row.solved for row in rows],
-    }
+    return by_heading(
+        [
+            {
+                "problem": row.problem,
+                "method": row.method,
+                "problems": row.count,
+                "microseconds": 1e6 * row.timing.typical,
+                "fastest round": 1e6 * row.timing.least,
+                "times our call": row.timing.typical / ours[row.problem, CALL],
+                "times our stack": row.timing.typical / ours[row.problem, STACK],
+                "worst relative error": row.error,
+                "solved": row.solved,
+            }
+            for row in rows
+        ]
+    )
 
 
 def machine() -> dict[str, str]:
@@ -48,7 +53,7 @@ def machine() -> dict[str, str]:
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
         "threads": "1",
         "Python": platform.python_version(),
-        **{package: _version(package) for package in packages},
+        **{package: installed(package) or "absent" for package in packages},
     }
 
 
@@ -58,13 +63,6 @@ def _processor() -> str:
         return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
     except (OSError, StopIteration):
         return platform.processor() or "unknown processor"
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "absent"
 
 
 def text(value: Any) -> str:

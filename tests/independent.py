@@ -1,11 +1,11 @@
-"""Independent references for the tests: SciPy's integrator, HiGHS on grids, roots of exact polynomials."""
+"""Independent references for the tests: SciPy's integrators, HiGHS, roots of exact polynomials."""
 
 from fractions import Fraction
 from itertools import pairwise
 
 import mpmath as mp
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import linprog
 
 
@@ -42,10 +42,79 @@ def propagate(maneuver, control, breakpoints=(), impulses=()):
     return x, np.maximum(largest, np.abs(x))
 
 
+def pieces(solution):
+    """Ends of the intervals on which the control of a solution is smooth."""
+    m = solution.maneuver
+    return pairwise([float(m.t0), *solution.breakpoints, float(m.tf)])
+
+
+def integral(solution, weight):
+    """Integral of weight(t, u(t)) over the manoeuvre of a solution, by QUADPACK."""
+    return sum(
+        quad(lambda t: weight(t, solution.control([t])[0]), a, b, epsabs=1e-13, epsrel=1e-12, limit=400)[0]
+        for a, b in pieces(solution)
+    )
+
+
+def moments_of(solution):
+    """Integrals of u times (tf - t)^2/2, tf - t and 1, by QUADPACK."""
+    tf = float(solution.maneuver.tf)
+    return np.array([integral(solution, lambda t, u, j=j: u * (tf - t) ** j / max(j, 1)) for j in (2, 1, 0)])
+
+
+def bang_bang_moments(level, a, b):
+    """Moments (T = 1) of the control that is -level while the time to go is in [b, a], level otherwise."""
+    return level * np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])
+
+
 def response(s):
     """The impulse response h(s) = (s^2/2, s, 1), (..., 3)."""
     s = np.asarray(s, dtype=float)
     return np.stack([s**2 / 2, s, np.ones_like(s)], axis=-1)
+
+
+def least_scale(factors, target, normals):
+    """The least s for which w_k with normals w_k <= s have the sum of G_k w_k = target, by HiGHS.
+
+    Parameters
+    ----------
+    factors : (steps, n, width) array
+        The matrices G_k.
+    target : (n,) array
+        The sum to reach.
+    normals : (sides, width) array
+        Normals of a polytope {w: normals w <= 1}.
+    """
+    steps, n, width = factors.shape
+    within = np.kron(np.eye(steps), normals)
+    answer = linprog(
+        np.r_[np.zeros(steps * width), 1],
+        A_ub=np.c_[within, -np.ones(len(within))],
+        b_ub=np.zeros(len(within)),
+        A_eq=np.c_[np.moveaxis(factors, 0, 1).reshape(n, -1), np.zeros(n)],
+        b_eq=target,
+        bounds=[*[(None, None)] * (steps * width), (0, None)],
+    )
+    assert answer.success
+    return answer.fun
+
+
+def cube(n):
+    """Normals of the cube |w_i| <= 1."""
+    return np.vstack([np.eye(n), -np.eye(n)])
+
+
+def grid_peak(c, duration=1.0, cells=160):
+    """The least peak of controls that are constant on the cells of a grid of [0, T]."""
+    edges = np.linspace(0, duration, cells + 1)
+    moments = np.diff([edges**3 / 6, edges**2 / 2, edges], axis=1)
+    return least_scale(moments.T[:, :, None], c, cube(1))
+
+
+def grid_impulse(c, duration=1.0, cells=160):
+    """The least total impulse at the instants of a grid of [0, T]."""
+    h = response(np.linspace(0, duration, cells + 1)).T
+    return linprog(np.ones(2 * cells + 2), A_eq=np.c_[h, -h], b_eq=c, bounds=(0, None)).fun
 
 
 def peak_bracket(c, duration, cells=160):
@@ -54,19 +123,8 @@ def peak_bracket(c, duration, cells=160):
     The upper bound is the best control that is constant on each cell. The lower bound is the best dual
     function h; the integral of |h| is at most that of the interpolated |h| plus |h''| step^2 / 8.
     """
-    edges = np.linspace(0, duration, cells + 1)
     step = duration / cells
-    exact = np.stack([edges**3 / 6, edges**2 / 2, edges])
-    moments = np.diff(exact, axis=1)
-    above = linprog(
-        np.r_[np.zeros(cells), 1],
-        A_ub=np.block([[np.eye(cells), -np.ones((cells, 1))], [-np.eye(cells), -np.ones((cells, 1))]]),
-        b_ub=np.zeros(2 * cells),
-        A_eq=np.c_[moments, np.zeros(3)],
-        b_eq=c,
-        bounds=(None, None),
-    )
-    h = response(edges)
+    h = response(np.linspace(0, duration, cells + 1))
     weights = np.r_[step / 2, np.full(cells - 1, step), step / 2]
     below = linprog(
         np.r_[-np.asarray(c, dtype=float), np.zeros(cells + 2)],
@@ -81,7 +139,7 @@ def peak_bracket(c, duration, cells=160):
         b_ub=np.r_[np.zeros(2 * cells + 4), 1],
         bounds=(None, None),
     )
-    return -below.fun, above.fun
+    return -below.fun, grid_peak(c, duration, cells)
 
 
 def impulse_bracket(c, duration, cells=160):
@@ -90,9 +148,7 @@ def impulse_bracket(c, duration, cells=160):
     The upper bound has impulses on the grid. The lower bound is the best dual function h with |h| at most
     1 - |h''| step^2 / 8 on the grid.
     """
-    s = np.linspace(0, duration, cells + 1)
-    h = response(s)
-    above = linprog(np.ones(2 * cells + 2), A_eq=np.c_[h.T, -h.T], b_eq=c, bounds=(0, None))
+    h = response(np.linspace(0, duration, cells + 1))
     slack = np.full((cells + 1, 1), (duration / cells) ** 2 / 8)
     below = linprog(
         np.r_[-np.asarray(c, dtype=float), 0],
@@ -100,7 +156,7 @@ def impulse_bracket(c, duration, cells=160):
         b_ub=np.r_[np.ones(2 * cells + 2), 0, 0],
         bounds=(None, None),
     )
-    return -below.fun, above.fun
+    return -below.fun, grid_impulse(c, duration, cells)
 
 
 def exactly(number):

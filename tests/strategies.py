@@ -1,9 +1,12 @@
-"""Hypothesis strategies: numbers of every size, manoeuvres, and moments of every structure."""
+"""Hypothesis strategies: numbers of every size, manoeuvres, moments of every structure, bodies."""
 
 import numpy as np
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
+from independent import bang_bang_moments
 from pontryagin.triple_integrator import Maneuver
+from pontryagin.triple_integrator.attitude import RigidBody
 
 shares = st.floats(0, 1, allow_subnormal=False).map(lambda x: round(x, 6))
 signs = st.sampled_from([-1.0, 1.0])
@@ -65,11 +68,24 @@ def moments(draw):
         return draw(states(st.sampled_from([0.0, 0.0, 1.0, -1.0, 0.5, 1 / 6])))
     level = draw(signs)
     if kind == "bang-bang":
-        a, b = draw(places())
-        return level * np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])
+        return bang_bang_moments(level, *draw(places()))
     at = np.array([0.0, draw(shares), 1.0])
     amplitudes = np.array(draw(states()))
     return np.array([at**2 / 2, at, np.ones(3)]) @ amplitudes
+
+
+@st.composite
+def bodies(draw):
+    """Any mass distribution: principal moments are sums of pairs of second moments of the mass."""
+    x, y, z = (draw(st.floats(0.1, 2.0)) for _ in range(3))
+    frame = Rotation.from_rotvec(draw(states(st.floats(-2.0, 2.0)))).as_matrix()
+    return RigidBody(frame @ np.diag([y + z, x + z, x + y]) @ frame.T)
+
+
+def deviations(size=0.02, least=0.0):
+    """A deviation (3,) from the circle, of which some coordinate exceeds `least` in modulus."""
+    coordinate = st.floats(-size, size, allow_subnormal=False)
+    return states(coordinate).filter(lambda z: np.abs(z).max() >= least)
 
 
 def maneuver_with(c, duration=1.0):

@@ -7,6 +7,7 @@ points per turn. The Jacobian of the right-hand side is supplied.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -14,6 +15,7 @@ from scipy.integrate import solve_bvp
 
 from benchmarks.averaging.enumeration import timed
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.exact.canonical import (
@@ -141,26 +143,13 @@ def landed(found: Extremals, theta: float, cost: float) -> tuple[int, Extremal] 
 
 def table(quick: bool) -> dict[str, list]:
     """Extremal found and time taken by solve_bvp, compared with our enumeration of all extremals."""
-    rows: list[tuple] = []
+    rows = []
     for name in (SMOOTH,) if quick else (SMOOTH, PAID, KEPLER, BODY):
         solution = EXAMPLES[name].one()
         solution.exact(0.1)
         for epsilon in QUICK if quick else [e for e in EPSILONS if e >= LEAST.get(name, 0.0)]:
-            rows.append((name, epsilon, *_compared(solution, epsilon)))
-    headings = (
-        "example",
-        "epsilon",
-        "solve_bvp, ms",
-        "nodes",
-        "it says",
-        "lands on",
-        "its place by cost",
-        "dearer than the best",
-        "all extremals by ours",
-        "ours, ms",
-        "times ours, for one",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+            rows.append({"example": name, "epsilon": epsilon} | _compared(solution, epsilon))
+    return by_heading(rows)
 
 
 def landing(epsilon: float) -> tuple[Extremals, tuple[float, float]]:
@@ -170,7 +159,7 @@ def landing(epsilon: float) -> tuple[Extremals, tuple[float, float]]:
     return solution.exact(epsilon), (float(answer.y[-2, -1]), float(answer.y[-1, -1]))
 
 
-def _compared(solution: AveragedSolution, epsilon: float) -> tuple:
+def _compared(solution: AveragedSolution, epsilon: float) -> dict[str, Any]:
     _slopes(posed(solution, epsilon)[0].problem.equations)
     found, ours = timed(lambda: solution.exact(epsilon))
     answer, theirs = timed(lambda: collocated(solution, epsilon))
@@ -179,5 +168,14 @@ def _compared(solution: AveragedSolution, epsilon: float) -> tuple:
     kind, place, excess = "no extremal", None, None
     if end is not None:
         kind, place, excess = f"a {end[1].kind}", end[0], end[1].cost / found[0].cost - 1
-    nodes = len(answer.x)
-    return 1e3 * theirs, nodes, says, kind, place, excess, len(found), 1e3 * ours, theirs / ours
+    return {
+        "solve_bvp, ms": 1e3 * theirs,
+        "nodes": len(answer.x),
+        "it says": says,
+        "lands on": kind,
+        "its place by cost": place,
+        "dearer than the best": excess,
+        "all extremals by ours": len(found),
+        "ours, ms": 1e3 * ours,
+        "times ours, for one": theirs / ours,
+    }

@@ -1,12 +1,15 @@
 """All exact extremals for decreasing epsilon, one exact shot, and the averaged solve, free of epsilon."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from statistics import median
-from time import process_time
+from typing import Any
 
 import numpy as np
 
+from benchmarks import clock
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
+from benchmarks.table import by_heading
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.averaging.exact.shooting import (
@@ -27,57 +30,38 @@ SHOTS = 20
 
 def table(quick: bool) -> dict[str, list]:
     """Number of extremals, times and errors of the averaged cost, for each example and epsilon."""
-    rows: list[tuple] = []
+    rows: list[dict[str, Any]] = []
     for name in (SMOOTH, KEPLER) if quick else (SMOOTH, PAID, KEPLER, BODY):
-        epsilons = QUICK if quick else [e for e in EPSILONS if e >= LEAST.get(name, 0.0)]
-        rows += [(name, *row) for row in _of_one(EXAMPLES[name].one, epsilons)]
-    headings = (
-        "example",
-        "epsilon",
-        "turns",
-        "extremals",
-        "minima",
-        "residual of the best",
-        "averaged, ms",
-        "one exact shot, ms",
-        "all exact extremals, ms",
-        "exact over averaged",
-        "error of J0",
-        "error of J0 + epsilon J1",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+        rows += of_one(name, QUICK if quick else [e for e in EPSILONS if e >= LEAST.get(name, 0.0)])
+    return by_heading(rows)
 
 
-def _of_one(solve: Callable[[], AveragedSolution], epsilons) -> list[tuple]:
+def of_one(name: str, epsilons: Sequence[float]) -> Iterator[dict[str, Any]]:
+    """The rows of one example."""
+    solve = EXAMPLES[name].one
     solution, averaged = timed(solve)
     correction = float(solution.correction())
     solution.exact(epsilons[0])
-    rows: list[tuple] = []
     for epsilon in epsilons:
-        found, every = timed(lambda epsilon=epsilon: solution.exact(epsilon))
+        found, every = timed(partial(solution.exact, epsilon))
         problem, theta, unknowns = shot(solution, found)
-        once = median(
-            timed(lambda given=(problem, theta, unknowns): given[0].shoot(*given[1:]))[1]
-            for _ in range(SHOTS)
-        )
+        once = median(timed(partial(problem.shoot, theta, unknowns))[1] for _ in range(SHOTS))
         residual = float(found[0].certificate.residual) if epsilon >= CERTIFIED else None
         cost, best = float(solution.cost), found[0].cost
-        rows.append(
-            (
-                epsilon,
-                found[0].turns,
-                len(found),
-                sum(extremal.kind == "minimum" for extremal in found),
-                residual,
-                1e3 * averaged,
-                1e3 * once,
-                1e3 * every,
-                every / averaged,
-                abs(cost / best - 1),
-                abs((cost + epsilon * correction) / best - 1),
-            )
-        )
-    return rows
+        yield {
+            "example": name,
+            "epsilon": epsilon,
+            "turns": found[0].turns,
+            "extremals": len(found),
+            "minima": sum(extremal.kind == "minimum" for extremal in found),
+            "residual of the best": residual,
+            "averaged, ms": 1e3 * averaged,
+            "one exact shot, ms": 1e3 * once,
+            "all exact extremals, ms": 1e3 * every,
+            "exact over averaged": every / averaged,
+            "error of J0": abs(cost / best - 1),
+            "error of J0 + epsilon J1": abs((cost + epsilon * correction) / best - 1),
+        }
 
 
 def shot(solution: AveragedSolution, found: Extremals) -> tuple[Shooting, np.ndarray, np.ndarray]:
@@ -93,7 +77,6 @@ def timed(run: Callable):
     """Result of a run and its median processor time in seconds; only a brief run is repeated."""
     taken: list[float] = []
     while not taken or (len(taken) < ROUNDS and taken[0] < BRIEF):
-        begun = process_time()
-        result = run()
-        taken.append(process_time() - begun)
+        result, seconds = clock.timed(run)
+        taken.append(seconds)
     return result, median(taken)

@@ -1,12 +1,13 @@
 """Plots of the averaging benchmark: times over epsilon, integrators, extremals that solve_bvp finds."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from benchmarks.averaging.flows import OURS, TOGETHER
+from benchmarks.figures import Table, where
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.display.plotting import (
     BLUE,
@@ -18,8 +19,6 @@ from pontryagin.display.plotting import (
     styled,
     subplots,
 )
-
-Table = Mapping[str, Sequence]
 
 TIMES = {
     "averaged, ms": ("averaged solve", "o", BLUE),
@@ -41,11 +40,9 @@ def price_of_exactness(table: Table) -> Figure:
     names = list(dict.fromkeys(table["example"]))
     figure, axes = subplots(2, 2, height=4.4, sharex=True, sharey=True)
     for ax, name in zip(axes.flat, names, strict=False):
-        rows = [i for i, own in enumerate(table["example"]) if own == name]
-        epsilon = [table["epsilon"][i] for i in rows]
+        rows = where(table, {"example": name})
         for heading, (label, marker, colour) in TIMES.items():
-            times = [table[heading][i] for i in rows]
-            ax.loglog(epsilon, times, marker=marker, color=colour, markersize=4, label=label)
+            ax.loglog(rows["epsilon"], rows[heading], marker=marker, color=colour, markersize=4, label=label)
         ax.set_title(_title(name), loc="left")
         ax.xaxis.set_minor_formatter(NullFormatter())
         ax.set_xticks([0.002, 0.01, 0.05], ["0.002", "0.01", "0.05"])
@@ -64,7 +61,8 @@ def integrators(table: Table, what: str = "states and sensitivities") -> Figure:
     figure, axes = subplots(2, 2, height=4.4, sharex=True, sharey=True)
     handles = {}
     for ax, name in zip(axes.flat, names, strict=False):
-        for method, time, error in _entries(table, name, what):
+        rows = where(table, {"example": name, "what": what})
+        for method, time, error in zip(rows["integrator"], rows["ms"], rows["error"], strict=True):
             marker, colour = INTEGRATORS[method]
             (handles[method],) = ax.loglog(time, error, marker, color=colour, linestyle="none")
         ax.set_title(_title(name), loc="left")
@@ -74,13 +72,6 @@ def integrators(table: Table, what: str = "states and sensitivities") -> Figure:
         ax.set_ylabel("relative error at the end")
     figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3)
     return figure
-
-
-def _entries(table: Table, name: str, what: str) -> Iterator[tuple[str, float, float]]:
-    columns = (table[heading] for heading in ("example", "what", "integrator", "ms", "error"))
-    for example, kind, method, time, error in zip(*columns, strict=True):
-        if (example, kind) == (name, what):
-            yield method, time, error
 
 
 @styled

@@ -9,6 +9,7 @@ not available, DOP853 at the tolerance 3e-14.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import sympy as sp
@@ -16,7 +17,8 @@ from scipy.integrate import odeint, solve_ivp
 
 from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
-from benchmarks.clock import Timing, take_turns
+from benchmarks.clock import one_call, take_turns
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.canonical import (
     Canonical,
@@ -105,17 +107,10 @@ def scalar_rates(path: Trajectory, sensitivities: bool) -> Callable[[float, Arra
     return lambda t, z: compiled(t, z, parameters)
 
 
-def by_dop853(path: Trajectory, rates: Callable, start: Array, tolerance: float = TOLERANCE) -> Array:
-    """The end by SciPy's DOP853."""
-    return _solved(path, rates, start, "DOP853", tolerance)
-
-
-def by_lsoda(path: Trajectory, rates: Callable, start: Array) -> Array:
-    """The end by LSODA through SciPy's solve_ivp."""
-    return _solved(path, rates, start, "LSODA", TOLERANCE)
-
-
-def _solved(path: Trajectory, rates: Callable, start: Array, method: str, tolerance: float) -> Array:
+def by_solve_ivp(
+    path: Trajectory, rates: Callable, start: Array, method: str, tolerance: float = TOLERANCE
+) -> Array:
+    """The end by one of the methods of SciPy's solve_ivp."""
     found = solve_ivp(rates, (path.begin, path.end), start, method, rtol=tolerance, atol=tolerance)
     return found.y[:, -1] if found.success else np.full(len(start), np.nan)
 
@@ -139,7 +134,7 @@ def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
     """The end to more digits than any of the compared integrators gives."""
     start = path.with_sensitivities() if sensitivities else path.start
     if not has_heyoka() or np.finfo(np.longdouble).eps >= np.finfo(float).eps:
-        return by_dop853(path, rates, start, 3e-14)
+        return by_solve_ivp(path, rates, start, "DOP853", 3e-14)
     import heyoka as hy
 
     e, long = path.equations, np.longdouble
@@ -165,41 +160,43 @@ def contestants(path: Trajectory, sensitivities: bool) -> tuple[dict[str, Callab
     start = path.with_sensitivities() if sensitivities else path.start
     ours = {OURS: 1, TOGETHER: MANY} if has_heyoka() else {}
     found: dict[str, Callable[[], Array]] = {
-        method: lambda count=count: by_heyoka(path, sensitivities, count) for method, count in ours.items()
+        method: partial(by_heyoka, path, sensitivities, count) for method, count in ours.items()
     }
-    found["DOP853, solve_ivp"] = lambda: by_dop853(path, rates, start)
-    found["LSODA, solve_ivp"] = lambda: by_lsoda(path, rates, start)
-    found["LSODA, odeint"] = lambda: by_odeint(path, rates, start)
+    for method in ("DOP853", "LSODA"):
+        found[f"{method}, solve_ivp"] = partial(by_solve_ivp, path, rates, start, method)
+    found["LSODA, odeint"] = partial(by_odeint, path, rates, start)
     return found, reference(path, rates, sensitivities)
 
 
 def table(quick: bool) -> dict[str, list]:
     """Time and error of each integrator, with and without sensitivities."""
-    rows: list[tuple] = []
+    rows = []
     for name in (SMOOTH,) if quick else (SMOOTH, PAID, KEPLER, BODY):
         path = trajectory(name, EPSILON)
         turns = (path.end - path.begin) / (2 * np.pi)
         for sensitivities in (False, True):
             runs, exact = contestants(path, sensitivities)
             errors = {method: error(run(), exact) for method, run in runs.items()}
-            timings = take_turns({m: _counted(m, run) for m, run in runs.items()}, 1 if quick else 3)
-            ours: Timing | None = timings.get(OURS)
-            for method, timing in timings.items():
-                ratio = timing.typical / ours.typical if ours else float("nan")
-                kind = "states and sensitivities" if sensitivities else "states"
-                rows.append((name, kind, turns, method, 1e3 * timing.typical, ratio, errors[method]))
-    headings = ("example", "what", "turns", "integrator", "ms", "times heyoka", "error")
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+            counted = {
+                method: one_call(run, MANY if method == TOGETHER else 1) for method, run in runs.items()
+            }
+            timings = take_turns(counted, 1 if quick else 3)
+            ours = timings[OURS].typical if OURS in timings else float("nan")
+            rows += [
+                {
+                    "example": name,
+                    "what": "states and sensitivities" if sensitivities else "states",
+                    "turns": turns,
+                    "integrator": method,
+                    "ms": 1e3 * timing.typical,
+                    "times heyoka": timing.typical / ours,
+                    "error": errors[method],
+                }
+                for method, timing in timings.items()
+            ]
+    return by_heading(rows)
 
 
 def error(found: Array, exact: Array) -> float:
     """Largest difference, divided by the largest entry of `exact` where that exceeds one."""
     return float(np.abs(found - exact).max() / max(1.0, np.abs(exact).max()))
-
-
-def _counted(method: str, run: Callable[[], Array]) -> Callable[[], int]:
-    def counted() -> int:
-        run()
-        return MANY if method == TOGETHER else 1
-
-    return counted

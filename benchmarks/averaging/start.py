@@ -1,35 +1,11 @@
 """First calls in a fresh process: imports, averaged solve, engine build, first exact extremals."""
 
-import json
-import subprocess
-import sys
-
 from benchmarks.averaging.examples import EXAMPLES, KEPLER
+from benchmarks.fresh import least_seconds
+from benchmarks.table import by_heading
 
 BUILD_AIM = 1.0
 """The aim for building a `PhaseSystem` and its compiled model from expressions, in seconds."""
-
-SCRIPT = """
-import json, sys
-from time import process_time
-spent = {}
-def mark(step, since=[process_time()]):
-    now = process_time()
-    spent[step] = now - since[0]
-    since[0] = now
-%s
-print(json.dumps(spent))
-"""
-
-SOLVE = """
-import numpy
-mark("import numpy")
-from pontryagin.averaging import %(import)s
-%(given)s
-mark("import")
-solution = %(call)s
-mark("first")
-"""
 
 BUILD = """
 import sympy
@@ -63,28 +39,17 @@ mark("exact")
 def table(quick: bool) -> dict[str, list]:
     """Processor seconds of the first calls of each example, the least over a few processes."""
     repeats = 1 if quick else 2
-    names = [KEPLER] if quick else list(EXAMPLES)
     rows = []
-    for name in names:
-        built = _fastest(BUILD % name, repeats)
-        once = _fastest(ONCE % name, repeats)
-        rows.append((name, BUILD_AIM, built["build"], once["import"], once["first"], once["exact"]))
-    headings = (
-        "example",
-        "aim, s",
-        "engine build, s",
-        "imports, s",
-        "first averaged solve, s",
-        "first exact extremals, s",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
-
-
-def _fastest(body: str, repeats: int) -> dict[str, float]:
-    runs = [_phases(body) for _ in range(repeats)]
-    return {step: min(run[step] for run in runs) for step in runs[0]}
-
-
-def _phases(body: str) -> dict[str, float]:
-    run = subprocess.run([sys.executable, "-c", SCRIPT % body], check=True, capture_output=True, text=True)
-    return json.loads(run.stdout)
+    for name in [KEPLER] if quick else EXAMPLES:
+        once = least_seconds(ONCE % name, repeats)
+        rows.append(
+            {
+                "example": name,
+                "aim, s": BUILD_AIM,
+                "engine build, s": least_seconds(BUILD % name, repeats)["build"],
+                "imports, s": once["import"],
+                "first averaged solve, s": once["first"],
+                "first exact extremals, s": once["exact"],
+            }
+        )
+    return by_heading(rows)

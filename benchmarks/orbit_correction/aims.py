@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.clock import Timing, repeated, take_turns
-from benchmarks.contest import worst
+from benchmarks.clock import Timing, one_by_one, one_call, repeated, take_turns
+from benchmarks.contest import worst, worst_gap
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, states, thrust
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
@@ -36,7 +37,7 @@ class Entry:
 def table(quick: bool) -> dict[str, list]:
     """Seconds of each task beside its aim: the median over the rounds; for single states the slowest."""
     large = 5_000 if quick else 100_000
-    rows: list[tuple] = []
+    rows = []
     for name in THRUSTS:
         tasks = _tasks(name, large)
         entries = {f"{task} {i}": entry for task, found in tasks.items() for i, entry in enumerate(found)}
@@ -47,28 +48,18 @@ def table(quick: bool) -> dict[str, list]:
             misses = [entry.miss for entry in found if entry.miss is not None]
             count = found[0].states
             rows.append(
-                (
-                    task,
-                    name,
-                    AIMS.get(task),
-                    slowest.typical * count,
-                    slowest.least * count,
-                    1e6 * slowest.typical,
-                    max(entry.gap for entry in found),
-                    max(misses) if misses else None,
-                )
+                {
+                    "task": task,
+                    "impulses": name,
+                    "aim, s": AIMS.get(task),
+                    "seconds": slowest.typical * count,
+                    "fastest round": slowest.least * count,
+                    "microseconds a state": 1e6 * slowest.typical,
+                    "worst gap": max(entry.gap for entry in found),
+                    "worst miss": max(misses, default=None),
+                }
             )
-    headings = (
-        "task",
-        "impulses",
-        "aim, s",
-        "seconds",
-        "fastest round",
-        "microseconds a state",
-        "worst gap",
-        "worst miss",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)
 
 
 def far_states(name: str) -> Array:
@@ -90,33 +81,20 @@ def _tasks(name: str, large: int) -> dict[str, list[Entry]]:
 
 
 def _plans(name: str, stack: NDArray, times: int) -> Entry:
+    run = one_call(lambda: correct(stack, INTERVAL, PEAK, name), len(stack))
     certificate = correct(stack, INTERVAL, PEAK, name).certificate
-    gap = worst(1 - certificate.dual_value / certificate.primal_value)
-
-    def run() -> int:
-        correct(stack, INTERVAL, PEAK, name)
-        return len(stack)
-
+    gap = worst_gap(certificate.dual_value, certificate.primal_value)
     return Entry(repeated(run, times), len(stack), gap, worst(certificate.primal_residual))
 
 
 def _single(name: str, stack: NDArray) -> Entry:
     together = _plans(name, stack, 1)
-
-    def run() -> int:
-        for state in stack:
-            correct(state, INTERVAL, PEAK, name)
-        return len(stack)
-
+    run = one_by_one(lambda state: correct(state, INTERVAL, PEAK, name), stack)
     return Entry(run, 1, together.gap, together.miss)
 
 
 def _gauge(name: str, state: NDArray) -> Entry:
     engine, counts = thrust(name), np.full(1, MANY)
     found = engine.gauges(state[None], counts)
-
-    def run() -> int:
-        engine.gauges(state[None], counts)
-        return 1
-
-    return Entry(run, 1, worst(1 - found.lower / found.upper), None)
+    run = one_call(lambda: engine.gauges(state[None], counts))
+    return Entry(run, 1, worst_gap(found.lower, found.upper), None)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from benchmarks.clarabel_programme import programme
 from benchmarks.orbit_correction.states import Solver, unit_factors
 
 
@@ -27,15 +28,14 @@ def impulses(name: str, steps: int) -> Solver:
         level = sparse.kron(np.ones((steps, 1)), _size_entry(width))
         parts = sparse.kron(sparse.identity(steps), _vector_entries(width))
         within = -sparse.hstack([parts, level])
-    constraints = sparse.csc_matrix(sparse.vstack([balance, within]))
-    cost = np.append(np.zeros(components), 1.0)
-    right = np.zeros(constraints.shape[0])
-    solver, settle = _clarabel(cost, constraints, right, 3, 0, _cones(name, steps, width))
+    cost, right = np.append(np.zeros(components), 1.0), np.zeros(3 + within.shape[0])
+    constraints, cones = sparse.vstack([balance, within]), [("Zero", 3), *_cones(name, steps, width)]
+    solver, optimum = programme(cost, constraints, right, cones)
 
     def solve(state: NDArray) -> float:
         right[:3] = -state
         solver.update(b=right)
-        return settle(solver.solve())
+        return optimum(solver.solve())
 
     return solve
 
@@ -54,15 +54,14 @@ def costate(name: str, steps: int) -> Solver:
         psi = sparse.kron(sparse.identity(steps), _vector_entries(width)) @ sparse.csc_matrix(along)
         within = -sparse.hstack([psi, sizes])
     total = np.concatenate([np.zeros(3), np.ones(count)])[None]
-    constraints = sparse.csc_matrix(sparse.vstack([total, within]))
-    right = np.append(1.0, np.zeros(constraints.shape[0] - 1))
-    cost = np.append(np.ones(3), np.zeros(count))
-    solver, settle = _clarabel(cost, constraints, right, 0, 1, _cones(name, steps, width))
+    cost, right = np.append(np.ones(3), np.zeros(count)), np.append(1.0, np.zeros(within.shape[0]))
+    constraints, cones = sparse.vstack([total, within]), [("Nonnegative", 1), *_cones(name, steps, width)]
+    solver, optimum = programme(cost, constraints, right, cones)
 
     def solve(state: NDArray) -> float:
         cost[:3] = state
         solver.update(q=cost)
-        return -settle(solver.solve())
+        return -optimum(solver.solve())
 
     return solve
 
@@ -77,26 +76,5 @@ def _vector_entries(width: int) -> NDArray:
     return np.eye(width + 1)[:, 1:]
 
 
-def _cones(name: str, steps: int, width: int) -> list:
-    import clarabel
-
-    if name == "box":
-        return [clarabel.NonnegativeConeT(2 * steps * width)]
-    return [clarabel.SecondOrderConeT(width + 1)] * steps
-
-
-def _clarabel(
-    cost: NDArray, constraints: sparse.csc_matrix, right: NDArray, equal: int, above: int, cones: list
-):
-    import clarabel
-
-    settings = clarabel.DefaultSettings()
-    settings.verbose, settings.presolve_enable, settings.max_threads = False, False, 1
-    lead = [clarabel.ZeroConeT(equal)] if equal else [clarabel.NonnegativeConeT(above)]
-    quadratic = sparse.csc_matrix((len(cost), len(cost)))
-    solver = clarabel.DefaultSolver(quadratic, cost, constraints, right, lead + cones, settings)
-
-    def settle(solution) -> float:
-        return solution.obj_val if solution.status == clarabel.SolverStatus.Solved else float("nan")
-
-    return solver, settle
+def _cones(name: str, steps: int, width: int) -> list[tuple[str, int]]:
+    return [("Nonnegative", 2 * steps * width)] if name == "box" else [("SecondOrder", width + 1)] * steps

@@ -7,12 +7,13 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.clock import repeated
-from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.clock import one_by_one, one_call, repeated
+from benchmarks.contest import CALL, STACK, Contestant, Row, contest, peer, worst, worst_gap
 from benchmarks.orbit_correction import cones, linear, modelled
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, Peer, Solver, states, thrust
 from benchmarks.peers import absent
 from pontryagin.orbit_correction import Plan, correct
+from pontryagin.orbit_correction.plan.thrust import Thrust
 
 STEPS = 8
 """Number of steps for which gauges are compared, about as many as the states need."""
@@ -43,72 +44,49 @@ def peers(name: str, quick: bool) -> dict[str, Peer]:
 def given_steps(name: str, opponents: Mapping[str, Peer], count: int, rounds: int) -> list[Row]:
     """Gauges in `STEPS` steps, one by one and in a stack of `STACK_SIZE`."""
     engine, stack = thrust(name), states(STACK_SIZE)
-    counts, alone = np.full(STACK_SIZE, STEPS), np.full(1, STEPS)
+    counts = np.full(STACK_SIZE, STEPS)
     exact = engine.gauges(stack, counts)
-
-    def one_by_one() -> int:
-        for state in stack[:count]:
-            engine.gauges(state[None], alone)
-        return count
-
-    def together() -> int:
-        return len(engine.gauges(stack, counts).upper)
-
-    gap = worst(1 - exact.lower / exact.upper)
-    entrants = {CALL: Contestant(one_by_one, gap, 1.0), STACK: Contestant(repeated(together, 3), gap, 1.0)}
-    for method, peer in opponents.items():
-        solver = peer.make(name, STEPS)
-        entrants[method] = _gauge_entrant(solver, stack[: peer.count], exact.upper)
+    single = one_gauge_each(engine, stack[:count], STEPS)
+    together = repeated(one_call(lambda: engine.gauges(stack, counts), STACK_SIZE), 3)
+    gap = worst_gap(exact.lower, exact.upper)
+    entrants = {CALL: Contestant(single, gap, 1.0), STACK: Contestant(together, gap, 1.0)}
+    for method, opponent in opponents.items():
+        some = slice(opponent.count)
+        entrants[method] = peer(opponent.make(name, STEPS), exact.upper[some], stack[some] / PEAK)
     return contest(f"gauge in {STEPS} steps, {name}", entrants, rounds)
 
 
-def _gauge_entrant(solver: Solver, some: NDArray, exact: NDArray) -> Contestant:
-    scaled = some / PEAK
-
-    def run() -> int:
-        for state in scaled:
-            solver(state)
-        return len(scaled)
-
-    values = np.array([solver(state) for state in scaled])
-    found = np.isfinite(values)
-    return Contestant(run, worst((values / exact[: len(values)] - 1)[found]), float(found.mean()))
+def one_gauge_each(engine: Thrust, some: NDArray, steps: int) -> Callable[[], int]:
+    """Our gauges of states (k, 3), one call for each."""
+    counts = np.full(1, steps)
+    return one_by_one(lambda state: engine.gauges(state[None], counts), some)
 
 
 def fewest_steps(name: str, opponents: Mapping[str, Peer], count: int, rounds: int) -> list[Row]:
     """N_min and alpha(N_min), one by one and in a stack of `STACK_SIZE`; peers search as `search` does."""
     stack = states(STACK_SIZE)
-    exact = correct(stack, INTERVAL, PEAK, name)
 
-    def one_by_one() -> int:
-        for state in stack[:count]:
-            correct(state, INTERVAL, PEAK, name)
-        return count
+    def solve(z0: NDArray) -> Plan:
+        return correct(z0, INTERVAL, PEAK, name)
 
-    def together() -> int:
-        return len(correct(stack, INTERVAL, PEAK, name).steps)
-
+    exact = solve(stack)
     certificate = exact.certificate
-    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+    gap = worst_gap(certificate.dual_value, certificate.primal_value)
     sound = float(((certificate.primal_residual <= 1e-12) & (exact.shorter_gauge > 1)).mean())
+    together = repeated(one_call(lambda: solve(stack), STACK_SIZE), 3)
     entrants = {
-        CALL: Contestant(one_by_one, gap, sound),
-        STACK: Contestant(repeated(together, 3), gap, sound),
+        CALL: Contestant(one_by_one(solve, stack[:count]), gap, sound),
+        STACK: Contestant(together, gap, sound),
     }
-    for method, peer in opponents.items():
-        entrants[method] = _search_entrant(name, peer, exact)
+    for method, opponent in opponents.items():
+        entrants[method] = _search_entrant(name, opponent, exact)
     return contest(f"fewest steps, {name}", entrants, rounds)
 
 
-def _search_entrant(name: str, peer: Peer, exact: Plan) -> Contestant:
-    made, scaled = cache(lambda steps: peer.make(name, steps)), exact.z0[: peer.count] / PEAK
+def _search_entrant(name: str, opponent: Peer, exact: Plan) -> Contestant:
+    made, scaled = cache(lambda steps: opponent.make(name, steps)), exact.z0[: opponent.count] / PEAK
     least = thrust(name).fewest
-
-    def run() -> int:
-        for state in scaled:
-            search(made, state, least)
-        return len(scaled)
-
+    run = one_by_one(lambda state: search(made, state, least), scaled)
     answers = [search(made, state, least) for state in scaled]
     steps, alpha = (np.array(column) for column in zip(*answers, strict=True))
     right = steps == exact.steps[: len(steps)]

@@ -1,14 +1,12 @@
 """Time of one gauge against the number of steps, for our solver and the peers."""
 
-from collections.abc import Callable
-
 import numpy as np
-from numpy.typing import NDArray
 
 from benchmarks.clock import repeated, take_turns
-from benchmarks.contest import CALL, worst
+from benchmarks.contest import CALL, Contestant, peer, worst_gap
 from benchmarks.orbit_correction import gauges
-from benchmarks.orbit_correction.states import PEAK, Solver, states, thrust
+from benchmarks.orbit_correction.states import PEAK, states, thrust
+from benchmarks.table import by_heading
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
 SIZES = (10, 32, 100, 316, 1000, 3162, 10_000)
@@ -26,57 +24,35 @@ STATES = 3
 
 def table(quick: bool) -> dict[str, list]:
     """Microseconds per state of each method, by set of impulses and number of steps."""
-    some = states(STATES)
-    rows: list[tuple] = []
+    rows = []
     for name in THRUSTS:
         for steps in QUICK if quick else (*SIZES, *OURS_ALONE):
-            counts = np.full(1, steps)
-            exact = thrust(name).gauges(some, np.full(STATES, steps))
-            opponents = {} if steps in OURS_ALONE else gauges.peers(name, quick=True)
-            solvers = {method: peer.make(name, steps) for method, peer in opponents.items()}
-            runs = {CALL: _ours(name, some, counts)}
-            runs |= {method: _run(solver, some) for method, solver in solvers.items()}
+            entrants = _entrants(name, steps)
             times = 1 if quick else max(1, 300 // steps)
-            timings = take_turns({m: repeated(run, times) for m, run in runs.items()}, 2 if quick else 3)
-            gap = worst(1 - exact.lower / exact.upper)
-            errors = {CALL: (gap, 1.0)} | {m: _error(s, some, exact.upper) for m, s in solvers.items()}
-            ours = timings[CALL].typical
+            runs = {method: repeated(entrant.run, times) for method, entrant in entrants.items()}
+            timings = take_turns(runs, 2 if quick else 3)
             rows += [
-                (name, steps, m, 1e6 * t.typical, t.typical / ours, *errors[m]) for m, t in timings.items()
+                {
+                    "impulses": name,
+                    "steps": steps,
+                    "method": method,
+                    "microseconds": 1e6 * timing.typical,
+                    "times our call": timing.typical / timings[CALL].typical,
+                    "worst relative error": entrants[method].error,
+                    "solved": entrants[method].solved,
+                }
+                for method, timing in timings.items()
             ]
-    headings = (
-        "impulses",
-        "steps",
-        "method",
-        "microseconds",
-        "times our call",
-        "worst relative error",
-        "solved",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)
 
 
-def _ours(name: str, some: NDArray, counts: NDArray) -> Callable[[], int]:
-    engine = thrust(name)
-
-    def run() -> int:
-        for state in some:
-            engine.gauges(state[None], counts)
-        return len(some)
-
-    return run
-
-
-def _run(solver: Solver, some: NDArray) -> Callable[[], int]:
-    def run() -> int:
-        for state in some:
-            solver(state / PEAK)
-        return len(some)
-
-    return run
-
-
-def _error(solver: Solver, some: NDArray, exact: NDArray) -> tuple[float, float]:
-    values = np.array([solver(state / PEAK) for state in some])
-    found = np.isfinite(values)
-    return worst((values / exact - 1)[found]), float(found.mean())
+def _entrants(name: str, steps: int) -> dict[str, Contestant]:
+    """Our solver, and the peers where all are timed."""
+    engine, some = thrust(name), states(STATES)
+    exact = engine.gauges(some, np.full(STATES, steps))
+    opponents = {} if steps in OURS_ALONE else gauges.peers(name, quick=True)
+    ours = Contestant(gauges.one_gauge_each(engine, some, steps), worst_gap(exact.lower, exact.upper), 1.0)
+    return {CALL: ours} | {
+        method: peer(opponent.make(name, steps), exact.upper, some / PEAK)
+        for method, opponent in opponents.items()
+    }

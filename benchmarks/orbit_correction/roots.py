@@ -6,16 +6,19 @@ along -z0.
 """
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from benchmarks.clock import take_turns
+from benchmarks.clock import one_by_one, take_turns
 from benchmarks.contest import CALL, worst
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, SEED, states, thrust, unit_factors
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.orbit_correction import correct
 
@@ -119,49 +122,34 @@ def ends(work: Sequence[Task], method: str) -> Ends:
 def table(quick: bool) -> dict[str, list]:
     """Every method from random starts and from -z0, with times beside our own call for the same states."""
     states_, starts, rounds = (4, 2, 1) if quick else (40, 10, 2)
-    rows = []
-    for label, work in (("random", tasks(states_, starts)), ("along -z0", tasks(2 * states_, 0))):
-        timings = take_turns({CALL: _ours(work), **{m: _runs(work, m) for m in FINDERS}}, rounds)
-        ours = 1e6 * timings[CALL].typical
-        for method in FINDERS:
-            end, taken = ends(work, method), 1e6 * timings[method].typical
-            a_root = taken * end.starts / end.right if end.right else float("nan")
-            none = 1 - (end.right + end.spurious) / end.starts
-            shares = (end.right / end.starts, end.spurious / end.starts, none)
-            rows.append((label, method, end.starts, *shares, end.error, taken, a_root, a_root / ours))
-    headings = (
-        "start",
-        "method",
-        "starts",
-        "right root",
-        "spurious root",
-        "no root",
-        "worst relative error",
-        "microseconds a start",
-        "microseconds a right root",
-        "times our call",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    kinds = {"random": tasks(states_, starts), "along -z0": tasks(2 * states_, 0)}
+    return by_heading([row for label, work in kinds.items() for row in _rows(label, work, rounds)])
 
 
-def _runs(work: Sequence[Task], method: str) -> Callable[[], int]:
-    def run() -> int:
-        for task in work:
-            for start in task.starts:
-                attempt(task, start, method)
-        return sum(len(task.starts) for task in work)
-
-    return run
+def _rows(label: str, work: Sequence[Task], rounds: int) -> Iterator[dict[str, Any]]:
+    pairs = [(task, start) for task in work for start in task.starts]
+    runs = {
+        method: one_by_one(partial(attempt, method=method), *zip(*pairs, strict=True)) for method in FINDERS
+    }
+    timings = take_turns({CALL: _ours(work), **runs}, rounds)
+    for method in FINDERS:
+        end, taken = ends(work, method), 1e6 * timings[method].typical
+        a_root = taken * end.starts / end.right if end.right else float("nan")
+        yield {
+            "start": label,
+            "method": method,
+            "starts": end.starts,
+            "right root": end.right / end.starts,
+            "spurious root": end.spurious / end.starts,
+            "no root": 1 - (end.right + end.spurious) / end.starts,
+            "worst relative error": end.error,
+            "microseconds a start": taken,
+            "microseconds a right root": a_root,
+            "times our call": a_root / (1e6 * timings[CALL].typical),
+        }
 
 
 def _ours(work: Sequence[Task]) -> Callable[[], int]:
     """The gauge, costate and controls of the same states for the same numbers of steps."""
-    engine = thrust("ball")
-    counts = [np.array([len(task.factors)]) for task in work]
-
-    def run() -> int:
-        for task, steps in zip(work, counts, strict=True):
-            engine.gauges(PEAK * task.state[None], steps)
-        return len(work)
-
-    return run
+    engine, counts = thrust("ball"), [np.array([len(task.factors)]) for task in work]
+    return one_by_one(lambda task, steps: engine.gauges(PEAK * task.state[None], steps), work, counts)

@@ -1,10 +1,12 @@
 """Solve times against their aims: warm solves, the homotopy from coasting to least time, the full search."""
 
+from functools import partial
 from time import process_time
 
-from benchmarks.clock import repeated, take_turns
+from benchmarks.clock import one_call, repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
+from benchmarks.table import by_heading
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous import Rendezvous, solve
 from pontryagin.rendezvous.families import bounded, loose_ratios
@@ -35,17 +37,18 @@ def warm(quick: bool) -> dict[str, list]:
     """Times of warm solves of problems with a fixed duration, and the aim."""
     rows = []
     for name in problems.FIXED[:1] if quick else problems.FIXED:
-        problem, start = problems.neighbour(name), problems.solved(name)
-
-        def run(problem=problem, start=start) -> int:
-            solve(problem, start)
-            return 1
-
-        timing = take_turns({name: repeated(run, 5)}, 1 if quick else 9)[name]
-        residual = solve(problem, start).certificate.residual.item()
-        rows.append((name, 1e3 * WARM_AIM, 1e3 * timing.typical, 1e3 * timing.least, residual))
-    headings = ("case", "aim, ms", "milliseconds", "fastest round", "certificate")
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+        warm_solve = partial(solve, problems.neighbour(name), problems.solved(name))
+        timing = take_turns({name: repeated(one_call(warm_solve), 5)}, 1 if quick else 9)[name]
+        rows.append(
+            {
+                "case": name,
+                "aim, ms": 1e3 * WARM_AIM,
+                "milliseconds": 1e3 * timing.typical,
+                "fastest round": 1e3 * timing.least,
+                "certificate": warm_solve().certificate.residual.item(),
+            }
+        )
+    return by_heading(rows)
 
 
 def least_time(quick: bool) -> dict[str, list]:
@@ -54,38 +57,24 @@ def least_time(quick: bool) -> dict[str, list]:
     rows = []
     for name in ("inclined-10",) if quick else problems.LEAST:
         case = cases()[name]
-
-        def curve(case: Case = case) -> int:
-            homotopy(case.problem)
-            return 1
-
         root = homotopy(case.problem)
-        timing = take_turns({name: curve}, rounds)[name]
+        timing = take_turns({name: one_call(partial(homotopy, case.problem))}, rounds)[name]
         best, searched = problems.timed_search(name)
+        direct_seconds, direct_cost = _direct(case, best.cost)
         rows.append(
-            (
-                name,
-                HOMOTOPY_AIM,
-                timing.typical,
-                timing.least,
-                root.flight.duration / best.flight.duration,
-                searched,
-                1 + len(best.others),
-                *_direct(case, best.cost),
-            )
+            {
+                "case": name,
+                "aim, s": HOMOTOPY_AIM,
+                "one homotopy, s": timing.typical,
+                "fastest round": timing.least,
+                "its time over the best": root.flight.duration / best.flight.duration,
+                "whole search, s": searched,
+                "extremals": 1 + len(best.others),
+                "CasADi + Ipopt, cold, s": direct_seconds,
+                "its cost over ours": direct_cost,
+            }
         )
-    headings = (
-        "case",
-        "aim, s",
-        "one homotopy, s",
-        "fastest round",
-        "its time over the best",
-        "whole search, s",
-        "extremals",
-        "CasADi + Ipopt, cold, s",
-        "its cost over ours",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)
 
 
 def _direct(case: Case, best: float) -> tuple[float, float]:

@@ -1,12 +1,10 @@
 """Plots: operations of the forms, outcomes of random starts, solve times, stacks of flights."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from benchmarks.figures import FLOOR, Table, bars_of_shares, where
 from pontryagin.display.plotting import (
     BLUE,
     GREEN,
@@ -19,10 +17,6 @@ from pontryagin.display.plotting import (
     subplots,
 )
 
-Table = Mapping[str, Sequence[Any]]
-"""Columns of a table by their headings."""
-FLOOR = 1e-16
-"""Errors below this value are drawn at it."""
 MARKS = {
     "pontryagin": ("o", BLUE),
     "solve_bvp": ("v", PURPLE),
@@ -42,14 +36,9 @@ def form_costs(table: Table) -> Figure:
     for axis, (heading, label, unit) in zip(axes, columns, strict=True):
         for mode, colour in (("unsaturated", BLUE), ("saturated", ORANGE)):
             for derivatives, line in (("without", ":"), ("with", "-")):
-                chosen = [
-                    i
-                    for i in range(len(table["form"]))
-                    if (table["arc"][i], table["derivatives"][i]) == (mode, derivatives)
-                ]
-                sizes = [int(table["form"][i]) for i in chosen]
-                values = [unit * table[heading][i] for i in chosen]
-                if chosen:
+                rows = where(table, {"arc": mode, "derivatives": derivatives})
+                sizes, values = [int(form) for form in rows["form"]], [unit * x for x in rows[heading]]
+                if sizes:
                     name = f"{mode}, {derivatives} derivatives"
                     axis.plot(sizes, values, line, marker="o", color=colour, markersize=4, label=name)
         axis.set(yscale="log", xlabel="equations", ylabel=label, xticks=[10, 11, 14, 16])
@@ -65,24 +54,15 @@ def starts(table: Table) -> Figure:
     """Shares of starts that converge to a true meeting, to a false one, or not at all, by inclination."""
     panels = list(dict.fromkeys(table["inclination"]))
     figure, axes = subplots(1, len(panels), height=2.6, sharey=True, squeeze=False)
-    parts = (
-        ("meetings", BLUE, "meeting"),
-        ("false meetings", RED, "false meeting"),
-        ("no convergence", GREY, "none"),
-    )
     for axis, panel in zip(axes.flat, panels, strict=True):
-        chosen = [i for i, at in enumerate(table["inclination"]) if at == panel]
-        names = [table["form"][i] for i in chosen]
-        left = np.zeros(len(chosen))
-        for heading, colour, label in parts:
-            share = 100 * np.array([table[heading][i] for i in chosen])
-            axis.barh(names, share, left=left, color=colour, label=label, height=0.7)
-            for k, (begin, width) in enumerate(zip(left, share, strict=True)):
-                if width >= 12:
-                    axis.text(begin + width / 2, k, f"{width:.0f}", ha="center", va="center", color="white")
-            left += share
-        axis.grid(visible=False)
-        axis.set(xlim=(0, 100), title=panel.replace(" deg", "°"), xlabel="starts, %")
+        rows = where(table, {"inclination": panel})
+        parts = (
+            (rows["meetings"], BLUE, "meeting"),
+            (rows["false meetings"], RED, "false meeting"),
+            (rows["no convergence"], GREY, "none"),
+        )
+        bars_of_shares(axis, rows["form"], parts, written=12)
+        axis.set_title(panel.replace(" deg", "°"))
     axes[0, 0].invert_yaxis()
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
@@ -96,13 +76,11 @@ def solve_times(table: Table, aim: float) -> Figure:
     figure, axes = subplots(lines, 2, height=1.9 * lines + 0.5, sharex=True, sharey=True, squeeze=False)
     handles = {}
     for axis, panel in zip(axes.flat, panels, strict=False):
-        for i, at in enumerate(table["problem"]):
-            if at != panel:
-                continue
-            name = next(name for name in MARKS if table["method"][i].startswith(name))
+        rows = where(table, {"problem": panel})
+        for method, time, error in zip(rows["method"], rows["milliseconds"], rows["error"], strict=True):
+            name = next(name for name in MARKS if method.startswith(name))
             marker, colour = MARKS[name]
-            place = (table["milliseconds"][i], max(table["error"][i], FLOOR))
-            (handle,) = axis.plot(*place, marker, color=colour, linestyle="none")
+            (handle,) = axis.plot(time, max(error, FLOOR), marker, color=colour, linestyle="none")
             handles.setdefault(name, handle)
         handles["aim"] = axis.axvline(1e3 * aim, color=SKY, linestyle="--", linewidth=1)
         axis.set(title=panel, xscale="log", yscale="log")

@@ -1,14 +1,15 @@
 """Operations and times of the right-hand sides with 16, 14, 11 and 10 equations."""
 
 from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 import numpy as np
 import sympy as sp
 
-from benchmarks.clock import repeated, take_turns
+from benchmarks.clock import one_call, repeated, take_turns
 from benchmarks.rendezvous import problems, systems
 from benchmarks.rendezvous.systems import SYSTEMS
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.numerics.equations import heyoka_system
 from pontryagin.rendezvous.derivation.principle import Mode
@@ -44,32 +45,20 @@ def table(quick: bool) -> dict[str, list]:
             for size in SYSTEMS:
                 _, steps, end = flights[size]
                 rows.append(
-                    (
-                        mode,
-                        "with" if derivatives else "without",
-                        len(SYSTEMS[size](mode).states) * (7 if derivatives else 1),
-                        size,
-                        operations(size, mode, derivatives),
-                        1e9 * call_times[size].typical,
-                        steps,
-                        1e6 * flight_times[size].typical,
-                        1e6 * flight_times[size].least,
-                        float(np.abs(end[:4] - reference[:4]).max()),
-                    )
+                    {
+                        "arc": mode,
+                        "derivatives": "with" if derivatives else "without",
+                        "equations": len(SYSTEMS[size](mode).states) * (7 if derivatives else 1),
+                        "form": size,
+                        "operations": operations(size, mode, derivatives),
+                        "nanoseconds a call": 1e9 * call_times[size].typical,
+                        "steps of a flight": steps,
+                        "microseconds a flight": 1e6 * flight_times[size].typical,
+                        "fastest round": 1e6 * flight_times[size].least,
+                        "difference from 11": float(np.abs(end[:4] - reference[:4]).max()),
+                    }
                 )
-    headings = (
-        "arc",
-        "derivatives",
-        "equations",
-        "form",
-        "operations",
-        "nanoseconds a call",
-        "steps of a flight",
-        "microseconds a flight",
-        "fastest round",
-        "difference from 11",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)
 
 
 def _evaluate(size: str, mode: Mode, derivatives: bool, count: int) -> Callable[[], int]:
@@ -86,12 +75,7 @@ def _evaluate(size: str, mode: Mode, derivatives: bool, count: int) -> Callable[
     parameters = np.array(systems.parameters(size, scaled, SCALES[mode], states[:, 0]))
     values = np.broadcast_to(parameters[:, None], (len(parameters), count)).copy()
     outputs = np.empty_like(states)
-
-    def run() -> int:
-        function(states, outputs=outputs, pars=values)
-        return count
-
-    return run
+    return one_call(lambda: function(states, outputs=outputs, pars=values), count)
 
 
 def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], int, Array]:
@@ -102,16 +86,6 @@ def _fly(size: str, mode: Mode, derivatives: bool) -> tuple[Callable[[], int], i
     integrator = systems.compiled(size, mode, derivatives)
     rest = systems.identity(size).ravel() if derivatives else np.empty(0)
     state, parameters = np.concatenate([start, rest]), systems.parameters(size, scaled, SCALES[mode], start)
-
-    def fly() -> Any:
-        integrator.time = 0.0
-        integrator.state[:] = state
-        integrator.pars[:] = parameters
-        return integrator.propagate_until(duration)
-
-    def run() -> int:
-        fly()
-        return 1
-
-    steps = fly()[3]
-    return run, int(steps), integrator.state[: len(start)].copy()
+    fly = partial(systems.carried, integrator, state, parameters, duration)
+    _, steps, end = fly()
+    return one_call(fly), steps, end[: len(start)]

@@ -1,12 +1,14 @@
 """The shooting equations with their derivatives, by heyoka's Taylor series and by SciPy's DOP853."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from benchmarks.clock import take_turns
+from benchmarks.clock import one_call, take_turns
 from benchmarks.rendezvous import problems
-from pontryagin.rendezvous.reduced.conditions import Setting, equations
+from benchmarks.table import by_heading
+from pontryagin.rendezvous.reduced.conditions import equations
 
 CASES = (*problems.FIXED, "inclined-10", "inclined-60", "glonass")
 
@@ -16,22 +18,22 @@ def table(quick: bool) -> dict[str, list]:
     rows = []
     for name in CASES[:1] if quick else CASES:
         best = problems.solved(name)
-        settings = {
-            taylor: replace(problems.setting(best.problem), taylor=taylor) for taylor in (True, False)
+        setting = problems.setting(best.problem)
+        shots = {
+            heading: partial(equations, replace(setting, taylor=taylor), best.root.unknowns)
+            for heading, taylor in (("Taylor, ms", True), ("DOP853, ms", False))
         }
-        unknowns = best.root.unknowns
-
-        def run(setting: Setting, unknowns: np.ndarray = unknowns) -> int:
-            equations(setting, unknowns)
-            return 1
-
-        timings = take_turns(
-            {str(taylor): lambda setting=setting: run(setting) for taylor, setting in settings.items()},
-            1 if quick else 5,
+        runs = {heading: one_call(shot) for heading, shot in shots.items()}
+        timings = take_turns(runs, 1 if quick else 5)
+        taylor, runge = (timing.typical for timing in timings.values())
+        ours, theirs = (shot().jacobian for shot in shots.values())
+        rows.append(
+            {
+                "case": name,
+                "switches": len(best.switch_times),
+                **{heading: 1e3 * timing.typical for heading, timing in timings.items()},
+                "times slower": runge / taylor,
+                "difference of derivatives": float(np.abs(ours - theirs).max() / np.abs(ours).max()),
+            }
         )
-        ours, theirs = (equations(setting, unknowns).jacobian for setting in settings.values())
-        taylor, runge = (1e3 * timings[str(key)].typical for key in (True, False))
-        difference = float(np.abs(ours - theirs).max() / np.abs(ours).max())
-        rows.append((name, len(best.switch_times), taylor, runge, runge / taylor, difference))
-    headings = ("case", "switches", "Taylor, ms", "DOP853, ms", "times slower", "difference of derivatives")
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)

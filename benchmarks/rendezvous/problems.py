@@ -3,10 +3,10 @@
 import math
 from dataclasses import replace
 from functools import cache
-from time import process_time
 
 import numpy as np
 
+from benchmarks.clock import timed
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.problem.cases import cases
@@ -39,9 +39,7 @@ def leap(degrees: float) -> Rendezvous:
 @cache
 def timed_search(name: str) -> tuple[Extremal, float]:
     """The best extremal found for a case, and the processor time of the search."""
-    begun = process_time()
-    best = solve(cases()[name].problem)
-    return best, process_time() - begun
+    return timed(lambda: solve(cases()[name].problem))
 
 
 def solved(name: str) -> Extremal:

@@ -1,12 +1,14 @@
 """Warm solves by several methods, each from the solution of a neighbouring problem."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-from benchmarks.clock import Timing, repeated, take_turns
+from benchmarks.clock import Timing, one_call, repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import problems, pykep_peer
 from benchmarks.rendezvous.collocation import collocate, cost
+from benchmarks.table import by_heading
 from pontryagin.rendezvous import solve
 from pontryagin.rendezvous.problem.cases import cases
 
@@ -24,7 +26,8 @@ def table(quick: bool) -> dict[str, list[Any]]:
         problem, start = problems.neighbour(name), problems.solved(name)
         ours = solve(problem, start)
         runs, errors = _peers(name, ours.cost)
-        runs[OURS], errors[OURS] = _ours(name), ours.certificate.residual.item()
+        runs[OURS] = repeated(one_call(partial(solve, problem, start)), 5)
+        errors[OURS] = ours.certificate.residual.item()
         timings = take_turns(runs, rounds)
         if problem.energy_weight == 0 and not pykep_peer.absent():
             found = pykep_peer.solve(problem, start, rounds)
@@ -35,27 +38,16 @@ def table(quick: bool) -> dict[str, list[Any]]:
         for method in sorted(timings, key=lambda method: method != OURS):
             taken = timings[method]
             rows.append(
-                (
-                    name,
-                    method,
-                    1e3 * taken.typical,
-                    1e3 * taken.least,
-                    taken.typical / own,
-                    errors[method],
-                )
+                {
+                    "problem": name,
+                    "method": method,
+                    "milliseconds": 1e3 * taken.typical,
+                    "fastest round": 1e3 * taken.least,
+                    "times ours": taken.typical / own,
+                    "error": errors[method],
+                }
             )
-    headings = ("problem", "method", "milliseconds", "fastest round", "times ours", "error")
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
-
-
-def _ours(name: str) -> Callable[[], int]:
-    problem, start = problems.neighbour(name), problems.solved(name)
-
-    def run() -> int:
-        solve(problem, start)
-        return 1
-
-    return repeated(run, 5)
+    return by_heading(rows)
 
 
 def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[str, float]]:
@@ -64,14 +56,12 @@ def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[s
     runs: dict[str, Callable[[], int]] = {}
     errors: dict[str, float] = {}
     for tolerance in TOLERANCES:
-        label = f"solve_bvp, tolerance {tolerance:.0e}"
-
-        def run(tolerance: float = tolerance) -> int:
-            collocate(problem, start, tolerance)
-            return 1
-
-        runs[label] = run
-        errors[label] = abs(cost(problem, collocate(problem, start, tolerance)) / best - 1)
+        label, collocated = (
+            f"solve_bvp, tolerance {tolerance:.0e}",
+            partial(collocate, problem, start, tolerance),
+        )
+        runs[label] = one_call(collocated)
+        errors[label] = abs(cost(problem, collocated()) / best - 1)
     if absent("casadi"):
         return runs, errors
     from pontryagin.rendezvous.judge.collocation import direct
@@ -79,11 +69,7 @@ def _peers(name: str, best: float) -> tuple[dict[str, Callable[[], int]], dict[s
     case = cases()[name]
     for intervals in MESHES:
         label = f"CasADi + Ipopt, cold, {intervals} intervals"
-
-        def programme(intervals: int = intervals) -> int:
-            direct(problem, case.guess, case.revolutions, intervals)
-            return 1
-
-        runs[label] = programme
-        errors[label] = abs(direct(problem, case.guess, case.revolutions, intervals).cost / best - 1)
+        programme = partial(direct, problem, case.guess, case.revolutions, intervals)
+        runs[label] = one_call(programme)
+        errors[label] = abs(programme().cost / best - 1)
     return runs, errors

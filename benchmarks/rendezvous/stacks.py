@@ -1,16 +1,17 @@
 """Flights one by one and in vector mode, and Newton's method from many starts in both ways."""
 
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
-from benchmarks.clock import take_turns
+from benchmarks.clock import one_by_one, one_call, take_turns
 from benchmarks.contest import worst
 from benchmarks.rendezvous import problems
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.flight import fly
+from pontryagin.rendezvous.reduced.flight import Flight, fly
 from pontryagin.rendezvous.reduced.lanes import fly_all
 from pontryagin.rendezvous.reduced.multistart import (
     NEAR,
@@ -36,44 +37,35 @@ def flights(quick: bool) -> dict[str, list]:
     rows = []
     peaks = dict.fromkeys(ARCS, BOUND * float(SHOOTING.thrust(best.flight).max())) | {"unsaturated": np.inf}
     for arcs, peak in peaks.items():
-        bang = arcs == "saturated"
+        how = (duration, peak, arcs == "saturated")
 
-        def one_by_one(peak: float = peak, bang: bool = bang) -> int:
-            few = costates[: 8 if quick else 64]
-            return len([fly(scaled, z, duration, peak, bang) for z in few])
+        def single(z: Array, how: tuple[float, float, bool] = how) -> Flight:
+            return fly(scaled, z, *how)
 
-        def together(slopes: bool, peak: float = peak, bang: bool = bang) -> Callable[[], int]:
-            return lambda: len(fly_all(scaled, costates, duration, peak, bang, slopes).ends)
-
-        timings = take_turns({"one": one_by_one, "many": together(True), "ends": together(False)}, rounds)
-        found = fly_all(scaled, costates, duration, peak, bang)
-        alone = np.array([fly(scaled, z, duration, peak, bang).end for z in costates[:64]])
-        one, many, ends = (1e6 * timings[way].typical for way in ("one", "many", "ends"))
+        together = partial(fly_all, scaled, costates, *how)
+        runs = {
+            "one": one_by_one(single, costates[: 8 if quick else 64]),
+            "many": one_call(together, count),
+            "ends": one_call(partial(together, slopes=False), count),
+        }
+        one, many, ends = (1e6 * timing.typical for timing in take_turns(runs, rounds).values())
+        found, alone = together(), np.array([single(z).end for z in costates[:64]])
         rows.append(
-            (
-                arcs,
-                count,
-                float(found.switches.mean()),
-                one,
-                many,
-                ends,
-                one / many,
-                one / ends,
-                worst((found.ends[:64] - alone) / np.abs(alone).max(axis=1, keepdims=True)),
-            )
+            {
+                "flights": arcs,
+                "number": count,
+                "switches a flight": float(found.switches.mean()),
+                "one by one, microseconds": one,
+                "many, microseconds": many,
+                "many, ends alone, microseconds": ends,
+                "faster": one / many,
+                "faster, ends alone": one / ends,
+                "largest difference": worst(
+                    (found.ends[:64] - alone) / np.abs(alone).max(axis=1, keepdims=True)
+                ),
+            }
         )
-    headings = (
-        "flights",
-        "number",
-        "switches a flight",
-        "one by one, microseconds",
-        "many, microseconds",
-        "many, ends alone, microseconds",
-        "faster",
-        "faster, ends alone",
-        "largest difference",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)
 
 
 def multistarts(quick: bool) -> dict[str, list]:
@@ -81,14 +73,11 @@ def multistarts(quick: bool) -> dict[str, list]:
     best = problems.solved_leap(DEGREES)
     setting = problems.setting(best.problem)
     starts = problems.deviations(8 if quick else STARTS, SPREAD)
-
-    def alone() -> int:
-        return len([_newton(setting, z) for z in starts])
-
-    def together() -> int:
-        return len(newton_from_all(setting, starts)[0])
-
-    timings = take_turns({"one by one": alone, "side by side": together}, 1 if quick else 5)
+    runs = {
+        "one by one": one_by_one(partial(_newton, setting), starts),
+        "side by side": one_call(partial(newton_from_all, setting, starts), len(starts)),
+    }
+    timings = take_turns(runs, 1 if quick else 5)
     found = {
         "one by one": float(np.mean([_newton(setting, z) for z in starts])),
         "side by side": float(np.mean(newton_from_all(setting, starts)[1] < NEAR)),

@@ -6,12 +6,14 @@ by rounding.
 """
 
 from dataclasses import dataclass
-from time import process_time
+from functools import partial
 
 import numpy as np
 
+from benchmarks.clock import timed
 from benchmarks.rendezvous import problems
 from benchmarks.rendezvous.systems import PROBLEMS, Problem
+from benchmarks.table import by_heading
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import Extremal
 from pontryagin.rendezvous.problem.scaled import Scaled
@@ -84,9 +86,8 @@ def ends(extremal: Extremal, starts: Array) -> dict[str, Ends]:
     flights, seconds = dict.fromkeys(found, 0), dict.fromkeys(found, 0.0)
     for six in starts:
         for problem in PROBLEMS:
-            begun = process_time()
-            unknowns, used = newton(problem, scaled, six, duration)
-            seconds[problem.name] += process_time() - begun
+            (unknowns, used), taken = timed(partial(newton, problem, scaled, six, duration))
+            seconds[problem.name] += taken
             flights[problem.name] += used
             if unknowns is not None:
                 found[problem.name].append(problem.six(unknowns))
@@ -122,33 +123,19 @@ def table(quick: bool) -> dict[str, list]:
             end, values = found[problem.name], singular_values(problem, extremal)
             zero = values < ZERO * values[0]
             rows.append(
-                (
-                    f"{degrees} deg",
-                    problem.name,
-                    len(starts),
-                    end.true,
-                    end.false,
-                    end.none,
-                    end.flights,
-                    1e3 * end.seconds,
-                    float(values[0]),
-                    float(values[-1]),
-                    int(zero.sum()),
-                    float("inf") if zero.any() else float(values[0] / values[-1]),
-                )
+                {
+                    "inclination": f"{degrees} deg",
+                    "form": problem.name,
+                    "starts": len(starts),
+                    "meetings": end.true,
+                    "false meetings": end.false,
+                    "no convergence": end.none,
+                    "flights a start": end.flights,
+                    "milliseconds a start": 1e3 * end.seconds,
+                    "largest singular value": float(values[0]),
+                    "smallest singular value": float(values[-1]),
+                    "of them zero": int(zero.sum()),
+                    "condition": float("inf") if zero.any() else float(values[0] / values[-1]),
+                }
             )
-    headings = (
-        "inclination",
-        "form",
-        "starts",
-        "meetings",
-        "false meetings",
-        "no convergence",
-        "flights a start",
-        "milliseconds a start",
-        "largest singular value",
-        "smallest singular value",
-        "of them zero",
-        "condition",
-    )
-    return {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
+    return by_heading(rows)

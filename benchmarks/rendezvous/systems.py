@@ -4,6 +4,7 @@ The costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu e
 form with eight costates, Phi* and mu0 are free as well.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -100,17 +101,22 @@ def fly(
     size: str, mode: Mode, scaled: Scaled, start: Array, duration: float, scale: float, wrt: Symbols = ()
 ) -> tuple[Array, Array, int] | None:
     """The end of a flight of a form, its derivatives and the number of steps; None if it stops early."""
-    integrator = compiled(size, mode, True, wrt)
+    state = np.concatenate([start, identity(size, wrt).ravel()])
+    pars = parameters(size, scaled, scale, start)
+    outcome, steps, state = carried(compiled(size, mode, True, wrt), state, pars, duration)
     n = len(start)
-    integrator.time = 0.0
-    integrator.state[:n] = start
-    integrator.state[n:] = identity(size, wrt).ravel()
-    integrator.pars[:] = parameters(size, scaled, scale, start)
-    outcome, _, _, steps, *_ = integrator.propagate_until(duration, max_steps=STEPS)
-    state = integrator.state
     if "time_limit" not in str(outcome) or not np.isfinite(state).all():
         return None
-    return state[:n].copy(), state[n:].reshape(n, -1).copy(), steps
+    return state[:n], state[n:].reshape(n, -1), steps
+
+
+def carried(integrator: Any, state: Array, pars: Sequence[float], duration: float) -> tuple[Any, int, Array]:
+    """The outcome that heyoka reports, the number of steps and the end of a flight."""
+    integrator.time = 0.0
+    integrator.state[:] = state
+    integrator.pars[:] = pars
+    outcome, _, _, steps, *_ = integrator.propagate_until(duration, max_steps=STEPS)
+    return outcome, steps, integrator.state.copy()
 
 
 def parameters(size: str, scaled: Scaled, scale: float, start: Array) -> list[float]:

@@ -1,16 +1,17 @@
 """Plots: time against the size of the stack, and failures of ruckig against the scale."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from benchmarks.figures import Table
 from benchmarks.triple_integrator.transfers import Cell
 from pontryagin.display.plotting import INK, SEQUENTIAL, styled, subplots
 
 
 @styled
-def stack_size(table: Mapping[str, Sequence], compiled_from: int) -> Figure:
+def stack_size(table: Table, compiled_from: int) -> Figure:
     """Time per problem against the number of problems in one call."""
     figure, axis = subplots(height=3.2)
     sizes, *times = table.values()

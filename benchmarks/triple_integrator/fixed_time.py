@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from benchmarks.clock import repeated
-from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.clock import one_by_one, one_call, repeated
+from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst_gap
+from benchmarks.contest import peer as judged
 from benchmarks.triple_integrator import problems
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 
@@ -29,40 +30,20 @@ def rows(problem: str, peers: Mapping[str, Peer], count: int, large: int, rounds
     """One of `OURS` in single calls and in a stack of `large`, and the peers, all on the same problems."""
     exact = OURS[problem]
     x0, xf = problems.ends(problem, large)
-    starts, targets = x0[:count].tolist(), xf[:count].tolist()
 
-    def one_by_one() -> int:
-        for start, end in zip(starts, targets, strict=True):
-            exact(Maneuver(start, end, 1.0))
-        return count
+    def solve(start: ArrayLike, end: ArrayLike) -> Any:
+        return exact(Maneuver(start, end, 1.0))
 
-    def stack() -> int:
-        exact(Maneuver(x0, xf, 1.0))
-        return large
-
-    solution = exact(Maneuver(x0, xf, 1.0))
+    solution = solve(x0, xf)
     certificate = solution.certificate
-    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+    gap = worst_gap(certificate.dual_value, certificate.primal_value)
     sound = float((certificate.primal_residual <= 1e-12).mean())
+    single = one_by_one(solve, x0[:count].tolist(), xf[:count].tolist())
     contestants = {
-        CALL: Contestant(one_by_one, gap, sound),
-        STACK: Contestant(repeated(stack, 10), gap, sound),
+        CALL: Contestant(single, gap, sound),
+        STACK: Contestant(repeated(one_call(lambda: solve(x0, xf), large), 10), gap, sound),
     }
     for method, peer in peers.items():
-        contestants[method] = _entrant(peer, x0, xf, solution.norm)
+        some = slice(peer.count)
+        contestants[method] = judged(peer.solve, solution.norm[some], x0[some], xf[some])
     return contest(problem, contestants, rounds)
-
-
-def _entrant(peer: Peer, x0: NDArray, xf: NDArray, optimum: NDArray) -> Contestant:
-    starts, targets = x0[: peer.count], xf[: peer.count]
-    count = len(starts)
-
-    def run() -> int:
-        for ends in zip(starts, targets, strict=True):
-            peer.solve(*ends)
-        return count
-
-    values = np.array([peer.solve(*ends) for ends in zip(starts, targets, strict=True)])
-    found = np.isfinite(values)
-    error = worst((values / optimum[:count] - 1)[found])
-    return Contestant(run, error, float(found.mean()))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.optimize import Bounds, LinearConstraint, milp
 
+from benchmarks.clarabel_programme import programme
 from benchmarks.peers import absent
 from benchmarks.triple_integrator.fixed_time import Peer, Solver
 
@@ -29,18 +30,15 @@ def impulse_rows(cells: int) -> NDArray:
 def clarabel_peak(cells: int) -> Solver:
     """min p over levels u with |u| <= p and the given moments; the solver is set up once and updated."""
     rows, identity, one = peak_rows(cells), np.eye(cells), np.ones((cells, 1))
-    constraints = sparse.csc_matrix(
-        np.block([[rows, np.zeros((3, 1))], [identity, -one], [-identity, -one]]),
-    )
-    cost = np.append(np.zeros(cells), 1.0)
-    solver, settle = _clarabel(cost, constraints, np.zeros(3 + 2 * cells), equalities=3)
-    right = np.zeros(3 + 2 * cells)
+    constraints = np.block([[rows, np.zeros((3, 1))], [identity, -one], [-identity, -one]])
+    cost, right = np.append(np.zeros(cells), 1.0), np.zeros(3 + 2 * cells)
+    solver, optimum = programme(cost, constraints, right, [("Zero", 3), ("Nonnegative", 2 * cells)])
 
     def solve(x0: NDArray, xf: NDArray) -> float:
         c1, c2, c3 = _scaled_moments(x0, xf)
         right[:3] = 3 * c1, 2 * c2, c3
         solver.update(b=right)
-        return settle(solver.solve())
+        return optimum(solver.solve())
 
     return solve
 
@@ -48,31 +46,14 @@ def clarabel_peak(cells: int) -> Solver:
 def clarabel_impulse(cells: int) -> Solver:
     """The dual programme in three variables: max p.mu over |p0 + p1 sigma + p2 sigma^2| <= 1 at the nodes."""
     nodes = impulse_rows(cells).T
-    constraints = sparse.csc_matrix(np.concatenate([nodes, -nodes]))
-    solver, settle = _clarabel(np.ones(3), constraints, np.ones(2 * cells + 2), equalities=0)
+    within = np.concatenate([nodes, -nodes])
+    solver, optimum = programme(np.ones(3), within, np.ones(len(within)), [("Nonnegative", len(within))])
 
     def solve(x0: NDArray, xf: NDArray) -> float:
         solver.update(q=-np.array(_scaled_moments(x0, xf)[::-1]))
-        return -settle(solver.solve())
+        return -optimum(solver.solve())
 
     return solve
-
-
-def _clarabel(cost: NDArray, constraints: sparse.csc_matrix, right: NDArray, equalities: int):
-    import clarabel
-
-    settings = clarabel.DefaultSettings()
-    settings.verbose, settings.presolve_enable, settings.max_threads = False, False, 1
-    cones = [clarabel.NonnegativeConeT(len(right) - equalities)]
-    if equalities:
-        cones.insert(0, clarabel.ZeroConeT(equalities))
-    quadratic = sparse.csc_matrix((len(cost), len(cost)))
-    solver = clarabel.DefaultSolver(quadratic, cost, constraints, right, cones, settings)
-
-    def settle(solution) -> float:
-        return solution.obj_val if solution.status == clarabel.SolverStatus.Solved else float("nan")
-
-    return solver, settle
 
 
 def highs_peak(cells: int) -> Solver:

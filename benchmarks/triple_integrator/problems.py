@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.random import Generator
@@ -105,18 +106,9 @@ def transfers(name: str, count: int) -> Transfers:
     return Transfers(x0, xf, np.broadcast_to(peak, count), np.broadcast_to(force, count))
 
 
-def _full(rng: Generator, n: int) -> tuple:
-    return rng.standard_normal((n, 3)), rng.standard_normal((n, 3)), powers(rng, -1, 1, n), 0.0
-
-
-def _still(rng: Generator, n: int) -> tuple:
-    mask = np.array([1.0, 1.0, 0.0])
-    return rng.standard_normal((n, 3)) * mask, rng.standard_normal((n, 3)) * mask, powers(rng, -1, 1, n), 0.0
-
-
-def _rest(rng: Generator, n: int) -> tuple:
-    mask = np.array([1.0, 0.0, 0.0])
-    return rng.standard_normal((n, 3)) * mask, rng.standard_normal((n, 3)) * mask, powers(rng, -3, 3, n), 0.0
+def _normal(mask: tuple[int, int, int], decades: int, rng: Generator, n: int) -> tuple:
+    x0, xf = (rng.standard_normal((n, 3)) * mask for _ in range(2))
+    return x0, xf, powers(rng, -decades, decades, n), 0.0
 
 
 def _wide(rng: Generator, n: int) -> tuple:
@@ -135,14 +127,14 @@ def _near(rng: Generator, n: int) -> tuple:
 
 
 def _pushed(rng: Generator, n: int) -> tuple:
-    x0, xf, peak, _ = _full(rng, n)
+    x0, xf, peak, _ = _normal((1, 1, 1), 1, rng, n)
     return x0, xf, peak, rng.standard_normal(n)
 
 
 TRANSFER_CLASSES: dict[str, Callable[[Generator, int], tuple]] = {
-    "full states": _full,
-    "no acceleration at the ends": _still,
-    "rest to rest": _rest,
+    "full states": partial(_normal, (1, 1, 1), 1),
+    "no acceleration at the ends": partial(_normal, (1, 1, 0), 1),
+    "rest to rest": partial(_normal, (1, 0, 0), 3),
     "sizes 1e-3 to 1e3": _wide,
     "to an equilibrium, sizes 1e-3 to 1e3": _equilibrium,
     "ends 1e-12 to 1e-2 apart": _near,

@@ -3,10 +3,12 @@
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
-from benchmarks.clock import repeated, take_turns
+from benchmarks.clock import one_by_one, repeated, take_turns
 from benchmarks.triple_integrator import problems
-from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak, minimum_time
+from benchmarks.triple_integrator.fixed_time import OURS
+from pontryagin.triple_integrator import Maneuver, minimum_time
 from pontryagin.triple_integrator.least_time import time as least_time
 from pontryagin.triple_integrator.norms import impulse, peak
 
@@ -52,22 +54,24 @@ def by_size(quick: bool) -> dict[str, list]:
 
 def whole_calls(count: int) -> dict[str, Callable[[], int]]:
     """Each public solver on a stack, from the ends to the solution."""
-    x0, xf = problems.ends("stack", count)
-    T, bound = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
-    solvers = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
+    x0, xf, T, bound = _stack(count)
 
     def fixed_time(solve: Callable) -> Callable[[], int]:
         return lambda: len(solve(Maneuver(x0, xf, T)).norm)
 
-    calls = {name: fixed_time(solve) for name, solve in solvers.items()}
-    calls["least time"] = lambda: len(minimum_time(x0, xf, bound).duration)
-    return calls
+    calls = {name: fixed_time(solve) for name, solve in OURS.items()}
+    return calls | {"least time": lambda: len(minimum_time(x0, xf, bound).duration)}
+
+
+def _stack(count: int) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """Both ends (count, 3), durations and bounds (count,) of random problems."""
+    scales = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
+    return *problems.ends("stack", count), *scales
 
 
 def _loops(count: int) -> dict[str, Callable[[], int]]:
     """The compiled loops alone, from columns of numbers to arrays of results."""
-    x0, xf = problems.ends("stack", count)
-    T, bound = np.exp(problems.generator("durations").uniform(-1, 1, (2, count)))
+    x0, xf, T, bound = _stack(count)
     c = Maneuver(x0, xf, T).moments
     moments = [*(np.ascontiguousarray(c[:, i]) for i in range(3)), T]
     ends = [np.ascontiguousarray(x[:, i]) for x in (x0, xf) for i in range(3)]
@@ -81,21 +85,10 @@ def _loops(count: int) -> dict[str, Callable[[], int]]:
 
 def _single_calls(count: int) -> dict[str, Callable[[], int]]:
     """Each public solver, called for one problem at a time with lists of numbers."""
-    x0, xf = problems.ends("single", count)
-    pairs = list(zip(x0.tolist(), xf.tolist(), strict=True))
+    ends = [x.tolist() for x in problems.ends("single", count)]
 
     def fixed_time(solve: Callable) -> Callable[[], int]:
-        def run() -> int:
-            for start, end in pairs:
-                solve(Maneuver(start, end, 1.5))
-            return count
+        return one_by_one(lambda start, end: solve(Maneuver(start, end, 1.5)), *ends)
 
-        return run
-
-    def least() -> int:
-        for start, end in pairs:
-            minimum_time(start, end, 1.5)
-        return count
-
-    solvers = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
-    return {name: fixed_time(solve) for name, solve in solvers.items()} | {"least time": least}
+    calls = {name: fixed_time(solve) for name, solve in OURS.items()}
+    return calls | {"least time": one_by_one(lambda start, end: minimum_time(start, end, 1.5), *ends)}

@@ -8,8 +8,10 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst
+from benchmarks.clock import one_by_one, one_call, repeated
+from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst, worst_gap
 from benchmarks.peers import absent
+from benchmarks.table import by_heading
 from benchmarks.triple_integrator import problems, propagation
 from benchmarks.triple_integrator.problems import Transfers
 from pontryagin.arrays import Array
@@ -58,7 +60,7 @@ def by_ruckig(work: Transfers) -> Answers:
     count = len(work.peak)
     returned, durations = np.zeros(count, bool), np.full(count, np.nan)
     pieces, levels = np.zeros((count, 9)), np.zeros((count, 9))
-    for i, problem in enumerate(as_lists(work)):
+    for i, problem in enumerate(zip(*as_lists(work), strict=True)):
         try:
             returned[i] = solve(*problem) == ruckig.Result.Working
         except ruckig.RuckigError:
@@ -97,9 +99,9 @@ class RuckigAxis:
         return self.otg.calculate(entry, self.trajectory)
 
 
-def as_lists(work: Transfers) -> list[tuple[list[float], list[float], float]]:
-    """The problems as plain Python numbers, the fastest input of both solvers for single problems."""
-    return list(zip(work.x0.tolist(), work.xf.tolist(), work.peak.tolist(), strict=True))
+def as_lists(work: Transfers) -> tuple[list[list[float]], list[list[float]], list[float]]:
+    """Ends and bounds as plain Python numbers, the fastest input of both solvers for single problems."""
+    return work.x0.tolist(), work.xf.tolist(), work.peak.tolist()
 
 
 def rows(quick: bool) -> list[Row]:
@@ -112,56 +114,36 @@ def rows(quick: bool) -> list[Row]:
 
 def _rows(problem: str, name: str, count: int, rounds: int) -> list[Row]:
     work, large = problems.transfers(name, count), problems.transfers(name, 50 * count)
-    lists = as_lists(work)
-
-    def one_by_one() -> int:
-        for x0, xf, peak in lists:
-            minimum_time(x0, xf, peak)
-        return count
-
-    def stack() -> int:
-        minimum_time(large.x0, large.xf, large.peak)
-        return len(large.peak)
-
+    stack = (large.x0, large.xf, large.peak)
     ours = by_pontryagin(work)
-    certificate = minimum_time(large.x0, large.xf, large.peak).certificate
-    gap = worst(1 - certificate.dual_value / certificate.primal_value)
+    certificate = minimum_time(*stack).certificate
+    gap = worst_gap(certificate.dual_value, certificate.primal_value)
+    single, together = (
+        one_by_one(minimum_time, *as_lists(work)),
+        one_call(lambda: minimum_time(*stack), 50 * count),
+    )
     contestants = {
-        CALL: Contestant(one_by_one, gap, float(ours.solved.mean())),
-        STACK: Contestant(stack, gap, float(by_pontryagin(large).solved.mean())),
+        CALL: Contestant(single, gap, float(ours.solved.mean())),
+        STACK: Contestant(together, gap, float(by_pontryagin(large).solved.mean())),
     }
     if not absent("ruckig"):
         answers = by_ruckig(work)
         both = answers.solved & ours.solved
         error, solved = worst((answers.duration / ours.duration - 1)[both]), float(answers.solved.mean())
-        contestants |= {
-            method: Contestant(run, error, solved) for method, run in _ruckig_runs(work, lists).items()
-        }
+        contestants |= {method: Contestant(run, error, solved) for method, run in _ruckig_runs(work).items()}
     return contest(problem, contestants, rounds)
 
 
-def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int]]:
+def _ruckig_runs(work: Transfers) -> dict[str, Callable[[], int]]:
     import ruckig
 
-    axis = RuckigAxis()
-    count = len(lists)
-
-    def one_by_one() -> int:
-        for x0, xf, peak in lists:
-            _quietly(axis, x0, xf, peak)
-        return count
-
-    prepared = []
-    for x0, xf, peak in lists[:AXES]:
-        single = RuckigAxis()
-        _quietly(single, x0, xf, peak)
-        prepared.append((single.otg, single.input, single.trajectory))
-
-    def call_alone() -> int:
-        for _ in range(count // AXES):
-            for otg, entry, trajectory in prepared:
-                _quietly(otg.calculate, entry, trajectory)
-        return count
+    axis, count = RuckigAxis(), len(work.peak)
+    prepared = [RuckigAxis() for _ in range(AXES)]
+    for single, *problem in zip(prepared, *as_lists(work), strict=False):
+        _quietly(single, *problem)
+    alone = one_by_one(
+        _quietly, *zip(*((a.otg.calculate, a.input, a.trajectory) for a in prepared), strict=True)
+    )
 
     otg, entry, trajectory = ruckig.Ruckig(AXES), ruckig.InputParameter(AXES), ruckig.Trajectory(AXES)
     entry.synchronization = ruckig.Synchronization.No
@@ -179,8 +161,8 @@ def _ruckig_runs(work: Transfers, lists: Sequence) -> dict[str, Callable[[], int
         return count
 
     return {
-        "ruckig, one call": one_by_one,
-        "ruckig, the call alone": call_alone,
+        "ruckig, one call": one_by_one(_quietly, [axis] * count, *as_lists(work)),
+        "ruckig, the call alone": repeated(alone, count // AXES),
         f"ruckig, {AXES} axes a call": many_axes,
     }
 
@@ -241,32 +223,28 @@ def _compare(ends: str, states: str, jerk: str, work: Transfers) -> Cell:
 
 def by_cell(found: Sequence[Cell]) -> dict[str, list]:
     """A table with a row for every cell."""
-    table: dict[str, list] = {
-        "ends": [cell.ends for cell in found],
-        "states": [cell.states for cell in found],
-        "jerk": [cell.jerk for cell in found],
-        "inputs": [cell.count for cell in found],
-    }
-    for side in ("ruckig", "pontryagin"):
-        table[f"{side} fails"] = [cell.failed[side] / cell.count for cell in found]
-        table[f"{side} longer"] = [cell.longer[side] / cell.count for cell in found]
-        table[f"{side} worst miss"] = [cell.miss[side] for cell in found]
-    return table
+    return by_heading(
+        [{"ends": cell.ends, "states": cell.states, "jerk": cell.jerk} | _shares([cell]) for cell in found]
+    )
 
 
 def summary(found: Sequence[Cell]) -> dict[str, list]:
     """A table of the sums over the cells of each kind."""
-    kinds = list(dict.fromkeys((cell.ends, cell.states.startswith("each")) for cell in found))
-    groups = [[c for c in found if (c.ends, c.states.startswith("each")) == kind] for kind in kinds]
-    table: dict[str, list] = {
-        "ends": [ends for ends, _ in kinds],
-        "scales": ["each its own" if mixed else "by decades" for _, mixed in kinds],
-        "inputs": [sum(cell.count for cell in group) for group in groups],
-    }
+    kinds: dict[tuple[str, str], list[Cell]] = {}
+    for cell in found:
+        scales = "each its own" if cell.states.startswith("each") else "by decades"
+        kinds.setdefault((cell.ends, scales), []).append(cell)
+    return by_heading(
+        [{"ends": ends, "scales": scales} | _shares(kinds[ends, scales]) for ends, scales in kinds]
+    )
+
+
+def _shares(group: Sequence[Cell]) -> dict[str, float]:
+    """The number of inputs of some cells, the shares that failed and were longer, and the worst miss."""
+    inputs = sum(cell.count for cell in group)
+    row: dict[str, float] = {"inputs": inputs}
     for side in ("ruckig", "pontryagin"):
-        total = [sum(cell.failed[side] for cell in group) for group in groups]
-        longer = [sum(cell.longer[side] for cell in group) for group in groups]
-        table[f"{side} fails"] = [n / m for n, m in zip(total, table["inputs"], strict=True)]
-        table[f"{side} longer"] = [n / m for n, m in zip(longer, table["inputs"], strict=True)]
-        table[f"{side} worst miss"] = [float(np.nanmax([c.miss[side] for c in group])) for group in groups]
-    return table
+        row[f"{side} fails"] = sum(cell.failed[side] for cell in group) / inputs
+        row[f"{side} longer"] = sum(cell.longer[side] for cell in group) / inputs
+        row[f"{side} worst miss"] = float(np.fmax.reduce([cell.miss[side] for cell in group]))
+    return row

@@ -80,5 +80,5 @@ def test_modes_reproduce_what_they_replace():
 
 
 def test_alternatives_of_three_are_refused():
-    with pytest.raises(ValueError, match="one inequality"):
+    with pytest.raises(ValueError, match="two branches that one inequality decides"):
         modal([sp.Piecewise((1, x < 0), (2, x < 1), (3, True))])

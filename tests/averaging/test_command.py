@@ -85,7 +85,7 @@ def test_the_table_shows_the_best_extremals_and_says_how_many_there_are():
     assert re.search(rf"^ +extremals +{len(exact)} *$", shown, re.MULTILINE)
     assert f"minimum: cost {exact[0].cost:.8g}" in shown
     assert re.search(
-        rf"^ +further +{len(exact) - 6}, up to the cost {exact[-1].cost:.10g}", shown, re.MULTILINE
+        rf"^ +further +{len(exact) - 6}, with costs up to {exact[-1].cost:.10g}", shown, re.MULTILINE
     )
     assert "no bound from below is claimed" in " ".join(shown.split())
 
@@ -115,17 +115,21 @@ def test_files_are_drawn_and_recorded(tmp_path):
     [
         ("kepler", KEPLER[2:], "--E0 is missing"),
         ("pendulum", [], "--example takes kepler, smooth, rotor, spin-down, got 'pendulum'"),
-        ("kepler", [*KEPLER, "--v0", "1"], "--v0 does not go with --example kepler"),
-        ("kepler", [*KEPLER, "--k", "1"], "--k does not go with --example kepler"),
-        ("smooth", [*SMOOTH, "--peak", "1"], "--peak does not go with --example smooth"),
-        ("spin-down", [*SPIN, "--phase", "1", "--epsilon", "1"], "--phase does not go with --example spin"),
+        ("kepler", [*KEPLER, "--v0", "1"], "--v0 cannot be combined with --example kepler"),
+        ("kepler", [*KEPLER, "--k", "1"], "--k cannot be combined with --example kepler"),
+        ("smooth", [*SMOOTH, "--peak", "1"], "--peak cannot be combined with --example smooth"),
+        (
+            "spin-down",
+            [*SPIN, "--phase", "1", "--epsilon", "1"],
+            "--phase cannot be combined with --example spin",
+        ),
         ("kepler", [*KEPLER[:1], "0.5", *KEPLER[2:]], "--E0 must be negative"),
         ("kepler", [*KEPLER[:1], "nan", *KEPLER[2:]], "--E0 takes a number, got 'nan'"),
         ("kepler", [*KEPLER[:3], "1.5", *KEPLER[4:]], "--K0 must be below"),
         ("kepler", [*KEPLER[:-1], "0"], "--l must be"),
         ("smooth", ["--v0", "-1", "--v1", "2"], "--v0 must be"),
-        ("rotor", ROTOR, "--peak is missing, or --k"),
-        ("rotor", [*ROTOR, "--peak", "1", "--k", "1"], "--peak does not go with --k"),
+        ("rotor", ROTOR, "--peak or --k must be given"),
+        ("rotor", [*ROTOR, "--peak", "1", "--k", "1"], "--peak cannot be combined with --k"),
         ("rotor", [*ROTOR[:1], "0.5", *ROTOR[2:], "--k", "1"], "--a0 must exceed"),
         ("rotor", [*ROTOR[:4], "--mass", "cos(x)", "--k", "1"], "--mass must be positive"),
         ("rotor", [*ROTOR[:4], "--mass", "x + 2", "--k", "1"], "--mass must be 2 pi-periodic"),
@@ -135,13 +139,13 @@ def test_files_are_drawn_and_recorded(tmp_path):
         ("spin-down", [*SPIN[:1], "3,4,0", *SPIN[2:]], "--omega0 must have w_z other than 0"),
         ("spin-down", [*SPIN[:-1], "1"], "--ratio must differ from 1"),
         ("smooth", [*SMOOTH, "--epsilon", "0"], "--epsilon takes a positive number"),
-        ("smooth", [*SMOOTH, "--phase", "1"], "--phase goes with --epsilon only"),
-        ("smooth", [*SMOOTH, "--record", "a.rrd"], "--record goes with --epsilon only"),
+        ("smooth", [*SMOOTH, "--phase", "1"], "--phase needs --epsilon"),
+        ("smooth", [*SMOOTH, "--record", "a.rrd"], "--record needs --epsilon"),
         ("smooth", [*SMOOTH, "--plot", "a.gif"], "--plot takes a file name ending"),
-        ("smooth", [*SMOOTH, "--out", "a.csv"], "--out goes with --batch only"),
-        ("smooth", [*SMOOTH, "--batch", "a.csv", "--json"], "--json does not go with --batch"),
+        ("smooth", [*SMOOTH, "--out", "a.csv"], "--out needs --batch"),
+        ("smooth", [*SMOOTH, "--batch", "a.csv", "--json"], "--json cannot be combined with --batch"),
         ("smooth", ["--batch", "none.csv"], "--batch cannot read none.csv"),
-        ("smooth", ["--v0", "1", "--v1", "1", "--plot", "a.svg"], "--plot shows a motion"),
+        ("smooth", ["--v0", "1", "--v1", "1", "--plot", "a.svg"], "--plot needs a motion"),
     ],
 )
 def test_what_was_typed_wrong_is_named_in_one_line(example, arguments, begins):
@@ -188,7 +192,7 @@ class TestBatch:
         [
             ([], "v0\n1\n", "--batch: {path}, line 1: column v1 is missing"),
             (["--v1", "2"], "v0\nfast\n", "--batch: {path}, line 2: v0 takes a number"),
-            (["--v1", "2", "--k", "3"], "v0,k\n1,2\n", "--k does not go with a column of {path}"),
+            (["--v1", "2", "--k", "3"], "v0,k\n1,2\n", "--k cannot be combined with the column of {path}"),
             (["--v1", "2"], "v0\n-1\n", "--v0 must be"),
         ],
     )

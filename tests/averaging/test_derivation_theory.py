@@ -15,6 +15,7 @@ A1, A2 = principle.a
 
 @pytest.mark.slow
 def test_the_costates_follow_from_the_first_variation():
+    """Of H, (1.4), at fixed u; the ends have the target (1.2) and the cost (1.3), and H = 0 by (1.7)."""
     H = principle.hamiltonian()
     expected = sp.Matrix([-H.diff(x) for x in (*principle.a, principle.psi)])
     assert sp.simplify(principle.costate_rates() - expected).is_zero_matrix
@@ -25,6 +26,7 @@ def test_the_costates_follow_from_the_first_variation():
 
 
 def test_the_envelope_and_the_conservation_of_h():
+    """The control is that of (1.5), the integral that of (1.8)."""
     assert principle.envelope() == [0] * 6
     H = principle.omega * principle.q + principle.epsilon * principle.h_star
     assert principle.along(H) == 0
@@ -32,6 +34,7 @@ def test_the_envelope_and_the_conservation_of_h():
 
 
 def test_the_phase_costate_solves_the_level_to_second_order():
+    """The level is (1.8)."""
     first, second = principle.phase_costate()
     h = 1 + sp.sin(principle.psi) + A1 * principle.q + principle.epsilon * A2
     concrete = {principle.h_star: h, principle.omega: 1 + A1**2}
@@ -48,6 +51,7 @@ def test_the_phase_costate_solves_the_level_to_second_order():
 
 @pytest.mark.slow
 def test_the_averaged_system_keeps_its_integral_and_its_hamiltonian():
+    """The integral (2.10) along (2.3), H0 along (2.11)."""
     assert averaged.homogeneity() == 0
     assert set(averaged.mean_and_derivative_commute()) == {0}
     assert averaged.along(averaged.integral(), averaged.standard_rates()) == 0
@@ -59,6 +63,7 @@ def test_the_averaged_system_keeps_its_integral_and_its_hamiltonian():
 
 
 def test_the_main_result_and_what_follows_from_it():
+    """(2.14), (2.15) and (2.16)."""
     assert optimum.lagrange_identity() == 0
     assert optimum.cost_by_the_end() == 0
     slope = averaged.kappa * optimum.Psi.diff(averaged.kappa)

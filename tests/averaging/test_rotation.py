@@ -144,6 +144,7 @@ def test_a_nearly_symmetric_body_follows_the_averages_within_order_epsilon():
 
 @pytest.mark.slow
 def test_a_rotor_follows_the_averaged_energy_with_the_power_of_the_force():
+    """The rotor (3.1) is integrated by SciPy."""
     speed = sp.lambdify([rotor.a, rotor.x], rotor.speed(MASS, POTENTIAL))
     acceleration = sp.lambdify(
         [rotor.x, rotor.v, rotor.epsilon, rotor.u], rotor.acceleration(MASS, POTENTIAL, FORCE)
@@ -212,6 +213,7 @@ CONDITION = sp.lambdify(
 
 @given(st.floats(0.2, 3), st.floats(0.2, 3), st.floats(0.1, 4), st.integers(-9, 9))
 def test_the_smooth_example_is_a_minimum_in_kappa(start, end, price, shift):
+    """J0 is least, (2.9), among the roots of the condition (2.12), as (2.15) says near kappa = 0."""
     if abs(start - end) < 0.05:
         return
     gap, kappa = start - end, shift / 40

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from benchmarks.averaging import collocation, enumeration, examples, figures, flows
 from benchmarks.averaging.examples import EXAMPLES, OWN, SMOOTH
+from benchmarks.table import by_heading
 from numpy.testing import assert_allclose
 from scipy.optimize import approx_fprime
 
@@ -95,14 +96,10 @@ def test_where_solve_bvp_ends_is_told_by_place_and_kind(smooth):
 def test_rows_of_exact_and_averaged_and_their_figure(monkeypatch):
     monkeypatch.setattr(enumeration, "SHOTS", 1)
     monkeypatch.setattr(enumeration, "ROUNDS", 1)
-    rows = enumeration._of_one(EXAMPLES[SMOOTH].one, (0.1, 0.05))
-    assert [row[2] for row in rows] == [3, 7] and [row[3] for row in rows] == [2, 4]
-    assert all(row[10] < 2 * row[9] for row in rows)  # the correction reduces the error of the cost
-    table = {
-        "example": [SMOOTH] * 2,
-        "epsilon": [row[0] for row in rows],
-        **{heading: [row[i] for row in rows] for heading, i in zip(figures.TIMES, (5, 6, 7), strict=True)},
-    }
+    rows = list(enumeration.of_one(SMOOTH, (0.1, 0.05)))
+    assert [(row["extremals"], row["minima"]) for row in rows] == [(3, 2), (7, 4)]
+    assert all(row["error of J0 + epsilon J1"] < 2 * row["error of J0"] for row in rows)
+    table = by_heading(rows)
     axis = figures.price_of_exactness(table).axes[0]
     assert [list(line.get_xdata()) for line in axis.lines] == [[0.1, 0.05]] * 3
     assert axis.get_ylabel() == "processor time, ms"

@@ -1,7 +1,6 @@
 """The command line prints the answers of the solvers, and each error in one line."""
 
 import csv
-import io
 import json
 import os
 import re
@@ -15,10 +14,18 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
+import command_line
+from command_line import (
+    assert_examples_run,
+    assert_numbers,
+    assert_plots,
+    assert_refused,
+    read_table,
+    run,
+    write_table,
+)
 from pontryagin import __version__, ledger, papers
-from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.report import build
 from pontryagin.triple_integrator import (
@@ -40,26 +47,15 @@ SOLVERS = {
 }
 
 
-def run(*arguments):
-    return CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
+SOLVE = ("solve", "triple-integrator")
 
 
 def solve(*arguments):
-    return run("solve", "triple-integrator", *arguments)
+    return run(*SOLVE, *arguments)
 
 
 def answer(*arguments):
-    result = solve(*arguments, "--json")
-    assert result.exit_code == 0, result.stderr
-    return json.loads(result.stdout)
-
-
-def as_json(value):
-    """Arrays as lists, and null where there is no finite number."""
-    array = np.asarray(value)
-    if array.dtype.kind != "f":
-        return array.tolist()
-    return np.where(np.isfinite(array), array, None).tolist()
+    return command_line.answer(*SOLVE, *arguments)
 
 
 class TestSolutions:
@@ -72,17 +68,13 @@ class TestSolutions:
     def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(self, norm):
         printed = answer("--norm", norm, *ENDS, "--t0", "1", "--duration", "2.5", "--disturbance", "0.3")
         solution = SOLVERS[norm](Maneuver(X0, XF, 3.5, t0=1.0, disturbance=0.3))
-        for name, value in printed["solution"].items():
-            assert value == as_json(getattr(solution, name)), name
-        for name, value in printed["certificate"].items():
-            assert value == float(getattr(solution.certificate, name)), name
+        assert_numbers(printed["solution"], solution)
+        assert_numbers(printed["certificate"], solution.certificate)
         assert printed["problem"]["moments"] == solution.maneuver.moments.tolist()
 
     def test_json_of_a_least_time_holds_the_numbers_of_the_solver(self):
         printed = answer("--peak", "32", *ENDS, "--disturbance", "1/3")
-        solution = minimum_time(X0, XF, 32.0, 1 / 3)
-        for name, value in printed["solution"].items():
-            assert value == as_json(getattr(solution, name)), name
+        assert_numbers(printed["solution"], minimum_time(X0, XF, 32.0, 1 / 3))
 
     @pytest.mark.parametrize("goal", [["--norm", q, "--duration", "2"] for q in SOLVERS] + [["--peak", "9"]])
     def test_the_states_printed_are_the_given_ends(self, goal):
@@ -147,12 +139,7 @@ class TestFiles:
 
     @pytest.mark.slow
     def test_a_plot_is_drawn_in_the_format_of_its_name(self, tmp_path):
-        starts = {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}
-        for name, start in starts.items():
-            result = solve(*self.GOAL, "--plot", tmp_path / name)
-            assert result.exit_code == 0
-            assert result.stderr == f"wrote {tmp_path / name}\n"
-            assert (tmp_path / name).read_bytes().startswith(start)
+        assert_plots(tmp_path, *SOLVE, *self.GOAL)
         size = ElementTree.parse(tmp_path / "a.svg").getroot().attrib["viewBox"].split()
         assert float(size[2]) > 300
         assert float(size[3]) > 200
@@ -180,16 +167,6 @@ class TestFiles:
         assert_refused(result, f"{option} cannot write {tmp_path / 'file' / name}")
 
 
-def assert_refused(result, begins, status=2):
-    """One line on standard error that begins with `begins`, and nothing on standard output."""
-    assert result.exit_code == status
-    assert result.stdout == ""
-    assert result.stderr.startswith(f"Error: {begins}"), result.stderr
-    assert result.stderr.count("\n") == 1
-    assert result.stderr.isprintable() or result.stderr.strip().isprintable()
-    assert not set("│╭─┌") & set(result.stderr)
-
-
 GOAL = ["--norm", "2", "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2"]
 
 
@@ -204,7 +181,7 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("arguments", "begins"),
         [
-            (options(x0="0,0"), "--x0 takes 3 numbers with commas between, got '0,0'"),
+            (options(x0="0,0"), "--x0 takes 3 numbers separated by commas, got '0,0'"),
             (options(x0="0,nan,0"), "--x0 takes"),
             (options(xf="1,two,3"), "--xf takes"),
             (options(x0=None), "--x0 is missing"),
@@ -218,8 +195,8 @@ class TestRefusals:
             (options(norm="L2"), "--norm takes"),
             (options(norm="nan"), "--norm takes"),
             (options(norm=None), "--norm is missing"),
-            (options(peak="1"), "--norm does not go with --peak"),
-            (options(peak="1", norm=None), "--duration does not go with --peak"),
+            (options(peak="1"), "--norm cannot be combined with --peak"),
+            (options(peak="1", norm=None), "--duration cannot be combined with --peak"),
             (options(peak="0", norm=None, duration=None), "--peak takes a positive number"),
             (
                 options(peak="1", norm=None, duration=None, disturbance="t"),
@@ -233,10 +210,10 @@ class TestRefusals:
                 "--plot takes a file name ending in .svg or .pdf or .png, got a.gif",
             ),
             (options(record="a.mp4"), "--record takes a file name ending in .rrd"),
-            (options(samples="3"), "--samples goes with --json only"),
+            (options(samples="3"), "--samples needs --json"),
             (options(samples="-3"), "Invalid value for '--samples'"),
-            (options(out="a.csv"), "--out goes with --batch only"),
-            (options(batch="a.csv"), "--duration does not go with --batch"),
+            (options(out="a.csv"), "--out needs --batch"),
+            (options(batch="a.csv"), "--duration cannot be combined with --batch"),
             (options(colour="red"), "No such option: --colour"),
             ([*options(), "again"], "Got unexpected extra argument"),
             (["--x0"], "Option '--x0' requires an argument"),
@@ -286,19 +263,15 @@ class TestBatch:
         ["rest", "0", "0", "0", "0", "0", "0", "0", "1"],
     )
 
-    def write(self, path, rows=ROWS, header=HEADER):
-        path.write_text("\n".join(",".join(row) for row in [header, *rows]) + "\n")
-        return path
-
-    def read(self, text):
-        return list(csv.DictReader(io.StringIO(text)))
+    def write(self, folder, rows=ROWS, header=HEADER):
+        return write_table(folder / "problems.csv", header, rows)
 
     @pytest.mark.parametrize("norm", SOLVERS)
     def test_each_row_comes_back_with_its_own_solution(self, tmp_path, norm):
-        problems, results = self.write(tmp_path / "in.csv"), tmp_path / "out.csv"
+        problems, results = self.write(tmp_path), tmp_path / "out.csv"
         result = solve("--norm", norm, "--batch", problems, "--out", results)
         assert (result.exit_code, result.stdout) == (0, "")
-        rows = self.read(results.read_text())
+        rows = read_table(results.read_text())
         assert [row["name"] for row in rows] == ["first", "second", "rest"]
         assert rows[1]["x1f"] == "pi/4"
         single = SOLVERS[norm](Maneuver(X0, XF, 3.5, t0=1.0))
@@ -307,15 +280,15 @@ class TestBatch:
         assert all(abs(float(row["gap"])) < 1e-10 for row in rows)
 
     def test_vectors_become_columns_and_absent_impulses_are_empty(self, tmp_path):
-        rows = self.read(solve("--norm", "1", "--batch", self.write(tmp_path / "in.csv")).stdout)
+        rows = read_table(solve("--norm", "1", "--batch", self.write(tmp_path)).stdout)
         assert [float(rows[0][f"impulses_{i}"]) for i in (1, 2, 3)] == pytest.approx([1, -2, 1])
         assert [rows[2][f"impulse_times_{i}"] for i in (1, 2, 3)] == ["", "", ""]
         assert [row["regime"] for row in rows] == ["chebyshev", rows[1]["regime"], "zero"]
 
     def test_least_times_need_no_times(self, tmp_path):
         rows = [row[1:7] for row in self.ROWS]
-        problems = self.write(tmp_path / "in.csv", rows, self.HEADER[1:7])
-        found = self.read(solve("--peak", "32", "--batch", problems).stdout)
+        problems = self.write(tmp_path, rows, self.HEADER[1:7])
+        found = read_table(solve("--peak", "32", "--batch", problems).stdout)
         durations = [float(row["duration"]) for row in found]
         assert durations[0] == pytest.approx(1.0, rel=1e-12)
         assert durations[1] == pytest.approx(float(minimum_time(X0, XF, 32.0).duration), rel=1e-12)
@@ -329,15 +302,15 @@ class TestBatch:
                 HEADER,
                 "line 3: x30 takes a number, got 'much'",
             ),
-            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: 5 entries under 9 columns"),
+            ([ROWS[0], ROWS[2][:5]], HEADER, "line 3: has 5 entries, but the header has 9"),
             ([[*ROWS[1][:8], "1"]], HEADER, "line 2: tf must be later than t0, got t0 = 1.0 and tf = 1.0"),
             ([[*ROWS[1][:8], "nan"]], HEADER, "line 2: tf takes a number"),
             (ROWS, ["name", "y10", *HEADER[2:]], "line 1: column x10 is missing"),
-            ([], HEADER, "line 2: there is no problem"),
+            ([], HEADER, "line 2: the file holds no problem"),
         ],
     )
     def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):
-        problems = self.write(tmp_path / "in.csv", rows, header)
+        problems = self.write(tmp_path, rows, header)
         assert_refused(solve("--norm", "2", "--batch", problems), f"--batch: {problems}, {line}")
 
     def test_a_file_that_is_not_there_is_named(self, tmp_path):
@@ -346,7 +319,7 @@ class TestBatch:
 
     def test_a_row_beyond_floating_point_is_named(self, tmp_path):
         hopeless = ["far", "0", "0", "0", "1e308", "0", "0", "0", "1e-200"]
-        result = solve("--norm", "inf", "--batch", self.write(tmp_path / "in.csv", [*self.ROWS, hopeless]))
+        result = solve("--norm", "inf", "--batch", self.write(tmp_path, [*self.ROWS, hopeless]))
         assert_refused(result, "--xf must give, with x0 and tf - t0, a control")
         assert "at index [3]" in result.stderr
 
@@ -410,13 +383,8 @@ class TestHelp:
 
     def test_every_example_in_the_help_runs(self, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
-        TestBatch().write(tmp_path / "problems.csv")
-        helps = [run(*command, "--help").stdout for command in (["solve", "triple-integrator"], ["ledger"])]
-        examples = re.findall(r"^ +pontryagin (.*)$", "\n".join(helps), re.MULTILINE)
-        assert len(examples) >= 5
-        for example in examples:
-            result = CliRunner().invoke(app, example)
-            assert result.exit_code == 0, (example, result.stderr)
+        TestBatch().write(tmp_path)
+        assert_examples_run(6, SOLVE, ["ledger"])
 
 
 class TestProcess:

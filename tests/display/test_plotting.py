@@ -43,6 +43,13 @@ PROTANOPIA = [
 ]
 
 
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The folder that figures are kept in."""
+    monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
+    return tmp_path
+
+
 @plotting.styled
 def two_curves(curves: int = 2) -> Figure:
     figure, axes = plotting.subplots()
@@ -96,23 +103,21 @@ def test_the_style_is_applied_for_good_when_asked_for():
         assert {key: mpl.rcParams[key] for key in wanted} == wanted
 
 
-def test_a_figure_and_a_table_are_kept_under_their_notebook(tmp_path, monkeypatch):
-    monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
+def test_a_figure_and_a_table_are_kept_under_their_notebook(folder):
     figure = plotting.save(two_curves(), "01-overview")
     table = plotting.save_table({"q": [1, 2]}, "01-overview", "norms")
-    assert figure == tmp_path / "01-overview" / "two-curves.svg"
+    assert figure == folder / "01-overview" / "two-curves.svg"
     assert figure.read_text() == plotting.svg_of(two_curves())
     assert table.read_text() == "q\n1\n2\n"
 
 
 @pytest.mark.parametrize("name", ["../up", "Three Programmes", "a/b", ".hidden"])
-def test_names_that_are_no_file_names_are_refused(name, tmp_path, monkeypatch):
-    monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
+def test_names_that_are_no_file_names_are_refused(name, folder):
     with pytest.raises(ValueError, match="name: got"):
         plotting.save(two_curves(), "01-overview", name)
     with pytest.raises(ValueError, match="notebook: got"):
         plotting.save(two_curves(), name)
-    assert not list(tmp_path.rglob("*.svg"))
+    assert not list(folder.rglob("*.svg"))
 
 
 def test_a_figure_without_a_name_is_refused():
@@ -127,13 +132,12 @@ def displayed(monkeypatch):
     return seen
 
 
-def test_show_saves_and_displays_the_same_picture(tmp_path, monkeypatch, displayed):
-    monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
+def test_show_saves_and_displays_the_same_picture(folder, monkeypatch, displayed):
     monkeypatch.setenv("PONTRYAGIN_NOTEBOOK", "01-overview")
     plotting.show(two_curves(3), name="three", caption="Three lines.")
     plotting.show_table({"q": [1]}, "norms")
     (figure, figure_metadata), (table, table_metadata) = displayed
-    assert figure["image/svg+xml"] == (tmp_path / "01-overview" / "three.svg").read_text()
+    assert figure["image/svg+xml"] == (folder / "01-overview" / "three.svg").read_text()
     assert figure_metadata["pontryagin"]["caption"] == "Three lines."
     assert table["text/markdown"] == "| q |\n| --: |\n| 1 |"
     assert table_metadata["pontryagin"] == {
@@ -145,9 +149,8 @@ def test_show_saves_and_displays_the_same_picture(tmp_path, monkeypatch, display
 
 
 @pytest.mark.slow
-def test_outside_a_known_notebook_show_only_displays(tmp_path, monkeypatch, displayed):
-    monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path))
+def test_outside_a_known_notebook_show_only_displays(folder, monkeypatch, displayed):
     monkeypatch.delenv("PONTRYAGIN_NOTEBOOK", raising=False)
     monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
     plotting.show(two_curves())
-    assert len(displayed) == 1 and not list(tmp_path.iterdir())
+    assert len(displayed) == 1 and not list(folder.iterdir())

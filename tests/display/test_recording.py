@@ -24,6 +24,15 @@ def target(tmp_path):
     return tmp_path / "turn.rrd"
 
 
+def layout_batches(path):
+    """The batches of columns that describe the layout in a recording."""
+    from rerun.chunk import RrdReader
+
+    reader = RrdReader(str(path))
+    (layout,) = reader.blueprints()
+    return [chunk.to_record_batch() for chunk in reader.stream(store=layout).to_chunks()]
+
+
 def write_turn(path):
     with record(path, "turn", LAYOUT) as turn:
         turn.body("turn/craft", T, ATTITUDE, size=(2.0, 1.2, 0.6), position=np.outer(T, [1, 2, 3]))
@@ -104,17 +113,13 @@ def test_rerun_verifies_the_file_and_no_damaged_one(target):
 
 
 def test_the_layout_travels_in_the_file(target):
-    from rerun.chunk import RrdReader
-
     write_turn(target)
-    reader = RrdReader(str(target))
-    (layout,) = reader.blueprints()
-    views = set()
-    for chunk in reader.stream(store=layout).to_chunks():
-        batch = chunk.to_record_batch()
-        names = [f"ViewBlueprint:{part}" for part in ("class_identifier", "display_name", "space_origin")]
-        if set(names) <= set(batch.schema.names):
-            views.add(tuple(batch[name].to_pylist()[0][0] for name in names))
+    names = [f"ViewBlueprint:{part}" for part in ("class_identifier", "display_name", "space_origin")]
+    views = {
+        tuple(batch[name].to_pylist()[0][0] for name in names)
+        for batch in layout_batches(target)
+        if set(names) <= set(batch.schema.names)
+    }
     assert views == {
         ("3D", "the turn", "turn"),
         ("TimeSeries", "angle", "angle"),
@@ -123,16 +128,11 @@ def test_the_layout_travels_in_the_file(target):
 
 
 def test_a_plot_s_span_and_a_scene_s_eye_travel_too(target):
-    from rerun.chunk import RrdReader
-
     eye = ((1.0, 2.0, 3.0), (0.0, 0.5, 0.0))
     with record(target, "turn", [[Scene("the turn", "turn", eye)], [Plot("angle", "angle", span=(-1, 2.5))]]):
         pass
-    reader = RrdReader(str(target))
-    found = {}
-    for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks():
-        batch = chunk.to_record_batch()
-        found |= {name: batch[name].to_pylist()[0] for name in batch.schema.names if ":" in name}
+    batches = layout_batches(target)
+    found = {name: b[name].to_pylist()[0] for b in batches for name in b.schema.names if ":" in name}
     assert found["ScalarAxis:range"] == [[-1.0, 2.5]]
     assert found["ScalarAxis:zoom_lock"] == [True]
     assert found["EyeControls3D:position"] == [list(eye[0])]

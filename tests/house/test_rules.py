@@ -83,11 +83,8 @@ def test_no_two_files_import_each_other_even_in_a_circle():
 
 @pytest.mark.parametrize("name", [*trees()])
 def test_a_module_is_one_step_and_says_in_one_line_what_it_holds(name):
-    tree = trees()[name]
-    path = SOURCE.parent / Path(*name.split("."))
-    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-    assert len(file.read_text(encoding="utf-8").splitlines()) <= LONGEST
-    words = ast.get_docstring(tree)
+    assert len(text_of(name).splitlines()) <= LONGEST
+    words = ast.get_docstring(trees()[name])
     assert words and len(words.splitlines()[0]) <= 110
 
 

@@ -95,9 +95,9 @@ def test_an_expression_holds_what_was_typed_in_every_variable():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("x^13", "power"),
-        ("(1+x)^1e9", "power"),
-        ("2^x", "power"),
+        ("x^13", "exponent that is not a number from -12 to 12"),
+        ("(1+x)^1e9", "exponent that is not a number"),
+        ("2^x", "exponent that is not a number"),
         ("x*9**9**9**9", "no finite"),
         ("x + y", "not a formula: takes numbers, x, v, pi"),
         ("x.evalf()", "not a formula"),

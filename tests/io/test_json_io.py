@@ -35,7 +35,7 @@ def test_text_truth_values_and_none_stay_as_they_are():
     ("text", "words"),
     [
         ('{"a": 1,\n "b" 2}', "line 2, column 6: Expecting ':' delimiter"),
-        ('{"a": {"b": 1, "b": 2}}', "b is there twice"),
+        ('{"a": {"b": 1, "b": 2}}', "b occurs twice in one object"),
         ("[" * 100_000, "nested too deeply"),
     ],
 )

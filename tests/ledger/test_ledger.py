@@ -116,7 +116,9 @@ def test_evidence_that_the_table_does_not_admit_earns_nothing():
     class Opinion(Proof):
         """Evidence of a kind that the table of verdicts does not know."""
 
-    with pytest.raises(Unsupported, match="Opinion is no evidence that the table admits for 'holds'"):
+    with pytest.raises(
+        Unsupported, match="Opinion is no evidence that the table of verdicts admits for 'holds'"
+    ):
         entry("holds", Opinion(true_steps)).check()
 
 

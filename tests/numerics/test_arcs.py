@@ -23,16 +23,16 @@ def relay(taylor):
     return SwitchedFlow(lambda sign: Arc(along, (sign,)), lambda sign, _: -sign, jumps=True)
 
 
-def start(system, state):
-    return np.append(state, system.identity)
+def start(flow, mode, state):
+    """A state with the identity of its derivatives."""
+    return np.append(state, flow.arc(mode).integrator.equations.identity)
 
 
 @pytest.mark.parametrize("taylor", KINDS)
 def test_a_relay_oscillator_switches_every_half_period(taylor):
     """From rest at x0 the first switch is after sqrt(2 x0), the others every 2 sqrt(2 x0)."""
     flow, x0 = relay(taylor), 0.8
-    equations = flow.arc(1.0).integrator.equations
-    pieces, last = follow(flow, start(equations, [x0, 0.0]), 1.0, 0.0, 10.0)
+    pieces, last = follow(flow, start(flow, 1.0, [x0, 0.0]), 1.0, 0.0, 10.0)
     quarter = np.sqrt(2 * x0)
     begins = np.array([piece.begin for piece in pieces])
     assert_allclose(begins[1:], quarter * np.arange(1, 2 * len(pieces) - 2, 2), rtol=1e-12)
@@ -60,9 +60,8 @@ def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
     s = (times + 1) % 4 - 1
     s, sign = np.where(s > 1, s - 2, s), np.where(s > 1, -1.0, 1.0)
     expected = np.stack([sign * (0.5 - s * s / 2), -sign * s], axis=1)
-    equations = flow.arc(1.0).integrator.equations
-    assert_allclose(follow_on_grid(flow, start(equations, [x0, 0.0]), 1.0, times), expected, atol=1e-12)
-    pieces, _ = follow(flow, start(equations, [x0, 0.0]), 1.0, 0.0, 4.0)
+    assert_allclose(follow_on_grid(flow, start(flow, 1.0, [x0, 0.0]), 1.0, times), expected, atol=1e-12)
+    pieces, _ = follow(flow, start(flow, 1.0, [x0, 0.0]), 1.0, 0.0, 4.0)
     shuffled = np.random.default_rng(2).permutation(len(times))
     assert_allclose(sample(flow, pieces, times[shuffled]), expected[shuffled], atol=1e-12)
     assert places(pieces, np.array([0.0, 0.9, 1.1, 3.9])).tolist() == [0, 0, 1, 2]
@@ -71,9 +70,8 @@ def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
 @pytest.mark.parametrize("taylor", KINDS)
 def test_an_oscillator_that_runs_backwards_is_where_it_began(taylor):
     flow = relay(taylor)
-    equations = flow.arc(1.0).integrator.equations
-    pieces, last = follow(flow, start(equations, [0.8, 0.3]), 1.0, 0.0, 7.0)
-    _, back = follow(flow, start(equations, last[:2]), pieces[-1].mode, 7.0, 0.0)
+    pieces, last = follow(flow, start(flow, 1.0, [0.8, 0.3]), 1.0, 0.0, 7.0)
+    _, back = follow(flow, start(flow, pieces[-1].mode, last[:2]), pieces[-1].mode, 7.0, 0.0)
     assert_allclose(back[:2], [0.8, 0.3], atol=1e-12)
     assert_allclose(back[2:].reshape(2, 2) @ last[2:].reshape(2, 2), np.eye(2), atol=1e-10)
 
@@ -96,8 +94,7 @@ def curve(of, t, z, p):
 def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
     """From rest at x0 the switch is at sqrt(x0); each mode has a kernel of its own."""
     flow, x0 = bang_bang(taylor), 1.3
-    equations = flow.arc("-").integrator.equations
-    pieces, last = follow(flow, start(equations, [x0, 0.0]), "-", 0.0, 2 * np.sqrt(x0))
+    pieces, last = follow(flow, start(flow, "-", [x0, 0.0]), "-", 0.0, 2 * np.sqrt(x0))
     assert [piece.mode for piece in pieces] == ["-", "+"]
     assert_allclose(pieces[1].begin, np.sqrt(x0), rtol=1e-14)
     assert_allclose(last[:2], 0.0, atol=1e-14)
@@ -115,11 +112,10 @@ def test_a_tangency_is_no_switch_to_differentiate(taylor):
         jumps=True,
         grazing=0.2,
     )
-    equations = flow.arc(0).integrator.equations
-    touch = start(equations, [0.49, -1.0])
+    touch = start(flow, 0, [0.49, -1.0])
     with pytest.raises(NotConverged, match="touches zero without crossing"):
         follow(flow, touch, 0, 0.0, 3.0)
-    clear = start(equations, [0.5 + 1e-3, -1.0])
+    clear = start(flow, 0, [0.5 + 1e-3, -1.0])
     assert len(follow(flow, clear, 0, 0.0, 3.0)[0]) == 1
 
 
@@ -135,11 +131,10 @@ def height(of, t, z, p):
 def test_switches_without_end_are_given_up(taylor):
     flow = relay(taylor)
     few = SwitchedFlow(flow.arc, flow.following, jumps=True, most=5)
-    equations = flow.arc(1.0).integrator.equations
-    with pytest.raises(NotConverged, match="switches too often"):
-        follow(few, start(equations, [0.01, 0.0]), 1.0, 0.0, 50.0)
-    with pytest.raises(NotConverged, match="switches too often"):
-        follow_on_grid(few, start(equations, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
+    with pytest.raises(NotConverged, match="switches more than 5 times"):
+        follow(few, start(flow, 1.0, [0.01, 0.0]), 1.0, 0.0, 50.0)
+    with pytest.raises(NotConverged, match="switches more than 5 times"):
+        follow_on_grid(few, start(flow, 1.0, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
 
 
 @HEYOKA

@@ -1,7 +1,7 @@
 """Curves of solutions on textbook problems: a circle, a cubic, Bratu's fold."""
 
 import itertools
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy as np
 import pytest
@@ -11,11 +11,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, between, by_differences, crossings, follow, march, reach
 from pontryagin.numerics.newton import newton
 
-
-@dataclass(frozen=True)
-class Equations:
-    residual: np.ndarray
-    jacobian: np.ndarray
+Equations = namedtuple("Equations", ["residual", "jacobian"])
 
 
 def circle(x, p):

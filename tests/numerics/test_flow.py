@@ -81,11 +81,11 @@ def test_fractions_are_taken_as_they_are(taylor):
 
 
 def test_bad_systems_are_refused_by_name():
-    with pytest.raises(ValueError, match="one expression for each of 2 states, got 1"):
+    with pytest.raises(ValueError, match="one rate for each of 2 states, got 1"):
         flow([x, v], [v])
-    with pytest.raises(ValueError, match="got symbols m"):
+    with pytest.raises(ValueError, match="and the clock, got m"):
         flow([x, v], [v, -m * x], [k])
-    with pytest.raises(ValueError, match="got symbols t"):
+    with pytest.raises(ValueError, match="and the clock, got t"):
         ends([x], [t * x])
 
 

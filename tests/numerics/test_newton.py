@@ -1,6 +1,6 @@
 """Newton's method on textbook problems: the solution, and the reported reason for stopping."""
 
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy as np
 import pytest
@@ -10,11 +10,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton import expected, newton
 from pontryagin.numerics.newton_stack import Evaluated, newton_stack, solved
 
-
-@dataclass(frozen=True)
-class Linear:
-    residual: np.ndarray
-    jacobian: np.ndarray
+Linear = namedtuple("Linear", ["residual", "jacobian"])
 
 
 def scalar(function, slope):

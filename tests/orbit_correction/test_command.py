@@ -1,17 +1,22 @@
 """The command line prints what the solver found, and reports every mistake in one line."""
 
-import csv
-import io
-import json
 import re
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
-from typer.testing import CliRunner
 
-from pontryagin.cli import app
+from command_line import (
+    answer,
+    assert_examples_run,
+    assert_numbers,
+    assert_plots,
+    assert_refused,
+    read_table,
+    run,
+    write_table,
+)
 from pontryagin.display.recording import read_back
 from pontryagin.orbit_correction import correct, printed
 from pontryagin.orbit_correction.system.satellite import LINEAR
@@ -20,33 +25,26 @@ STATE = list(printed.Z0)
 Z0 = ",".join(map(str, STATE))
 
 
+SOLVE = ("solve", "orbit-correction")
+
+
 def solve(*arguments):
-    arguments = ["solve", "orbit-correction", *(str(argument) for argument in arguments)]
-    return CliRunner().invoke(app, arguments, catch_exceptions=False)
-
-
-def assert_refused(result, begins, status=2):
-    assert (result.exit_code, result.stdout) == (status, "")
-    assert result.stderr.startswith(f"Error: {begins}"), result.stderr
-    assert result.stderr.count("\n") == 1
+    return run(*SOLVE, *arguments)
 
 
 @pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
 def test_json_holds_the_numbers_of_the_solver_to_the_last_digit(thrust):
-    result = solve("--z0", Z0, "--interval", "pi/8", "--peak", "4e-3", "--thrust", thrust, "--json")
-    report = json.loads(result.stdout)
+    report = answer(*SOLVE, "--z0", Z0, "--interval", "pi/8", "--peak", "4e-3", "--thrust", thrust)
     plan = correct(STATE, np.pi / 8, 4e-3, thrust)
     assert report["problem"] == {"z0": STATE, "interval": np.pi / 8, "peak": 4e-3, "thrust": thrust}
-    for name, value in report["solution"].items():
-        assert value == np.asarray(getattr(plan, name)).tolist(), name
-    for name, value in report["certificate"].items():
-        assert value == float(getattr(plan.certificate, name)), name
+    assert_numbers(report["solution"], plan)
+    assert_numbers(report["certificate"], plan.certificate)
     assert_allclose(report["states"]["end"], 0, atol=1e-15)
 
 
 @pytest.mark.parametrize("thrust", ["ball", "box"])
 def test_samples_are_the_linear_motion_and_its_costate(thrust):
-    report = json.loads(solve("--z0", Z0, "--thrust", thrust, "--json", "--samples", 31).stdout)["samples"]
+    report = answer(*SOLVE, "--z0", Z0, "--thrust", thrust, "--samples", 31)["samples"]
     plan = correct(STATE, thrust=thrust)
     assert report["t"] == np.linspace(0, 0.25 * float(plan.impulse_count), 31).tolist()
     state, fired = np.array(STATE), 0
@@ -59,7 +57,7 @@ def test_samples_are_the_linear_motion_and_its_costate(thrust):
             assert_allclose(expected, state, atol=1e-15)
     costate = [expm(-LINEAR.T * t) @ plan.initial_costate for t in report["t"]]
     assert_allclose(report["costate"], costate, atol=1e-14)
-    assert_refused(solve("--z0", Z0, "--samples", 3), "--samples goes with --json only")
+    assert_refused(solve("--z0", Z0, "--samples", 3), "--samples needs --json")
 
 
 def test_without_options_it_is_the_paper_s_example():
@@ -81,10 +79,7 @@ def test_nothing_to_correct():
 
 @pytest.mark.slow
 def test_files_are_drawn_and_recorded(tmp_path):
-    for name, start in {"a.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}.items():
-        result = solve("--z0", Z0, "--plot", tmp_path / name)
-        assert (result.exit_code, result.stderr) == (0, f"wrote {tmp_path / name}\n")
-        assert (tmp_path / name).read_bytes().startswith(start)
+    assert_plots(tmp_path, *SOLVE, "--z0", Z0)
     assert solve("--z0", Z0, "--thrust", "disc", "--record", tmp_path / "a.rrd").exit_code == 0
     held = read_back(tmp_path / "a.rrd")
     gauge = float(correct(STATE, thrust="disc").gauge)
@@ -102,8 +97,8 @@ def test_files_are_drawn_and_recorded(tmp_path):
         (["--z0", Z0, "--thrust", "cone"], "--thrust takes ball, disc, box, got 'cone'"),
         (["--z0", Z0, "--plot", "a.gif"], "--plot takes a file name ending"),
         (["--z0", Z0, "--record", "a.mp4"], "--record takes a file name ending"),
-        (["--z0", Z0, "--out", "a.csv"], "--out goes with --batch only"),
-        (["--z0", Z0, "--batch", "a.csv"], "--z0 does not go with --batch"),
+        (["--z0", Z0, "--out", "a.csv"], "--out needs --batch"),
+        (["--z0", Z0, "--batch", "a.csv"], "--z0 cannot be combined with --batch"),
         (["--batch", "none.csv"], "--batch cannot read none.csv"),
     ],
 )
@@ -118,17 +113,14 @@ def test_what_cannot_be_reached_exits_with_1_and_the_reason():
 
 
 class TestBatch:
+    HEADER = ("name", "dr", "dv_R", "dv_T")
     ROWS = (["a", *Z0.split(",")], ["b", "0.01", "0", "1/300"], ["none", "0", "0", "0"])
 
-    def write(self, path, rows=ROWS, header=("name", "dr", "dv_R", "dv_T")):
-        path.write_text("\n".join(",".join(row) for row in [header, *rows]) + "\n")
-        return path
-
     def test_each_row_comes_back_with_its_own_plan(self, tmp_path):
-        states, results = self.write(tmp_path / "in.csv"), tmp_path / "out.csv"
+        states, results = write_table(tmp_path / "in.csv", self.HEADER, self.ROWS), tmp_path / "out.csv"
         result = solve("--batch", states, "--out", results, "--thrust", "box")
         assert (result.exit_code, result.stdout) == (0, "")
-        rows = list(csv.DictReader(io.StringIO(results.read_text())))
+        rows = read_table(results.read_text())
         assert [row["name"] for row in rows] == ["a", "b", "none"] and rows[1]["dv_T"] == "1/300"
         for row, state in zip(rows, [STATE, [0.01, 0, 1 / 300], [0, 0, 0]], strict=True):
             plan = correct(state, thrust="box")
@@ -140,21 +132,18 @@ class TestBatch:
     @pytest.mark.parametrize(
         ("rows", "header", "line"),
         [
-            ([["a", "0", "much", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: dv_R takes a number"),
-            ([["a", "0", "0"]], ("name", "dr", "dv_R", "dv_T"), "line 2: 3 entries under 4 columns"),
+            ([["a", "0", "much", "0"]], HEADER, "line 2: dv_R takes a number"),
+            ([["a", "0", "0"]], HEADER, "line 2: has 3 entries, but the header has 4"),
             ([["0", "0"]], ("dr", "dv_R"), "line 1: column dv_T is missing"),
-            ([], ("dr", "dv_R", "dv_T"), "line 2: there is no problem"),
+            ([], ("dr", "dv_R", "dv_T"), "line 2: the file holds no problem"),
         ],
     )
     def test_a_bad_row_is_named_by_its_line(self, tmp_path, rows, header, line):
-        path = self.write(tmp_path / "in.csv", rows, header)
+        path = write_table(tmp_path / "in.csv", header, rows)
         assert_refused(solve("--batch", path), f"--batch: {path}, {line}")
 
 
 def test_every_example_in_the_help_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    TestBatch().write(tmp_path / "states.csv")
-    examples = re.findall(r"^ +pontryagin (.*)$", solve("--help").stdout, re.MULTILINE)
-    assert len(examples) == 4
-    for example in examples:
-        assert CliRunner().invoke(app, example).exit_code == 0, example
+    write_table(tmp_path / "states.csv", TestBatch.HEADER, TestBatch.ROWS)
+    assert_examples_run(4, SOLVE)

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from pontryagin import NotConverged
 from pontryagin.orbit_correction import correct, flight, printed
 from pontryagin.orbit_correction.flight import close_loop, fly, fly_plan, residuals
+from strategies import deviations
 
 Z0 = np.array(printed.Z0)
 
@@ -37,7 +38,7 @@ def cartesian_flight(z0, impulses, interval):
 
 
 @given(
-    st.tuples(*[st.floats(-0.02, 0.02)] * 3).map(np.array),
+    deviations(),
     st.lists(st.tuples(*[st.floats(-0.01, 0.01)] * 2), min_size=1, max_size=4),
     st.sampled_from([0.25, 0.7]),
 )

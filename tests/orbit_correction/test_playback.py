@@ -1,8 +1,5 @@
 """Recordings hold the solver's arrays, and their sets are those of the remaining impulses."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -16,6 +13,7 @@ from pontryagin.orbit_correction.playback import scene
 from pontryagin.orbit_correction.playback.remaining import remaining
 from pontryagin.orbit_correction.printed import Z0
 from pontryagin.orbit_correction.system.satellite import LINEAR
+from recording_files import assert_described, verified
 
 pytestmark = pytest.mark.slow
 
@@ -26,17 +24,11 @@ PLANS = {"orbit-correction": correct(Z0), "orbit-correction-square": correct(Z0,
 def played(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("recordings") / f"{request.param}.rrd"
     playback.recordings()[request.param](path)
-    done = subprocess.run(
-        [sys.executable, "-m", "rerun", "rrd", "verify", str(path)], capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    return PLANS[request.param], read_back(path)
+    return PLANS[request.param], verified(path)
 
 
 def test_every_recording_has_a_title_and_a_description():
-    for writer in playback.recordings().values():
-        title, description = writer.__doc__.split("\n\n", 1)
-        assert title.endswith(".") and len(description) > 80
+    assert_described(playback.recordings())
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ their bounds.
 """
 
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 import sympy as sp
@@ -57,11 +58,20 @@ class RandomSystem:
             result.append(back @ L)
         return np.array(result)
 
-    def fly(self, x, controls, k=0):
+    def fly(self, x, controls):
+        """The states from x on, (N + 1, n)."""
         states = [x]
-        for A, u in zip(self.A[k:], controls, strict=True):
+        for A, u in zip(self.A, controls, strict=True):
             states.append(A @ states[-1] + u)
         return np.array(states)
+
+    def brought_back(self, end):
+        """The start of the motion without controls that has this end."""
+        return np.linalg.solve(np.linalg.multi_dot([*self.A[::-1], np.eye(self.n)]), end)
+
+    def costates(self, psi):
+        """The costates psi_1, ..., psi_N that follow psi, (N, n)."""
+        return np.array([*accumulate(self.A, lambda psi, A: np.linalg.solve(A.T, psi), initial=psi)][1:])
 
     def system(self, k=0, size=1.0):
         shapes = np.linalg.inv(self.L @ np.swapaxes(self.L, 1, 2)) / size**2
@@ -92,6 +102,17 @@ def support_parts(factors, p):
     return np.einsum("kij,kj->ki", factors, along / np.linalg.norm(along, axis=1, keepdims=True))
 
 
+def support_point(L, p):
+    """The point of L B that is farthest along p."""
+    return L @ L.T @ p / np.linalg.norm(L.T @ p)
+
+
+def normal(L, x):
+    """The unit normal of L B at a point of its boundary."""
+    outward = np.linalg.solve(L @ L.T, x)
+    return outward / np.linalg.norm(outward)
+
+
 def level(L, x):
     """The Minkowski functional of L B."""
     return np.linalg.norm(np.linalg.solve(L, x))
@@ -117,8 +138,7 @@ def test_lemma_1_outside_the_sum_no_controls_end_at_zero(case):
     x = 1.01 * support_parts(case.reach(), p).sum(axis=0)
     assert gauge(case.system(), x, case.steps).alpha > 1.009
     for _ in range(5):
-        end = case.fly(x, case.controls(boundary=True))[-1]
-        missed = np.linalg.solve(np.linalg.multi_dot([*case.A[::-1], np.eye(case.n)]), end)
+        missed = case.brought_back(case.fly(x, case.controls(boundary=True))[-1])
         assert p @ missed > 0.009 * support(case.reach(), p)
 
 
@@ -134,12 +154,11 @@ def test_corollary_1_in_support_functions(case):
 def test_lemma_2_and_corollary_2_one_support_point_and_disjoint_cones(case):
     """Lemma 2: each p has one support point. Corollary 2: two boundary points have no common normal."""
     L, p = case.L[0], case.direction()
-    best = L @ L.T @ p / np.linalg.norm(L.T @ p)
+    best = support_point(L, p)
     assert_allclose([level(L, best), p @ best], [1, np.linalg.norm(L.T @ p)], rtol=1e-11)
     for other in (case.controls()[0], case.controls(boundary=True)[0]):
         assert p @ best - p @ other >= p @ best / 2 * level(L, other - best) ** 2 * (1 - 1e-9)
-    normal = np.linalg.solve(L @ L.T, other)
-    assert normal @ best < normal @ other
+    assert normal(L, other) @ best < normal(L, other) @ other
 
 
 @given(systems())
@@ -170,9 +189,8 @@ def test_lemmas_3_and_8_images_of_ellipsoids(case):
     assert np.linalg.eigvalsh((shape + shape.T) / 2).min() > 0
     x = case.controls()[1]
     assert_allclose((A @ x) @ shape @ (A @ x), level(L, x) ** 2, rtol=1e-9)
-    at = L @ L.T @ p / np.linalg.norm(L.T @ p)
-    q = inverse.T @ p
-    assert_allclose(A @ at, (A @ L) @ (A @ L).T @ q / np.linalg.norm((A @ L).T @ q), rtol=1e-9, atol=1e-12)
+    image = support_point(A @ L, inverse.T @ p)
+    assert_allclose(A @ support_point(L, p), image, rtol=1e-9, atol=1e-12)
 
 
 @given(systems())
@@ -197,8 +215,7 @@ def test_lemma_5_one_decomposition_with_one_common_normal(case):
     assert_allclose(support_parts(factors, -found.costate), parts, atol=1e-5)
     for L, part in zip(factors, parts, strict=True):
         assert_allclose(level(L, part), 1, rtol=1e-10)
-        normal = np.linalg.solve(L @ L.T, part)
-        assert_allclose(normal / np.linalg.norm(normal), p, atol=1e-9)
+        assert_allclose(normal(L, part), p, atol=1e-9)
 
 
 @given(systems())
@@ -206,19 +223,14 @@ def test_theorems_1_to_3_from_the_boundary(case):
     """Theorem 1 with the steps (3) and normals (4), Theorem 2 and Theorem 3 from a boundary point."""
     psi = case.direction()
     x = support_parts(case.reach(), -psi).sum(axis=0)
-    costate, states, controls = psi, [x], []
-    for k in range(case.steps):
-        following = np.linalg.solve(case.A[k].T, costate)
-        L = case.L[k]
-        controls.append(L @ L.T @ following / np.linalg.norm(L.T @ following))
-        assert_allclose(-costate @ states[-1], support(case.reach(k), costate), rtol=1e-9)
-        states.append(case.A[k] @ states[-1] + controls[-1])
-        costate = following
+    costates = case.costates(psi)
+    states = case.fly(x, [*map(support_point, case.L, costates)])
+    for k, costate in enumerate([psi, *costates[:-1]]):
+        assert_allclose(-costate @ states[k], support(case.reach(k), costate), rtol=1e-9)
     assert_allclose(states[-1], 0, atol=1e-9)
     rest = gauge(case.system(1), states[1], case.steps - 1)
     assert_allclose(rest.alpha, 1, rtol=1e-9)
-    second = np.linalg.solve(case.A[0].T, psi)
-    assert_allclose(rest.costate, second / np.linalg.norm(second), atol=1e-5)
+    assert_allclose(rest.costate, costates[0] / np.linalg.norm(costates[0]), atol=1e-5)
     strayed = case.A[0] @ x + case.controls()[0]
     assert gauge(case.system(1), strayed, case.steps - 1).alpha > 1
 
@@ -234,16 +246,12 @@ def test_lemmas_6_7_and_theorem_4_from_inside(case):
     alpha, psi = float(found.alpha), found.costate
     assert_allclose(alpha, 0.7, rtol=1e-9)
     assert_allclose(gauge(case.system(size=alpha), x, case.steps).alpha, 1, rtol=1e-9)
-    controls, costate = [], psi
-    for A, L in zip(case.A, case.L, strict=True):
-        costate = np.linalg.solve(A.T, costate)
-        controls.append(L @ L.T @ costate / np.linalg.norm(L.T @ costate))
-    flown = case.fly(x, alpha * np.array(controls))
+    controls = np.array([*map(support_point, case.L, case.costates(psi))])
+    flown = case.fly(x, alpha * controls)
     assert_allclose(flown[-1], 0, atol=1e-6)
     for k in range(case.steps):
         assert_allclose(gauge(case.system(k), flown[k], case.steps - k).alpha, alpha, rtol=1e-5)
-    missed = case.fly(x, np.array(controls))[-1]
-    back = np.linalg.solve(np.linalg.multi_dot([*case.A[::-1], np.eye(case.n)]), missed)
+    back = case.brought_back(case.fly(x, controls)[-1])
     assert_allclose(-psi @ back, -0.3 * support(case.reach(), psi), rtol=1e-5)
 
 

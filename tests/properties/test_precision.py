@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from independent import exact_peak, exactly
+from independent import bang_bang_moments, exact_peak, exactly
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 from strategies import maneuver_with, moments, states, wide
 
@@ -70,18 +70,15 @@ def exact_peak_of(c, T):
     return size * exact_peak([x / size for x in scaled]) if size else mp.mpf(0)
 
 
+@pytest.mark.parametrize(
+    ("solve", "exact", "rtol"),
+    [(minimum_impulse, exact_impulse, 1e-14), (minimum_energy, exact_energy, 1e-13)],
+)
 @given(c=moments())
-def test_the_total_impulse_to_the_last_digits(c):
+def test_norms_to_the_last_digits(solve, exact, rtol, c):
     with mp.workdps(50):
-        expected = exact_impulse([exactly(x) for x in c], mp.mpf(1))
-    assert_allclose(float(minimum_impulse(maneuver_with(c)).norm), float(expected), rtol=1e-14)
-
-
-@given(c=moments())
-def test_the_energy_to_the_last_digits(c):
-    with mp.workdps(50):
-        expected = exact_energy([exactly(x) for x in c], 1)
-    assert_allclose(float(minimum_energy(maneuver_with(c)).norm), float(expected), rtol=1e-13, atol=0)
+        expected = exact([exactly(x) for x in c], mp.mpf(1))
+    assert_allclose(float(solve(maneuver_with(c)).norm), float(expected), rtol=rtol, atol=0)
 
 
 @given(
@@ -92,8 +89,7 @@ def test_the_energy_to_the_last_digits(c):
 def test_nearly_constant_controls_perturbed_in_the_last_bits(width, place, disturb):
     """The quartic has a triple root at the constant control, yet the peak keeps all its digits near it."""
     b = place * (1 - width)
-    a = b + width
-    c = np.array([(1 - 2 * (a**3 - b**3)) / 6, (1 - 2 * (a**2 - b**2)) / 2, 1 - 2 * (a - b)])
+    c = bang_bang_moments(1.0, b + width, b)
     c = c + np.spacing(c) * disturb
     solution = minimum_peak(maneuver_with(c))
     assert_allclose(float(solution.norm), float(exact_peak(c, digits=90)), rtol=1e-13)

@@ -85,7 +85,7 @@ def test_without_heyoka_the_flights_have_the_same_ends():
 
 
 def test_the_mode_of_every_arc_is_that_of_the_switching_function():
-    """This holds also for arcs that begin exactly at |n| = 2 alpha2 p_max."""
+    """n is that of (9). This holds also for arcs that begin exactly at |n| = 2 alpha2 p_max."""
     given = problem(peak=0.06)
     for costates in 2 * starts(12) / given.scaled.costate_units:
         alone = fly(given.scaled, costates, given.scaled.duration, given.scaled.peak)

@@ -114,7 +114,7 @@ class TestAnswers:
         assert re.search(r"^ +duration +6 *$", shown, re.MULTILINE)
         assert re.search(rf"^ +cost +{leap.cost:.10g}"[:-1], shown, re.MULTILINE)
         assert re.search(r"^ +arcs +unsaturated *$", shown, re.MULTILINE)
-        assert re.search(r"^ +from durations +6 *$", shown, re.MULTILINE)
+        assert re.search(r"^ +first durations +6 *$", shown, re.MULTILINE)
         assert "that none costs less elsewhere is not claimed" in " ".join(shown.split())
 
     def test_up_to_six_other_extremals_are_listed_and_the_rest_is_counted(self):
@@ -130,7 +130,7 @@ class TestAnswers:
         lines = transcript.table(output)["others found"]
         assert list(lines) == ["2", "3", "4", "5", "6", "7", "further"]
         assert lines["2"] == "cost 1, time 2.5, 0.50 revolutions"
-        assert lines["further"] == "2, up to the cost 8"
+        assert lines["further"] == "2, with costs up to 8"
         assert transcript.table(output)["problem"]["duration"] == "free"
 
     @pytest.mark.slow
@@ -233,7 +233,7 @@ BAD = {
     ),
     "hyperbolic start": (
         {"chaser": CRAFT | {"v1": 1.5}},
-        "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, got 0.625",
+        "chaser must start on an ellipse, with the energy v1^2/2 + c^2/(2 r^2) - gravity/r negative, got 0.6",
     ),
     "r = 0": ({"chaser": CRAFT | {"r": 0}}, "chaser.r must be greater than 0, got 0.0"),
     "c < 0": ({"chaser": CRAFT | {"c": -1}}, "chaser.c must be greater than 0, got -1.0"),
@@ -256,7 +256,7 @@ BAD = {
     ),
     "energy alone in free time": (
         {"duration": None},
-        " time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2",
+        " time_weight must be positive where the duration is free, got 0: a longer flight",
     ),
     "duration 0": ({"duration": 0}, "duration must be greater than 0, got 0.0"),
     "gravity below 0": ({"gravity": -1}, "gravity must be greater than 0, got -1.0"),
@@ -267,14 +267,14 @@ BAD = {
     "code": ({"peak": "__import__('os')"}, 'peak takes a number, or "inf" for no bound, got "__import__'),
     "true": ({"peak": True}, 'peak takes a number, or "inf" for no bound, got true'),
     "too large": ({"peak": 10**400}, 'peak takes a number, or "inf" for no bound, got 1000'),
-    "unknown key": ({"mass": 1}, "mass is unknown here: takes chaser, target, peak, time_weight"),
+    "unknown key": ({"mass": 1}, "mass is an unknown key; known are chaser, target, peak, time_weight"),
     "unknown key inside": (
         {"target": TARGET | {"e": 0}},
-        "target.e is unknown here: takes parameter, eccentricity, anomaly, attitude",
+        "target.e is an unknown key; known are parameter, eccentricity, anomaly, attitude",
     ),
     "attitude and angles": (
         {"target": TARGET | TILTED},
-        "target.attitude is unknown here: takes parameter, eccentricity, anomaly, node, inclination, peri",
+        "target.attitude is an unknown key; known are parameter, eccentricity, anomaly, node, inclination, p",
     ),
     "an angle missing": (
         {"target": {key: TILTED[key] for key in TILTED if key != "node"}},
@@ -283,16 +283,16 @@ BAD = {
     "a state missing": ({"chaser": {"r": 1}}, "chaser.v1 is missing"),
     "no object": (
         {"target": [1.5, 0.1]},
-        "target takes an object with parameter, eccentricity, anomaly, ",
+        "target takes an object with the keys parameter, eccentricity, anomaly, ",
     ),
 }
 TEXTS = {
     "empty": ("", "line 1, column 1: Expecting value"),
     "broken": ('{"chaser": {\n "r": 1,,', "line 2, column 9: Expecting property name"),
-    "a number": ("1", "the text takes an object with chaser, target, peak, time_weight"),
+    "a number": ("1", "the text takes an object with the keys chaser, target, peak, time_weight"),
     "no target": (json.dumps({"chaser": CRAFT, "peak": 1}), "target is missing"),
     "no peak": (json.dumps({"chaser": CRAFT, "target": TARGET}), "peak is missing"),
-    "twice": ('{"peak": 1, "peak": 2}', "peak is there twice"),
+    "twice": ('{"peak": 1, "peak": 2}', "peak occurs twice in one object"),
     "deep": ("[" * 100_000, "the objects are nested too deeply"),
 }
 
@@ -336,15 +336,15 @@ class TestErrors:
     @pytest.mark.parametrize(
         ("arguments", "begins"),
         [
-            ([], "--case is missing, or --file"),
+            ([], "--case or --file must be given"),
             (["--case", "moon"], "--case takes circle, circle-energy, ellipse, "),
-            (["--case", "mars", "--file", "a.json"], "--case does not go with --file"),
+            (["--case", "mars", "--file", "a.json"], "--case cannot be combined with --file"),
             (["--case", ""], "--case takes circle, "),
-            (["--case", "mars", "--samples", "3"], "--samples goes with --json only"),
+            (["--case", "mars", "--samples", "3"], "--samples needs --json"),
             (["--case", "mars", "--plot", "a.gif"], "--plot takes a file name ending"),
             (["--case", "mars", "--record", "a.mp4"], "--record takes a file name ending"),
-            (["--list", "--case", "mars"], "--case does not go with --list"),
-            (["--list", "--plot", "a.svg"], "--plot does not go with --list"),
+            (["--list", "--case", "mars"], "--case cannot be combined with --list"),
+            (["--list", "--plot", "a.svg"], "--plot cannot be combined with --list"),
             (["--case", "mars", "--json", "--samples", "-1"], "Invalid value for '--samples'"),
             (["--peak", "1"], "No such option: --peak"),
         ],
@@ -368,7 +368,9 @@ class TestErrors:
         moved = leap.root.unknowns + 1e-4
         wrong = replace(leap, root=Root(moved, equations(setting, moved)), searched=Search())
         monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: wrong)
-        assert_refused(run("--file", write(LEAP)), "the certificate does not close", status=1)
+        assert_refused(
+            run("--file", write(LEAP)), "the certificate does not hold: its residual is too large", status=1
+        )
 
 
 @pytest.mark.slow

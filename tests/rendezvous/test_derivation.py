@@ -288,6 +288,7 @@ def test_the_axes_made_of_place_and_velocity_are_eta():
 
 
 def test_the_magnitudes_of_10_maximise_the_gain():
+    """The gain is the part of H that depends on the size of a thrust along n of (9)."""
     p, length = principle.thrust_magnitude, principle.switching_length
     assert principle.along_switching() == length * p - principle.energy_weight * p**2
     top = length / (2 * principle.energy_weight)

@@ -120,7 +120,7 @@ class TestFalseMeetings:
     @pytest.mark.slow
     def test_the_gap_drawn_is_the_distance_missed(self):
         for ax, member in zip(figures.false_meetings(self.family()).axes, self.family().members, strict=True):
-            gap = next(line for line in ax.lines if line.get_label() == "missed by").get_xydata()
+            gap = next(line for line in ax.lines if line.get_label() == "distance missed").get_xydata()
             assert np.linalg.norm(gap[1] - gap[0]) == pytest.approx(member.distance, abs=1e-9)
         assert "the true meeting" in figures.false_meetings(self.family()).axes[0].get_title()
 
@@ -136,7 +136,7 @@ class TestFalseMeetings:
         end = places["craft at $t_k$"]
         rotated, orbit = (
             np.linalg.norm(places[label] - end, axis=1).min()
-            for label in ("that orbit as turned", "orbit of the target")
+            for label in ("target's orbit, turned", "orbit of the target")
         )
         assert rotated < 0.03 < 0.05 < orbit
         assert np.linalg.norm(end - places["target at $t_k$"]) > 0.2
@@ -194,7 +194,9 @@ class TestRevolutions:
         assert min(np.abs(np.subtract(one, wanted)).max() for one in found) < 2e-6
 
     def test_a_branch_of_a_bounded_problem_is_refused(self):
-        with pytest.raises(ValueError, match=r"must be of a problem without a bound, got a peak of 0\.08"):
+        with pytest.raises(
+            ValueError, match=r"must be of a problem without a bound on the thrust, got a peak of 0\.08"
+        ):
             branch(space(), 1, (5.0, 15.0), 1.0)
 
 

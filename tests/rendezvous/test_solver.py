@@ -255,7 +255,9 @@ def test_least_energy_in_free_time_is_infeasible():
 
 @pytest.mark.slow
 def test_a_bound_too_small_for_the_duration_is_infeasible():
-    with pytest.raises(pontryagin.Infeasible, match=r"the bound went down to 0\.\d+, not to 0\.04"):
+    with pytest.raises(
+        pontryagin.Infeasible, match=r"the bound on the thrust could be lowered to 0\.\d+, but not to 0\.04"
+    ):
         solve(problem(20, peak=0.04, duration=4.0))
 
 

@@ -26,6 +26,11 @@ class Checkout:
         path.write_text(textwrap.dedent(text))
         return path
 
+    def modules(self, texts):
+        """Write modules, each text under its place."""
+        for place, text in texts.items():
+            self.module(place, text)
+
     def package(self):
         """Copy the package without its papers."""
         without = shutil.ignore_patterns("__pycache__", *(paper.package for paper in PAPERS))

@@ -13,31 +13,47 @@ from pontryagin.report.dependencies import Source, closure, digest, literals
 REAL = Source(files.repository() / "src" / "pontryagin")
 
 
+MODULES = {
+    "__init__.py": "",
+    "certificate.py": "import numpy",
+    "compile.py": "def f():\n    from pontryagin import certificate",
+    "lonely.py": "",
+    "plain/__init__.py": "from .energy import solve",
+    "plain/energy.py": "from .. import certificate\ndef solve(): ...",
+    "plain/figures.py": "",
+    "paper/__init__.py": "import lazy_loader\nlazy_loader.attach_stub(__name__, __file__)",
+    "paper/__init__.pyi": "from .peak import solve as solve",
+    "paper/peak.py": "import pontryagin.compile",
+    "computed/__init__.py": "",
+    "computed/all.py": "from importlib import import_module\nimport_module('.' + input())",
+    "computed/hidden.py": "",
+    "exact/__init__.py": "",
+    "exact/one.py": "import importlib\nimportlib.import_module('pontryagin.lonely')",
+    "exact/two.py": "",
+    "table/__init__.py": "NAMES = {'peak': 'pontryagin.lonely'}",
+    "reader/__init__.py": "from pathlib import Path\nTEXT = (Path(__file__).parent / 'a.txt')",
+    "reader/a.txt": "words",
+    "report/__init__.py": "",
+    "cli.py": "import pontryagin.report",
+}
+PAPERS = {
+    "__init__.py": "",
+    "papers.py": "from importlib import import_module\ndef room(a, b): return import_module(a + b)",
+    "ledger/__init__.py": "from pontryagin.ledger.collection import entries",
+    "ledger/collection.py": (
+        "from pontryagin import papers\ndef entries(): return [papers.room(p, 'claims') for p in 'ab']"
+    ),
+    **{f"{name}/__init__.py": "" for name in "ab"},
+    **{f"{name}/command.py": "def solve(): ..." for name in "ab"},
+    **{f"{name}/claims/__init__.py": f"from pontryagin.{name}.claims import first" for name in "ab"},
+    **{f"{name}/claims/first.py": "" for name in "ab"},
+}
+"""Two papers whose claims and commands are imported by name, as `pontryagin.papers` does it."""
+
+
 @pytest.fixture
 def source(checkout):
-    checkout.module("__init__.py")
-    checkout.module("certificate.py", "import numpy")
-    checkout.module("compile.py", "def f():\n    from pontryagin import certificate")
-    checkout.module("lonely.py")
-    checkout.module("plain/__init__.py", "from .energy import solve")
-    checkout.module("plain/energy.py", "from .. import certificate\ndef solve(): ...")
-    checkout.module("plain/figures.py")
-    checkout.module("paper/__init__.py", "import lazy_loader\nlazy_loader.attach_stub(__name__, __file__)")
-    checkout.module("paper/__init__.pyi", "from .peak import solve as solve")
-    checkout.module("paper/peak.py", "import pontryagin.compile")
-    checkout.module("computed/__init__.py")
-    checkout.module("computed/all.py", "from importlib import import_module\nimport_module('.' + input())")
-    checkout.module("computed/hidden.py")
-    checkout.module("exact/__init__.py")
-    checkout.module("exact/one.py", "import importlib\nimportlib.import_module('pontryagin.lonely')")
-    checkout.module("exact/two.py")
-    checkout.module("table/__init__.py", "NAMES = {'peak': 'pontryagin.lonely'}")
-    checkout.module(
-        "reader/__init__.py", "from pathlib import Path\nTEXT = (Path(__file__).parent / 'a.txt')"
-    )
-    checkout.module("reader/a.txt", "words")
-    checkout.module("report/__init__.py")
-    checkout.module("cli.py", "import pontryagin.report")
+    checkout.modules(MODULES)
     return Source(checkout.root / "src" / "pontryagin")
 
 
@@ -148,21 +164,7 @@ def test_threads_parse_one_after_the_other(monkeypatch):
 
 @pytest.fixture
 def papers(checkout):
-    """Two papers whose claims and commands are imported by name, as `pontryagin.papers` does it."""
-    checkout.module("__init__.py")
-    checkout.module(
-        "papers.py", "from importlib import import_module\ndef room(a, b): return import_module(a + b)"
-    )
-    checkout.module("ledger/__init__.py", "from pontryagin.ledger.collection import entries")
-    checkout.module(
-        "ledger/collection.py",
-        "from pontryagin import papers\ndef entries(): return [papers.room(p, 'claims') for p in 'ab']",
-    )
-    for name in "ab":
-        checkout.module(f"{name}/__init__.py")
-        checkout.module(f"{name}/command.py", "def solve(): ...")
-        checkout.module(f"{name}/claims/__init__.py", f"from pontryagin.{name}.claims import first")
-        checkout.module(f"{name}/claims/first.py")
+    checkout.modules(PAPERS)
     return Source(checkout.root / "src" / "pontryagin")
 
 

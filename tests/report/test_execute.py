@@ -60,10 +60,8 @@ def test_code_runs_again_when_it_changes_and_not_when_the_text_around_it_does(ch
 
 
 def test_the_key_changes_with_what_the_notebook_depends_on_and_with_nothing_else(checkout):
-    checkout.module("__init__.py")
-    checkout.module("used.py", "from pontryagin import deeper")
-    checkout.module("deeper.py", "x = 1")
-    checkout.module("unused.py", "x = 1")
+    used = "from pontryagin import deeper"
+    checkout.modules({"__init__.py": "", "used.py": used, "deeper.py": "x = 1", "unused.py": "x = 1"})
     (checkout.root / "notebooks" / "ends.csv").write_text("1")
     path = checkout.notebook("01", "# Title", "from pontryagin import used", "open('ends.csv')")
     keys = [key(checkout, path)]

@@ -36,10 +36,11 @@ def recordings():
 
 @pytest.fixture
 def paper(checkout):
+    package = PAPERS[0].package
     checkout.package()
-    checkout.module(f"{PAPERS[0].package}/__init__.py")
-    checkout.module(f"{PAPERS[0].package}/playback.py", PLAYBACK)
-    checkout.module("names.py", "CURVE = 'sine'")
+    checkout.modules(
+        {f"{package}/__init__.py": "", f"{package}/playback.py": PLAYBACK, "names.py": "CURVE = 'sine'"}
+    )
     return checkout
 
 

@@ -1,14 +1,10 @@
 """Recordings are valid and hold the states and torques of the solutions."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from pontryagin.display.recording import read_back
 from pontryagin.triple_integrator import (
     Maneuver,
     minimum_energy,
@@ -20,17 +16,10 @@ from pontryagin.triple_integrator import (
 )
 from pontryagin.triple_integrator.attitude import turn
 from pontryagin.triple_integrator.coupling import couple
+from recording_files import assert_described, verified
 
 AXIS = [1, 2, 2]
 NORMS = {"energy": minimum_energy, "peak": minimum_peak, "impulse": minimum_impulse}
-
-
-def verified(path):
-    done = subprocess.run(
-        [sys.executable, "-m", "rerun", "rrd", "verify", str(path)], capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    return read_back(path)
 
 
 @pytest.fixture(scope="module")
@@ -41,11 +30,7 @@ def three_norms(tmp_path_factory):
 
 
 def test_every_recording_has_a_title_and_a_description():
-    for name, writer in playback.recordings().items():
-        title, description = writer.__doc__.split("\n\n", 1)
-        assert name == name.lower()
-        assert title.endswith(".")
-        assert len(description) > 80
+    assert_described(playback.recordings())
 
 
 @pytest.mark.slow

@@ -26,7 +26,9 @@ def solve(
         typer.Option(metavar="kepler|smooth|rotor|spin-down", help="Which of the paper's examples."),
     ] = None,
     E0: Annotated[Text, typer.Option("--E0", metavar="E", help="kepler: energy at the start.")] = None,
-    K0: Annotated[Text, typer.Option("--K0", metavar="K", help="kepler: angular momentum there.")] = None,
+    K0: Annotated[
+        Text, typer.Option("--K0", metavar="K", help="kepler: angular momentum at the start.")
+    ] = None,
     E1: Annotated[Text, typer.Option("--E1", metavar="E", help="kepler: energy at the end.")] = None,
     l: Annotated[Text, typer.Option("--l", metavar="L", help="kepler: price of a unit of slow time.")] = None,
     v0: Annotated[Text, typer.Option("--v0", metavar="V", help="smooth: speed at the start.")] = None,
@@ -47,41 +49,52 @@ def solve(
     ] = None,
     peak: Annotated[Text, typer.Option(metavar="U", help="rotor: bound on |u|, for the least time.")] = None,
     k: Annotated[
-        Text, typer.Option("--k", metavar="K", help="rotor, smooth (1): cost of slow time beside u^2.")
+        Text,
+        typer.Option(
+            "--k",
+            metavar="K",
+            help="rotor, smooth: cost of a unit of slow time, added to u^2; smooth: 1 unless given.",
+        ),
     ] = None,
     omega0: Annotated[
         Text, typer.Option("--omega0", metavar="X,Y,Z", help="spin-down: angular velocity, body axes.")
     ] = None,
     semiaxes: Annotated[
-        Text, typer.Option(metavar="X,Y,Z", help="spin-down: those of the control's ellipsoid.")
+        Text, typer.Option(metavar="X,Y,Z", help="spin-down: semiaxes of the ellipsoid of controls.")
     ] = None,
-    ratio: Annotated[Text, typer.Option(metavar="D", help="spin-down: I_z over I_x, other than 1.")] = None,
+    ratio: Annotated[
+        Text,
+        typer.Option(metavar="D", help="spin-down: ratio I_z/I_x of the moments of inertia, other than 1."),
+    ] = None,
     epsilon: Annotated[
-        Text, typer.Option(metavar="EPS", help="How weak: all exact extremals and the correction.")
+        Text,
+        typer.Option(metavar="EPS", help="Small parameter; adds the exact extremals and the correction."),
     ] = None,
     phase: Annotated[
         Text, typer.Option(metavar="PSI", help="With --epsilon: phase at the start; 0 unless given.")
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[
-        File, typer.Option(metavar="FILE", help="Draw slow variables and control: .svg, .pdf, .png.")
+        File, typer.Option(metavar="FILE", help="Draw slow variables and control, as .svg, .pdf or .png.")
     ] = None,
     record: Annotated[
-        File, typer.Option(metavar="FILE", help="With --epsilon: record the motion: .rrd for rerun.")
+        File, typer.Option(metavar="FILE", help="With --epsilon: record the motion for rerun, as .rrd.")
     ] = None,
-    batch: Annotated[File, typer.Option(metavar="FILE", help="Problems from a CSV file, a row each.")] = None,
+    batch: Annotated[
+        File, typer.Option(metavar="FILE", help="CSV file with one problem in each row.")
+    ] = None,
     out: Annotated[
         str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
     ] = "-",
 ) -> None:
-    """Time-optimal control of nonlinear oscillations by averaging, beside the exact extremals.
+    """Time-optimal control of nonlinear oscillations: averaged and, with --epsilon, exact extremals.
 
-    Durations are slow time epsilon t. Numbers may be written like pi/2 or 1e-3; formulas hold their
+    Durations are in slow time, epsilon times t. Numbers may be written like pi/2 or 1e-3; formulas hold their
     variables, pi, + - * / ^ and abs, sign, sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, asin, acos, atan.
 
     A CSV file for --batch has a column for each number of the example that is not given as an option
     (omega_x, omega_y, omega_z for --omega0, l_x, l_y, l_z for --semiaxes) and any others, which are kept;
-    with --epsilon each row gets its corrected cost, and no exact extremals.
+    with --epsilon each row also gets the corrected cost, but no exact extremals are computed.
 
     \b
     Examples:
@@ -149,7 +162,9 @@ def _exact(solution: Any, epsilon: float, phase: float | None) -> Any:
 
 def _files(solution: Any, exact: Any, plot: File, record: File) -> None:
     if (plot or record) and not float(solution.duration) > 0:
-        raise console.Refusal("--plot" if plot else "--record", "shows a motion, and here the ends agree")
+        raise console.Refusal(
+            "--plot" if plot else "--record", "needs a motion, but the start already meets the target"
+        )
     if plot:
         from pontryagin.averaging.figures.drift import drift
 
@@ -172,6 +187,7 @@ def _solve_batch(
     solution = schema.solve(chosen, values)
     if epsilon is not None and "peak" in values:
         raise console.Refusal(
-            "--epsilon", "does not go with --batch and --peak, where the end's angle matters"
+            "--epsilon",
+            "cannot be combined with --batch and --peak: the correction then depends on the angle at the end",
         )
     console.emit("--out", out, rows.to_csv(read, transcript.answers(solution, epsilon, phase)))

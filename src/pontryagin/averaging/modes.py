@@ -69,7 +69,7 @@ def _alternative(e: sp.Piecewise, rewrite: Rewriting, sign_of: Rewriting) -> sp.
         if len(e.args) == 2 and isinstance(e.args[0].cond, sp.StrictGreaterThan | sp.GreaterThan):
             (inside, cond), (outside, _) = e.args
             return _blend(rewrite(outside), rewrite(inside), sign_of(rewrite(cond.lhs - cond.rhs)))
-        raise ValueError(f"an alternative must be decided by one inequality, got {e}")
+        raise ValueError(f"a Piecewise must have two branches that one inequality decides, got {e}")
     (inside, cond), (outside, _) = e.args
     return _blend(rewrite(inside), rewrite(outside), sign_of(rewrite(cond.lhs - cond.rhs)))
 

@@ -76,7 +76,7 @@ class ExampleSchema:
         with console.reading("--batch", path):
             read = rows.read(path, _columns(wanted), _columns(possible))
         both = [name for name in self.options if given[name] and set(columns(name)) & set(read.header)]
-        console.excluded(f"a column of {path}", {option(name): True for name in both})
+        console.excluded(f"the column of {path} that holds it", {option(name): True for name in both})
         stated = {name: self._column(read, name) for name in (*wanted, *possible) if given[name] is None}
         given_columns = {name: column for name, column in stated.items() if column is not None}
         texts = {
@@ -95,9 +95,9 @@ class ExampleSchema:
 
     def _require_one(self, chosen: list[str]) -> None:
         if self.either and not chosen:
-            raise console.Refusal(option(self.either[0]), f"is missing, or {option(self.either[1])}")
+            raise console.Refusal(option(self.either[0]), f"or {option(self.either[1])} must be given")
         if len(chosen) > 1:
-            raise console.Refusal(option(chosen[0]), f"does not go with {option(chosen[1])}")
+            raise console.Refusal(option(chosen[0]), f"cannot be combined with {option(chosen[1])}")
 
 
 EXAMPLES = {
@@ -106,20 +106,20 @@ EXAMPLES = {
     ),
     "smooth": ExampleSchema(
         "smooth_example",
-        "A speed changed under a ripple",
+        "A speed changed against a periodic force",
         ("v0", "v1"),
         {"k": "1", "ripple": "0"},
     ),
     "rotor": ExampleSchema(
         "rotor",
-        "A rotor of changing mass and potential sped up or braked",
+        "A rotor of varying mass and potential, sped up or braked",
         ("a0", "a1"),
         {"mass": "1", "potential": "0", "force": "0"},
         ("peak", "k"),
     ),
     "spin-down": ExampleSchema(
         "spin_down",
-        "A symmetric rigid body freed of its precession",
+        "The precession of a symmetric rigid body brought to rest",
         ("omega0", "semiaxes", "ratio"),
         phase=False,
     ),
@@ -174,6 +174,6 @@ def solve(example: ExampleSchema, values: Mapping[str, Any]) -> Any:
     """The averaged solution of a problem or of a stack."""
     from pontryagin import averaging
 
-    blamed = {name: option(name) for name in example.options} | {"leading": "--batch", "omega": "--example"}
+    blamed = {name: option(name) for name in example.options} | {"omega": "--example: omega"}
     with console.solving(blamed):
         return getattr(averaging, example.solver)(**values)

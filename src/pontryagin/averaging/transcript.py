@@ -82,7 +82,7 @@ def shown(report: Report) -> Report:
         if place <= SHOWN:
             lines[f"{place}"] = f"{kind}: cost {cost:.8g}, time {duration:.6g}, residual {residual:.0e}"
     if exact["count"] > SHOWN:
-        lines["further"] = f"{exact['count'] - SHOWN}, up to the cost {max(exact['cost']):.10g}"
+        lines["further"] = f"{exact['count'] - SHOWN}, with costs up to {max(exact['cost']):.10g}"
     rest = {heading: quantities for heading, quantities in report.items() if heading != "exact"}
     return rest | {"exact, best first": lines}
 
@@ -103,8 +103,8 @@ def conclusion(report: Report) -> str:
     count = report["exact"]["count"]
     found = f"The best of {count} extremals" if count > 1 else "The extremal found"
     return (
-        f"{found} costs {best:.10g}: {best - averaged:+.2e} from the "
-        f"averaged cost, {best - corrected:+.2e} from the corrected one. "
+        f"{found} costs {best:.10g}. It differs by {best - averaged:+.2e} from the "
+        f"averaged cost and by {best - corrected:+.2e} from the corrected one. "
         "Extremals satisfy necessary conditions; no bound from below is claimed."
     )
 

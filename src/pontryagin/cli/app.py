@@ -31,7 +31,7 @@ def pontryagin(
     ctx: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
-    """Optimal spacecraft control from four papers: solved with certificates, checked against print.
+    """Optimal spacecraft control from four papers: solved with certificates, compared with the print.
 
     \b
     Example:

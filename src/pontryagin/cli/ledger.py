@@ -11,10 +11,18 @@ Text = str | None
 
 
 def ledger(
-    paper: Annotated[Text, typer.Option(metavar="NAME", help="A paper, by (part of) its name.")] = None,
-    verdict: Annotated[Text, typer.Option(metavar="VERDICT", help=f"{', '.join(book.VERDICTS)}.")] = None,
-    csv: Annotated[Text, typer.Option(metavar="FILE", help="Write CSV, to - for standard output.")] = None,
-    json: Annotated[Text, typer.Option(metavar="FILE", help="Write JSON, to - for standard output.")] = None,
+    paper: Annotated[
+        Text, typer.Option(metavar="NAME", help="Entries of the paper whose name contains this.")
+    ] = None,
+    verdict: Annotated[
+        Text, typer.Option(metavar="VERDICT", help=f"Entries of one verdict: {', '.join(book.VERDICTS)}.")
+    ] = None,
+    csv: Annotated[
+        Text, typer.Option(metavar="FILE", help="Write CSV to a file; - is standard output.")
+    ] = None,
+    json: Annotated[
+        Text, typer.Option(metavar="FILE", help="Write JSON to a file; - is standard output.")
+    ] = None,
 ) -> None:
     """What the papers print, and whether it holds: every formula, number and claim with its verdict.
 

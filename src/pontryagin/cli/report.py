@@ -9,10 +9,13 @@ from pontryagin.terminal import console
 
 def report(
     stage: Annotated[
-        str, typer.Argument(metavar="[STAGE]", help="How far: notebooks, figures, recordings or report.")
+        str,
+        typer.Argument(
+            metavar="[STAGE]", help="The last stage to make: notebooks, figures, recordings or report."
+        ),
     ] = "report",
     workers: Annotated[
-        int, typer.Option(metavar="N", min=1, help="Notebooks and recordings made at a time.")
+        int, typer.Option(metavar="N", min=1, help="Number of notebooks or recordings made at the same time.")
     ] = 2,
 ) -> int:
     """Execute the notebooks and build the report, in a checkout of the project.

@@ -10,6 +10,7 @@ from matplotlib.patches import Patch, Rectangle
 from pontryagin import ledger
 from pontryagin.display import plotting
 from pontryagin.display.plotting import INK, styled, subplots
+from pontryagin.errors import ArgumentValueError
 from pontryagin.ledger import Entry
 from pontryagin.ledger.verdict import TABLE
 
@@ -76,9 +77,12 @@ def entry(label: str, paper: str | None = None) -> None:
     """
     found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
     if not found:
-        raise ValueError(f"label: got {label!r}, takes one of the ledger's")
+        raise ArgumentValueError(f"label: got {label!r}, takes that of an entry of the ledger", "label")
     if len(papers := list(dict.fromkeys(one.paper for one in found))) > 1:
-        raise ValueError(f"paper: got {paper!r}, takes one of those that have {label}: {', '.join(papers)}")
+        raise ArgumentValueError(
+            f"paper: got {paper!r}, takes one of those that have an entry {label}: {', '.join(papers)}",
+            "paper",
+        )
     for one in found:
         one.check()
         _publish({"text/markdown": account(one)})

@@ -22,6 +22,7 @@ from pontryagin.display.tables import (
     csv_table,
     markdown_table,
 )
+from pontryagin.errors import ArgumentValueError
 from pontryagin.io import files
 
 P = ParamSpec("P")
@@ -241,12 +242,15 @@ def _display(data: dict[str, str], kind: str, notebook: str | None, name: str, c
 def _name_of(figure: Figure, name: str | None) -> str:
     chosen = name or str(figure.get_label())
     if not chosen:
-        raise ValueError("name: got none and the figure has no label; takes a lower-case name")
+        raise ArgumentValueError(
+            "name: got none, and the figure has no label in its place; takes a lower-case name", "name"
+        )
     return chosen
 
 
 def _place(notebook: str, name: str, ending: str) -> Path:
     for argument, value in (("notebook", notebook), ("name", name)):
         if not _NAME.fullmatch(value):
-            raise ValueError(f"{argument}: got {value!r}; takes lower-case letters, digits, '-', '_' and '.'")
+            takes = "lower-case letters, digits, '-', '_' and '.'"
+            raise ArgumentValueError(f"{argument}: got {value!r}; takes {takes}", argument)
     return files.figures_folder() / notebook / (name + ending)

@@ -28,6 +28,7 @@ from pontryagin.display.views import Plot as Plot
 from pontryagin.display.views import Point as Point
 from pontryagin.display.views import Scene as Scene
 from pontryagin.display.views import View as View
+from pontryagin.errors import ArgumentValueError
 from pontryagin.io import files
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
@@ -246,21 +247,27 @@ def _rerun() -> ModuleType:
     try:
         import rerun
     except ImportError as missing:
-        raise RuntimeError("recordings need rerun-sdk: pip install 'pontryagin[recording]'") from missing
+        raise RuntimeError(
+            "recordings need the package rerun-sdk: pip install 'pontryagin[recording]'"
+        ) from missing
     return rerun
 
 
 def _times(t: ArrayLike) -> Array:
     times = np.asarray(t, dtype=float)
     if times.ndim != 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) < 0):
-        raise ValueError(f"t: got shape {times.shape}; takes finite times (k,) in increasing order")
+        raise ArgumentValueError(
+            f"t: got shape {times.shape}; takes finite times (k,) in ascending order", "t"
+        )
     return times
 
 
 def _array(argument: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
     array = np.asarray(values, dtype=float)
     if array.shape != shape or not np.all(np.isfinite(array)):
-        raise ValueError(f"{argument}: got shape {array.shape}; takes finite numbers of shape {shape}")
+        raise ArgumentValueError(
+            f"{argument}: got shape {array.shape}; takes finite numbers of shape {shape}", argument
+        )
     return array
 
 

@@ -10,6 +10,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from pontryagin.errors import ArgumentValueError
+
 Columns: TypeAlias = Mapping[str, Sequence[Any] | np.ndarray]
 """Heading and entries of each column; all columns have one length."""
 
@@ -77,10 +79,12 @@ def markdown_table(columns: Columns) -> str:
 def rows_of(columns: Columns) -> list[tuple[Any, ...]]:
     """The rows of a table; raises `ValueError` if there is no column or the columns differ in length."""
     if not columns:
-        raise ValueError("columns: got an empty mapping; takes at least one column")
+        raise ArgumentValueError("columns: got an empty mapping; takes at least one column", "columns")
     lengths = {heading: len(entries) for heading, entries in columns.items()}
     if len(set(lengths.values())) > 1:
-        raise ValueError(f"columns: got columns of different lengths {lengths}; takes one length")
+        raise ArgumentValueError(
+            f"columns: got the different lengths {lengths}; takes columns of one length", "columns"
+        )
     return list(zip(*columns.values(), strict=True))
 
 

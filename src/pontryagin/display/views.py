@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from pontryagin.errors import ArgumentTypeError
+
 TIMELINE = "time"
 
 Point = tuple[float, float, float]
@@ -119,4 +121,4 @@ def _panel(view: View) -> Any:
                 overrides=dict.fromkeys(trails, past) or None,
                 line_grid=None if grid else False,
             )
-    raise TypeError(f"columns: a panel must be a Scene, a Plot or Events, got {view!r}")
+    raise ArgumentTypeError(f"columns: a panel must be a Scene, a Plot or Events, got {view!r}", "columns")

@@ -28,7 +28,7 @@ def repository() -> Path:
     for folder in Path(__file__).resolve().parents:
         if (folder / "pyproject.toml").is_file():
             return folder
-    raise ValueError("no checkout of pontryagin around the installed package: work from a clone")
+    raise ValueError("this needs a clone of the repository, but pontryagin is installed without one")
 
 
 def figures_folder() -> Path:

@@ -124,7 +124,7 @@ def expression(text: str, *variables: str) -> "float | sp.Expr":
 def _parsed(text: str, variables: Sequence[str]) -> ast.expr:
     """The syntax tree of a text, in which only permitted nodes occur."""
     if len(text) > LONGEST:
-        raise ValueError(f"{len(text)} characters are too long for a formula, which has at most {LONGEST}")
+        raise ValueError(f"a formula has at most {LONGEST} characters, got {len(text)}")
     try:
         tree = ast.parse(text.strip().replace("^", "**"), mode="eval").body
         _check(tree, variables)
@@ -161,7 +161,9 @@ def _symbolic(node: ast.expr, text: str) -> "sp.Expr":
         case ast.BinOp(left=left, op=op, right=right):
             base, second = _symbolic(left, text), _symbolic(right, text)
             if isinstance(op, ast.Pow) and not (second.is_number and abs(second) <= HIGHEST):
-                raise ValueError(f"{text!r} has a power other than those from -{HIGHEST} to {HIGHEST}")
+                raise ValueError(
+                    f"{text!r} has an exponent that is not a number from -{HIGHEST} to {HIGHEST}"
+                )
             return OPERATORS[type(op)](base, second)
         case ast.Call(func=ast.Name(id=name), args=[argument]):
             return getattr(sp, "Abs" if name == "abs" else name)(_symbolic(argument, text))

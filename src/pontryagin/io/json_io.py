@@ -68,7 +68,7 @@ def from_json(text: str) -> Any:
     >>> from_json('{"peak": 0.1, "peak": 0.2}')
     Traceback (most recent call last):
         ...
-    ValueError: peak is there twice
+    ValueError: peak occurs twice in one object
     """
     try:
         return json.loads(text, object_pairs_hook=_without_duplicates)
@@ -83,5 +83,5 @@ def _without_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     keys = [key for key, _ in pairs]
     twice = next((key for i, key in enumerate(keys) if key in keys[:i]), None)
     if twice is not None:
-        raise ValueError(f"{twice} is there twice")
+        raise ValueError(f"{twice} occurs twice in one object")
     return dict(pairs)

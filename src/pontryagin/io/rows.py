@@ -63,11 +63,11 @@ def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), hold
         header = [name.strip() for name in next(reader, [])]
         missing = [name for name in required if name not in header]
         if missing:
-            raise ValueError(f"line 1: column {missing[0]} is missing, takes {', '.join(required)}")
+            raise ValueError(f"line 1: column {missing[0]} is missing, needs {', '.join(required)}")
         wanted = [*required, *(name for name in possible if name in header)]
         filled = [(row, reader.line_num) for row in reader if row]
     if not filled:
-        raise ValueError(f"line 2: there is no {holds}")
+        raise ValueError(f"line 2: the file holds no {holds}")
     numbers = np.array([_numbers(row, header, wanted, line) for row, line in filled])
     rows, lines = zip(*filled, strict=True)
     return Rows(header, list(rows), list(lines), dict(zip(wanted, numbers.T, strict=True)))
@@ -75,7 +75,7 @@ def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), hold
 
 def _numbers(row: list[str], header: list[str], wanted: Sequence[str], line: int) -> list[float]:
     if len(row) != len(header):
-        raise ValueError(f"line {line}: {len(row)} entries under {len(header)} columns")
+        raise ValueError(f"line {line}: has {len(row)} entries, but the header has {len(header)}")
     values = []
     for name in wanted:
         text = row[header.index(name)]

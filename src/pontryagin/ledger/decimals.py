@@ -60,7 +60,9 @@ class Decimals(Evidence):
         """Distance of each printed number from the computed one, in units of its last digit (0 if whole)."""
         computed = self.derived()
         if list(computed) != list(self.printed):
-            raise Unsupported(f"printed {list(self.printed)}, but computed {list(computed)}")
+            raise Unsupported(
+                f"the printed numbers are {list(self.printed)}, the computed ones {list(computed)}"
+            )
         found = {}
         for left, number in self.printed.items():
             distance, scale = abs(float(number) - computed[left]), unit(number)

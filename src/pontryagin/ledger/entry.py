@@ -78,7 +78,9 @@ class Entry:
             raise Unsupported(f"{self.label}: the ledger says {self.verdict!r}, the evidence says {found!r}")
         if self.evidence and type(self.evidence).__name__ not in kind(self.verdict).evidence:
             name = type(self.evidence).__name__
-            raise Unsupported(f"{self.label}: {name} is no evidence that the table admits for {found!r}")
+            raise Unsupported(
+                f"{self.label}: {name} is no evidence that the table of verdicts admits for {found!r}"
+            )
 
     @property
     def printed(self) -> Any:

@@ -46,7 +46,7 @@ def require(steps: Steps) -> None:
         if bool(truth) is not True:
             raise Unsupported(f"this step fails: {words}")
     if empty:
-        raise Unsupported("an argument without steps proves nothing")
+        raise Unsupported("there are no steps, so that nothing is proved")
 
 
 def no_steps() -> Steps:
@@ -107,7 +107,7 @@ class Equality(Evidence):
         """Printed minus derived, for the left-hand sides where it does not simplify to zero."""
         derived = self.derivation()
         if list(derived) != list(self.printed):
-            raise Unsupported(f"printed {list(self.printed)}, but derived {list(derived)}")
+            raise Unsupported(f"the printed sides are {list(self.printed)}, the derived ones {list(derived)}")
         differences = {left: self.printed[left] - derived[left] for left in derived}
         return {left: rest for left, rest in differences.items() if not vanishes(rest)}
 
@@ -175,9 +175,9 @@ class Unreadable(Equality):
         """`unreadable`, if some sides differ from the derivation and no legible one does."""
         garbled = self.differences()
         if not garbled:
-            raise Unsupported("all of it agrees with the derivation: it can be read")
+            raise Unsupported("every printed side agrees with the derivation: nothing is unreadable")
         if wrong := [left for left in self.legible if left in garbled]:
-            raise Unsupported(f"{wrong} can be read, and differ from the derivation")
+            raise Unsupported(f"the sides {wrong} are called legible, but differ from the derivation")
         return "unreadable"
 
     def steps(self) -> Steps:
@@ -201,7 +201,7 @@ class LinearSystem(Evidence):
     def _solution(self, equations: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
         solutions = list(sp.linsolve(list(equations), list(self.unknowns)))
         if len(solutions) != 1 or any(part.has(*self.unknowns) for part in solutions[0]):
-            raise Unsupported(f"{equations} do not fix {self.unknowns}")
+            raise Unsupported(f"{equations} have no unique solution for {self.unknowns}")
         return tuple(solutions[0])
 
     def finding(self) -> Verdict:

@@ -143,7 +143,9 @@ def follow(
         last = integrator
         pieces.append(flow.crossed(piece.mode, reached))
         if len(pieces) > flow.most:
-            raise NotConverged("the right-hand side switches too often", abs(end - reached.time))
+            raise NotConverged(
+                f"the right-hand side switches more than {flow.most} times", abs(end - reached.time)
+            )
 
 
 def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Array) -> Array:
@@ -169,7 +171,9 @@ def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Ar
             rows[done] = piece.whole[:n]
             done += 1
         if switches > flow.most:
-            raise NotConverged("the right-hand side switches too often", float(times[-1]) - piece.begin)
+            raise NotConverged(
+                f"the right-hand side switches more than {flow.most} times", float(times[-1]) - piece.begin
+            )
     return rows
 
 

@@ -115,7 +115,7 @@ def _as_pieces(extreme: Any) -> Any:
 def _real(name: str, value: object) -> Array:
     array = np.asarray(value)
     if np.iscomplexobj(array):
-        raise TypeError(f"{name}: an expression takes complex values")
+        raise TypeError(f"{name}: an expression takes complex values, where real ones are needed")
     return array.astype(float, copy=False)
 
 
@@ -155,7 +155,7 @@ def _require_known_symbols(name: str, arguments: Sequence[Any], expressions: Seq
     unknown = empty.union(*(e.free_symbols for e in expressions)) - set(arguments)
     if unknown:
         names = ", ".join(sorted(map(str, unknown)))
-        raise ValueError(f"{name}: expressions hold symbols that are not arguments: {names}")
+        raise ValueError(f"{name}: the expressions hold symbols that are not arguments: {names}")
 
 
 @functools.cache

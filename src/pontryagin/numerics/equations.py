@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.complex_step import STEP, jacobian
 
@@ -98,15 +99,18 @@ class Symbolic:
 
     def __post_init__(self) -> None:
         if len(self.states) != len(self.expressions):
-            raise ValueError(
-                f"rates must hold one expression for each of {len(self.states)} states, "
-                f"got {len(self.expressions)}"
+            raise ArgumentValueError(
+                f"expressions must hold one rate for each of {len(self.states)} states, "
+                f"got {len(self.expressions)}",
+                "expressions",
             )
         known = {*self.states, *self.parameters, self.clock}
         unknown = {str(symbol) for rate in self.expressions for symbol in rate.free_symbols - known}
         if unknown:
-            raise ValueError(
-                f"rates must be in states and parameters alone, got symbols {', '.join(sorted(unknown))}"
+            raise ArgumentValueError(
+                "expressions must hold no symbols but states, parameters and the clock, "
+                f"got {', '.join(sorted(unknown))}",
+                "expressions",
             )
 
     @cached_property

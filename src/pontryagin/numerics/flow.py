@@ -33,7 +33,7 @@ STEPS = 100_000
 @functools.cache
 def has_heyoka() -> bool:
     """Whether heyoka can be imported; if not, warn once per process."""
-    if not installed("heyoka", "flows use SciPy's DOP853, slower"):
+    if not installed("heyoka", "trajectories are integrated by SciPy's DOP853, which is slower"):
         return False
     import heyoka
 
@@ -221,7 +221,9 @@ class _Taylor:
 
         event = event_of(outcome)
         if event is None and outcome != hy.taylor_outcome.time_limit:
-            raise NotConverged(f"the Taylor integrator stopped: {outcome}", float(end - taylor.time))
+            raise NotConverged(
+                f"the Taylor integrator stopped before the end: {outcome}", float(end - taylor.time)
+            )
         return Reached(float(taylor.time), taylor.state.copy(), event)
 
     def run(
@@ -287,7 +289,9 @@ class _RungeKutta:
                 atol=self._tolerance / 10,
             )
         if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
-            raise NotConverged(f"the Runge-Kutta integrator stopped: {found.message}", span[1] - span[0])
+            raise NotConverged(
+                f"the Runge-Kutta integrator stopped before the end: {found.message}", span[1] - span[0]
+            )
         if found.status == 1:
             instants, there = found.t_events or [], found.y_events or []
             i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))

@@ -99,7 +99,7 @@ _LOADED: dict[Callable[..., Any], types.ModuleType] = {}
 
 def has_numba() -> bool:
     """Whether Numba can be imported; if not, warn once per process."""
-    return installed("numba", "large stacks run as plain Python, slowly")
+    return installed("numba", "large stacks run slowly, as plain Python")
 
 
 def compiled_loop(kernel: Callable[..., tuple[float, ...]], inputs: int, outputs: int) -> types.ModuleType:
@@ -182,7 +182,7 @@ def _closure_source(kernel: Callable[..., Any]) -> str:
                 visit(value)
             elif isinstance(value, int | float):
                 if constants.setdefault(name, value) != value:
-                    raise TypeError(f"two numbers called {name} meet in {kernel.__name__}")
+                    raise TypeError(f"{kernel.__name__} uses two different numbers called {name}")
             elif getattr(math, name, None) is value:
                 imported.add(name)
             elif value is np:
@@ -192,7 +192,7 @@ def _closure_source(kernel: Callable[..., Any]) -> str:
                     f"{target.__name__} uses {name}, which is neither a number nor a plain function"
                 )
         if functions.setdefault(target.__name__, target) is not target:
-            raise TypeError(f"two functions called {target.__name__} meet in {kernel.__name__}")
+            raise TypeError(f"{kernel.__name__} uses two different functions called {target.__name__}")
 
     visit(kernel)
     parts = ["from __future__ import annotations", "from numba import njit, types"]

@@ -239,7 +239,7 @@ def _side_by_side(equations: Symbolic, tolerance: float) -> Run:
             taylor.propagate_until(end[chosen], max_steps=STEPS)
             if any(outcome != hy.taylor_outcome.time_limit for outcome, *_ in taylor.propagate_res):
                 left = float(np.abs(end[chosen] - taylor.time).max())
-                raise NotConverged("the Taylor integrator stopped short of the end", left)
+                raise NotConverged("the Taylor integrator stopped before the end", left)
             part, filled = slice(i, i + lanes), min(lanes, count - i)
             states[part] = taylor.state[:n, :filled].T
             slopes[part] = taylor.state[n:, :filled].reshape(n, m, filled).transpose(2, 0, 1)
@@ -270,7 +270,8 @@ def _as_one_system(equations: Symbolic, tolerance: float) -> Run:
         result = solve_ivp(rate, (0.0, 1.0), first.ravel(), method="DOP853", rtol=rtol, atol=rtol / 10)
         if not result.success or not np.isfinite(result.y[:, -1]).all():
             raise NotConverged(
-                f"the Runge-Kutta integrator stopped: {result.message}", float(1.0 - result.t[-1])
+                f"the Runge-Kutta integrator stopped before the end: {result.message}",
+                float(1.0 - result.t[-1]),
             )
         last = result.y[:, -1].reshape(count, n, -1)
         return last[..., 0], last[..., 1:]

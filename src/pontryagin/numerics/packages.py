@@ -14,7 +14,7 @@ def installed(package: str, consequence: str) -> bool:
     package : str
         Its name.
     consequence : str
-        What the user notices without it, such as "large stacks run as plain Python, slowly".
+        What the user notices without it, such as "large stacks run slowly, as plain Python".
 
     Examples
     --------

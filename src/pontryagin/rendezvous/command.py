@@ -13,17 +13,21 @@ File = Path | None
 
 
 def solve(
-    case: Annotated[Text, typer.Option(metavar="NAME", help="One of the report's cases.")] = None,
-    file: Annotated[File, typer.Option(metavar="FILE", help="A problem from a JSON file.")] = None,
-    listed: Annotated[bool, typer.Option("--list", help="Print the cases, and solve none.")] = False,
+    case: Annotated[
+        Text, typer.Option(metavar="NAME", help="One of the report's cases, which --list prints.")
+    ] = None,
+    file: Annotated[File, typer.Option(metavar="FILE", help="Solve the problem of a JSON file.")] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Print the cases and solve none.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     samples: Annotated[
-        int, typer.Option(metavar="N", min=0, help="With --json: state, costate, control at N times.")
+        int, typer.Option(metavar="N", min=0, help="With --json: adds state, costate and control at N times.")
     ] = 0,
     plot: Annotated[
-        File, typer.Option(metavar="FILE", help="Draw orbit, thrust, |n| and H: .svg, .pdf, .png.")
+        File, typer.Option(metavar="FILE", help="Draw orbit, thrust, |n| and H, as .svg, .pdf or .png.")
     ] = None,
-    record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
+    record: Annotated[
+        File, typer.Option(metavar="FILE", help="Record the flight for rerun, as .rrd.")
+    ] = None,
 ) -> None:
     """Meet a target on a Kepler orbit under low thrust, at the least cost of time and thrust.
 
@@ -41,8 +45,8 @@ def solve(
 
     An orbit may have "attitude", its quaternion with the scalar part first, in place of the three angles; the
     chaser may be given like the target, and is then on that orbit at its anomaly. By default time_weight is
-    1, energy_weight 0, gravity 1, and the duration free, as with null. The problem that --json prints is such
-    an object.
+    1, energy_weight 0 and gravity 1; the duration is free, which may be written as null. The problem that
+    --json prints is such an object.
 
     \b
     Examples:
@@ -87,7 +91,7 @@ def _problem(case: Text, file: File) -> Any:
 
     if file is None:
         if case is None:
-            raise console.Refusal("--case", "is missing, or --file")
+            raise console.Refusal("--case", "or --file must be given")
         known = cases()
         if case not in known:
             raise console.Refusal("--case", f"takes {', '.join(known)}, got {case!r}")
@@ -109,7 +113,10 @@ def _solved(problem: Any, option: str) -> Any:
                 raise console.Refusal(option, f": {reason}") from reason
             raise
         if not extremal.certificate.holds():
-            raise NotConverged("the certificate does not close", float(extremal.certificate.residual))
+            raise NotConverged(
+                "the certificate does not hold: its residual is too large",
+                float(extremal.certificate.residual),
+            )
     return extremal
 
 
@@ -122,7 +129,7 @@ def _title(problem: Any, case: Text) -> str:
         return "Rendezvous in the least time"
     if not problem.time_weight or not problem.free:
         return f"Rendezvous with the least energy in the time {problem.duration:.6g}"
-    return "Rendezvous at the least price of time and energy"
+    return "Rendezvous at the least cost of time and energy"
 
 
 def _files(extremal: Any, plot: File, record: File) -> None:

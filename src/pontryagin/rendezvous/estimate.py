@@ -49,9 +49,10 @@ def require_solvable(problem: Rendezvous) -> None:
         return
     if problem.time_weight == 0:
         raise Infeasible(
-            "time_weight is 0 and the duration is free: the end law p(t_k)^2 = alpha1/alpha2 then asks for "
-            "no thrust at the meeting, and a longer flight is always cheaper, so that there is no best one; "
-            "fix the duration, or give time_weight a positive value"
+            "time_weight must be positive where the duration is free, got 0: a longer flight is always "
+            "cheaper then, as the law p(t_k)^2 = alpha1/alpha2 requires no thrust at the meeting, and there "
+            "is no best duration; give a duration or a positive time_weight",
+            "time_weight",
         )
     _require_gap(problem.scaled)
 
@@ -67,8 +68,8 @@ def _require_gap(scaled: Scaled) -> None:
     place, velocity = gap(scaled)
     if max(place, velocity) < TOGETHER:
         raise ArgumentValueError(
-            "chaser must not be with the target at t0 where the duration is free: the meeting is then at "
-            f"t0, and costs nothing; got a distance of {place:.3g} and velocities that differ by "
+            "chaser must not be with the target at t0 where the duration is free, as the meeting is then at "
+            f"t0 and costs nothing; got a distance of {place:.3g} and velocities that differ by "
             f"{velocity:.3g}, in units of the target's orbit",
             "chaser",
         )

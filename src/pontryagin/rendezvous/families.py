@@ -125,7 +125,7 @@ def stretched(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
         return root
     end = math.log(wanted)
     points = shooting.curve(setting, root, "duration", end)
-    reason = "the duration could not be stretched"
+    reason = f"the family of extremals ends before the duration {wanted * setting.scaled.time:.6g}"
     return reach(points, end, lambda unknowns: shooting.meet(setting, unknowns), reason)
 
 
@@ -144,7 +144,7 @@ def freed(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
     points = shooting.curve(setting, root, "duration", towards)
     for unknowns, logarithm in crossings(points, lambda point: shooting.law(setting, point)):
         return shooting.meet(setting, shooting.released(unknowns, math.exp(logarithm)))
-    raise NotConverged("the terminal law was not met along the durations", abs(missed))
+    raise NotConverged("the law at the meeting holds for none of the durations that were tried", abs(missed))
 
 
 def bounded(shooting: Shooting[S, F], setting: S, loose: S, root: Root[F]) -> Root[F]:
@@ -187,21 +187,21 @@ def _lowered(shooting: Shooting[S, F], loose: S, root: Root[F], peak: float) -> 
 
     def reached() -> str:
         bounds = (math.exp(x) * loose.scaled.acceleration for x in (least, end))
-        return "the bound went down to {:.6g}, not to {:.6g}".format(*bounds)
+        return "the bound on the thrust could be lowered to {:.6g}, but not to {:.6g}".format(*bounds)
 
     def falling() -> Iterator[Point[Any]]:
         nonlocal least
         for point in shooting.curve(loose.replace(peak=highest), root, "peak", end):
             yield point
             if _largest_costate(point.unknowns) > RUNAWAY * _largest_costate(root.unknowns):
-                raise Infeasible(f"{reached()}: the costates grow beyond measure")
+                raise Infeasible(f"{reached()}: the costates grow without limit")
             if point.parameter > start:
                 return
             least = min(least, point.parameter)
 
     for unknowns, _ in crossings(falling(), lambda point: point.parameter - end):
         return shooting.meet(wanted, unknowns)
-    raise NotConverged(f"{reached()}: the family turns back or ends", least - end)
+    raise NotConverged(f"{reached()}: the family of extremals turns back or ends", least - end)
 
 
 def _largest_costate(unknowns: Array) -> float:
@@ -222,10 +222,12 @@ def _least_time(shooting: Shooting[S, F], setting: S, root: Root[F]) -> Root[F]:
         if [piece.mode for piece in point.equations.flight.pieces] == ["saturated"]:
             break
         if reached > end:
-            reason = "the thrust vanishes on the way"
+            reason = (
+                "alpha1/alpha2 was raised to its largest value, but the thrust still vanishes at some time"
+            )
             break
         if reached < start:
-            reason = "the family turns back"
+            reason = "the family of extremals turns back as alpha1/alpha2 is raised"
             break
     bang = setting.replace(ratio=math.inf)
     change = bang.end_switching / setting.replace(ratio=math.exp(reached)).end_switching

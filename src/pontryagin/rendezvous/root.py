@@ -127,5 +127,5 @@ def root(
     )
     allowed = tolerance(found.equations.jacobian, found.unknowns) if largest is None else largest
     if not found.residual <= allowed:
-        raise NotConverged("Newton's method did not reach a meeting", found.residual)
+        raise NotConverged("Newton's method did not converge to a meeting", found.residual)
     return Root(found.unknowns, found.equations)

@@ -125,11 +125,13 @@ def _object(name: str, given: Any, required: Keys, optional: Keys = ()) -> Mappi
     takes = ", ".join((*required, *optional))
     if not isinstance(given, Mapping):
         place = name or "the text"
-        raise ArgumentValueError(f"{place} takes an object with {takes}, got {_excerpt(given)}", name or None)
+        raise ArgumentValueError(
+            f"{place} takes an object with the keys {takes}, got {_excerpt(given)}", name or None
+        )
     dot = f"{name}." if name else ""
     for key in given:
         if key not in (*required, *optional):
-            raise ArgumentValueError(f"{dot}{key} is unknown here: takes {takes}", f"{dot}{key}")
+            raise ArgumentValueError(f"{dot}{key} is an unknown key; known are {takes}", f"{dot}{key}")
     for key in required:
         if key not in given:
             raise ArgumentValueError(f"{dot}{key} is missing", f"{dot}{key}")

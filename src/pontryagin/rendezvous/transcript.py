@@ -104,16 +104,16 @@ def table(report: Report) -> Report:
         if place <= LISTED + 1:
             lines[f"{place}"] = f"cost {cost:.8g}, time {duration:.8g}, {revolutions:.2f} revolutions"
     if others["count"] > LISTED:
-        lines["further"] = f"{others['count'] - LISTED}, up to the cost {max(others['cost']):.8g}"
+        lines["further"] = f"{others['count'] - LISTED}, with costs up to {max(others['cost']):.8g}"
     rows = report | {"problem": problem, "others found": lines or {"none": ""}}
     del rows["others"]
     if "searched" in report:
         searched = report["searched"]
         rows["searched"] = {
-            "from durations": [float(f"{duration:.5g}") for duration in searched["durations"]],
-            "revolutions more": searched["revolutions"],
-            "walks ended": searched["ends"],
-            "ways given up": len(searched["given_up"]),
+            "first durations": [float(f"{duration:.5g}") for duration in searched["durations"]],
+            "further revolutions": searched["revolutions"],
+            "search ended": searched["ends"],
+            "attempts given up": len(searched["given_up"]),
         }
     order = ("problem", "solution", "certificate", "others found", "searched")
     return {heading: rows[heading] for heading in order if heading in rows}
@@ -126,18 +126,18 @@ def _short(value: Any) -> str:
 
 
 def conclusion(report: Report) -> str:
-    """The cost, the largest residual, and what is not claimed, in two sentences.
+    """The cost, the largest residual, and what is not claimed, as text.
 
     Examples
     --------
     >>> report = {"others": {"count": 0}, "solution": {"cost": 0.5}, "certificate": {"residual": 1e-13}}
     >>> conclusion(report)[:72]
-    'The extremal found costs 0.5, every condition met to 1e-13. Extremals sa'
+    'The extremal found costs 0.5; every condition is met to 1e-13. Extremals'
     """
     count = report["others"]["count"] + 1
     found = f"The best of {count} extremals" if count > 1 else "The extremal found"
     return (
-        f"{found} costs {report['solution']['cost']:.10g}, every condition met to "
-        f"{float(report['certificate']['residual']):.0e}. Extremals satisfy necessary conditions; that none "
-        "costs less elsewhere is not claimed."
+        f"{found} costs {report['solution']['cost']:.10g}; every condition is met to "
+        f"{float(report['certificate']['residual']):.0e}. Extremals satisfy necessary conditions; it is not "
+        "claimed that no other control costs less."
     )

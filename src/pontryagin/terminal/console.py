@@ -49,7 +49,7 @@ def vector(option: str, text: str, length: int) -> list[float]:
     """The numbers that an option's text holds, separated by commas."""
     values = [_number(part) for part in text.split(",")]
     if len(values) != length or not np.isfinite(values).all():
-        raise Refusal(option, f"takes {length} numbers with commas between, got {text!r}")
+        raise Refusal(option, f"takes {length} numbers separated by commas, got {text!r}")
     return values
 
 
@@ -80,14 +80,14 @@ def excluded(by: str, given: Mapping[str, object]) -> None:
     """Refuse the first given option, which cannot be combined with `by`."""
     for option, value in given.items():
         if value:
-            raise Refusal(option, f"does not go with {by}")
+            raise Refusal(option, f"cannot be combined with {by}")
 
 
 def together(given: Mapping[str, object], other: str, there: bool) -> None:
     """Refuse the first given option unless the option `other`, which it needs, is `there`."""
     for option, value in given.items():
         if value and not there:
-            raise Refusal(option, f"goes with {other} only")
+            raise Refusal(option, f"needs {other}")
 
 
 @contextmanager
@@ -117,7 +117,9 @@ def solving(options: Mapping[str, str]) -> Iterator[None]:
         try:
             yield
         except (ArithmeticError, np.linalg.LinAlgError) as reason:
-            raise NotConverged(f"the numbers overflow: {reason}", math.inf) from reason
+            raise NotConverged(
+                f"the computation failed, as numbers became too large or too small: {reason}", math.inf
+            ) from reason
 
 
 def file_names(plot: Path | None, record: Path | None, out: str) -> None:
@@ -189,7 +191,7 @@ def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> N
 
 
 def require_proof(proof: Certificate) -> None:
-    """Refuse to end well where a certificate, or one of a stack, is not closed to `ACCEPTED`."""
+    """Raise `NotConverged` where a certificate, or one of a stack, does not hold to `ACCEPTED`."""
     with np.errstate(all="ignore"):
         left = proof.residual
     open_ones = ~(left <= ACCEPTED)
@@ -197,7 +199,9 @@ def require_proof(proof: Certificate) -> None:
         count = (
             f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
         )
-        raise NotConverged(f"{count} not close: lost to rounding", float(left[open_ones].max()))
+        raise NotConverged(
+            f"{count} not hold to {ACCEPTED:g}: rounding errors are too large", float(left[open_ones].max())
+        )
 
 
 def as_text(value: Any) -> str:

@@ -25,6 +25,7 @@ def turning():
 @pytest.mark.slow
 @pytest.mark.parametrize("example", ["orbit", "turning"])
 def test_the_phase_is_the_integral_of_the_frequency(example, request):
+    """The phase is that of (2.5)."""
     solution = request.getfixturevalue(example)
     tau = np.linspace(0, 1, 4) * solution.duration
     turned = [quad(lambda t: solution.frequency(t)[0], 0, t, epsabs=1e-12)[0] for t in tau]
@@ -60,6 +61,7 @@ def test_the_rotors_phase_is_the_share_of_the_turns_time(turning):
 
 
 def test_the_control_is_the_systems_maximiser_without_phase_costate(orbit):
+    """The control is u0* of (2.17)."""
     tau, xi = np.array([0.1, 0.3]), np.array([0.7, 4.0])
     system = orbit.system
     slow, costate, control = orbit.slow(tau), orbit.costate(tau), orbit.control(tau, xi)

@@ -191,6 +191,7 @@ CARRIAGES = {
 @pytest.mark.parametrize("name", CARRIAGES)
 @pytest.mark.parametrize("kappa", [0.0, -0.2])
 def test_the_flow_from_the_start_meets_target_transversality_and_level(name, kappa):
+    """The flow of (2.11) meets the conditions (2.4) and (2.12) at the end."""
     system = CARRIAGES[name]
     solution = solve_averaged(system, [0.5, 0.3], kappa=kappa)
     xi, eta = flown(solution)
@@ -331,7 +332,7 @@ def test_near_the_separatrix_where_the_frequency_vanishes():
 
 
 def test_a_drift_that_exceeds_the_control_makes_a_target_unreachable():
-    with pytest.raises(Infeasible, match="drift opposes every control and exceeds it"):
+    with pytest.raises(Infeasible, match="drift leads away from it, and no control outweighs"):
         rotor(1.0, 4.0, force=-V, peak=1.0)
     with pytest.raises(Infeasible, match="at a = 2 "):
         rotor(1.0, 2.0, force=-V / 2, peak=1.0)
@@ -347,7 +348,9 @@ def test_a_frequency_that_vanishes_on_the_way_is_refused():
     )
     assert solve_averaged(through, [1.5]).certificate.holds(1e-10)
     for start in (0.5, -3.0, 1.0):
-        with pytest.raises(ValueError, match=r"omega must be positive all the way, got .* at a = "):
+        with pytest.raises(
+            ValueError, match=r"omega must be positive along the whole trajectory, got .* at a = "
+        ):
             solve_averaged(through, [start])
 
 

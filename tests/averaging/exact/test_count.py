@@ -32,6 +32,7 @@ def test_the_window_of_the_rippled_example_is_known_in_closed_form():
 
 @pytest.mark.parametrize("epsilon", [0.1, 0.03, 0.01])
 def test_as_many_extremals_are_found_as_the_window_predicts(epsilon):
+    """Extremals lie near all members kappa of the window, (2.13), not only near that of (2.7)."""
     expected = window(RIPPLED).count(epsilon)
     found = RIPPLED.exact(epsilon)
     assert abs(len(found) - expected) < 2
@@ -62,7 +63,7 @@ def test_where_the_averaged_problem_ends_before_the_roots_do_it_says_so():
     ("solution", "message"),
     [
         (smooth_example([1.0, 1.2], 2.0, ripple=0.5), "that of one problem"),
-        (rotor(2.0, 4.0, peak=1.0, potential=sp.cos(X)), "leave a choice of the end"),
+        (rotor(2.0, 4.0, peak=1.0, potential=sp.cos(X)), "leave the control a choice of the end"),
         (smooth_example(1.0, 2.0), "depends on the phase"),
     ],
 )

@@ -19,7 +19,7 @@ NAN, INFINITE = float("nan"), float("inf")
         ((1.0, 2.0, 0.0), "k must be positive"),
         ((NAN, 2.0), "v0 must be .* finite"),
         ((1.0, 2.0, 1.0, INFINITE), "ripple must be .* finite"),
-        (([1.0, 2.0], [1.0, 2.0, 3.0]), "do not broadcast"),
+        (([1.0, 2.0], [1.0, 2.0, 3.0]), "v1: the leading shapes do not broadcast"),
     ],
 )
 def test_the_smooth_example_names_what_is_wrong(arguments, message):
@@ -31,8 +31,8 @@ def test_the_smooth_example_names_what_is_wrong(arguments, message):
     ("arguments", "message"),
     [
         ((0.5, 0.9, -0.3, 0.1), "E0 must be negative"),
-        ((-0.5, 0.9, 0.0, 0.1), "E1 must be negative, that of a bound orbit, got 0"),
-        ((-0.5, 0.9, [-0.3, 0.2], 0.1), "E1 must be negative, that of a bound orbit, got 0.2"),
+        ((-0.5, 0.9, 0.0, 0.1), "E1 must be negative, as the energy of a bound orbit is, got 0"),
+        ((-0.5, 0.9, [-0.3, 0.2], 0.1), "E1 must be negative, as the energy of a bound orbit is, got 0.2"),
         ((-0.5, -0.9, -0.3, 0.1), "K0 must be positive"),
         ((-0.5, 1.1, -0.3, 0.1), "K0 must be below that of the round orbit .* = 1, got 1.1"),
         ((-0.5, 1.0, -0.3, 0.1), "K0 must leave an eccentricity above"),
@@ -41,6 +41,7 @@ def test_the_smooth_example_names_what_is_wrong(arguments, message):
         ((-0.5, 0.9, -0.3, 0.0), "l must be positive"),
         ((-0.5, 0.9, -0.3, NAN), "l must be .* finite"),
         ((NAN, 0.9, -0.3, 0.1), "E0 must be .* finite"),
+        (([-0.5, -0.4], [0.9, 0.8, 0.7], -0.3, 0.1), "K0: the leading shapes do not broadcast"),
     ],
 )
 def test_kepler_names_what_is_wrong(arguments, message):
@@ -58,6 +59,7 @@ def test_kepler_names_what_is_wrong(arguments, message):
         (([1.0, 2.0, 3.0], [1, 1], 0.5), r"semiaxes must be an array \(\.\.\., 3\)"),
         (([1.0, 2.0, 3.0], [1, 1, 1], 1.0), "ratio must differ from 1"),
         (([1.0, 2.0, 3.0], [1, 1, 1], -0.5), "ratio must be positive"),
+        (([[1.0, 2.0, 3.0]] * 2, [1, 1, 1], [0.5] * 3), "ratio: the leading shapes do not broadcast"),
     ],
 )
 def test_spin_down_names_what_is_wrong(arguments, message):
@@ -80,6 +82,7 @@ def test_spin_down_names_what_is_wrong(arguments, message):
         ),
         ({"a1": [2.0, 1.0]}, ValueError, "a1 must exceed the potential's maximum 1, .* got 1"),
         ({"a1": INFINITE}, ValueError, "a1 must be .* finite"),
+        ({"a1": [3.0, 4.0], "peak": [1.0] * 3}, ValueError, "peak: the leading shapes do not broadcast"),
         ({"mass": sp.cos(X)}, ValueError, "mass must be positive for every x, got -1"),
         ({"mass": 0}, ValueError, "mass must be positive"),
         ({"mass": "1 + cos(x)"}, TypeError, "mass must be a SymPy expression or a number"),

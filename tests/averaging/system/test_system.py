@@ -22,6 +22,7 @@ coordinates = st.floats(0.2, 2).map(lambda z: round(z, 3))
 
 
 def test_the_hamiltonian_splits_the_rates_at_the_control():
+    """h* is that of (1.4) and (1.5) for a system of the form (1.1)."""
     system = PhaseSystem(**GOOD, phase_rate=u * sp.sin(x) + a, running_cost=1 + a**2)
     p, q = system.costates, system.phase_costate
     s = p[0] * sp.cos(x) + p[1] + q * sp.sin(x)
@@ -34,6 +35,7 @@ def test_the_hamiltonian_splits_the_rates_at_the_control():
 @pytest.mark.slow
 @given(st.tuples(*[coordinates] * 6), st.floats(-3, 3))
 def test_no_control_does_better_than_the_maximiser(values, other):
+    """The maximiser is that of (1.5)."""
     system = PhaseSystem(**GOOD | {"control_set": Box([2])}, phase_rate=u * sp.sin(x))
     at = dict(zip((a, b, x, *system.costates, system.phase_costate), values, strict=True))
 

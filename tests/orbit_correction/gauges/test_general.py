@@ -1,12 +1,14 @@
 """Gauges of general systems (Lemma 7, Lemma 9): dimensions, sizes, nearly flat sets, invalid arguments."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.optimize import linprog
 
+from independent import cube, least_scale
 from pontryagin import Infeasible, NotConverged
 from pontryagin.certificate import Certificate
 from pontryagin.orbit_correction import DiscreteSystem, gauge
@@ -57,15 +59,9 @@ def test_the_gauge_in_boxes_drawn_round_the_ellipsoids_is_a_linear_programme(see
     """An ellipsoid lies between the box and the cross-polytope of its axes, whose gauges HiGHS finds."""
     A, H, x0 = drawn(seed, n, 4, 1)
     system = DiscreteSystem(A, H)
-    factors = system.factors(4)
-    columns, count = np.concatenate(list(factors), axis=1), 4 * n
-    answers = []
-    for within in (np.eye(count), np.kron(np.eye(4), np.ones(n))):
-        signed = np.hstack([columns, -columns, np.zeros((n, 1))])
-        below = np.hstack([within, within, -np.ones((len(within), 1))])
-        cost = np.append(np.zeros(2 * count), 1.0)
-        answers.append(linprog(cost, A_ub=below, b_ub=np.zeros(len(within)), A_eq=signed, b_eq=-x0).fun)
-    assert answers[0] * (1 - 1e-7) <= gauge(system, x0, 4).alpha <= answers[1] * (1 + 1e-7)
+    corners = np.array(list(product([-1, 1], repeat=n)))
+    low, high = (least_scale(system.factors(4), -x0, normals) for normals in (cube(n), corners))
+    assert low * (1 - 1e-7) <= gauge(system, x0, 4).alpha <= high * (1 + 1e-7)
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-160, 1e80, 1e300])

@@ -2,39 +2,27 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.optimize import linprog
 
+from independent import cube, least_scale
 from pontryagin import Infeasible
 from pontryagin.orbit_correction import correct, printed
 from pontryagin.orbit_correction.gauges.pball import fewest_power_steps, power_gauge
 from pontryagin.orbit_correction.plan.thrust import Thrust
 from pontryagin.orbit_correction.system.satellite import step_factors
+from strategies import deviations
 
 Z0 = np.array(printed.Z0)
 
 
-def states():
-    return st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3).map(np.array)
-
-
-def cube_gauge(z0, steps):
-    """The least bound on the moduli of all components that bring z0 to 0, by HiGHS."""
-    columns = np.hstack(list(0.0035 * step_factors(steps, 0.25)))
-    width = columns.shape[1]
-    cost = np.append(np.zeros(width), 1.0)
-    within = np.vstack([np.hstack([s * np.eye(width), -np.ones((width, 1))]) for s in (1, -1)])
-    reach = np.hstack([columns, np.zeros((3, 1))])
-    bounds = [(None, None)] * width + [(0, None)]
-    return linprog(cost, A_ub=within, b_ub=np.zeros(2 * width), A_eq=reach, b_eq=-z0, bounds=bounds).fun
+states = deviations(least=1e-4)
 
 
 @pytest.mark.slow
-@given(states(), st.sampled_from([1.5, 2.0, 8.0, 16.0]), st.integers(1, 7))
+@given(states, st.sampled_from([1.5, 2.0, 8.0, 16.0]), st.integers(1, 7))
 def test_controls_and_costate_prove_each_other(z0, p, steps):
-    assume(np.abs(z0).max() > 1e-4)
     found = power_gauge(z0, steps, p)
     assert found.certificate.holds(1e-9)
     factors = step_factors(steps, 0.25)
@@ -48,15 +36,14 @@ def test_controls_and_costate_prove_each_other(z0, p, steps):
 
 
 @pytest.mark.slow
-@given(states(), st.integers(1, 8))
+@given(states, st.integers(1, 8))
 def test_two_is_the_ball_and_the_cube_is_the_limit(z0, steps):
-    assume(np.abs(z0).max() > 1e-4)
     ball = Thrust("ball", 0.25, 0.0035).gauges(z0[None], np.array([steps])).lower[0]
     chain = [power_gauge(z0, steps, p).alpha for p in (2, 8, 16)]
     assert_allclose(chain[0], ball, rtol=1e-9)
-    cube = cube_gauge(z0, steps)
-    assert np.all(np.diff([*chain, cube]) <= 1e-7 * cube)
-    assert chain[2] <= 3 ** (1 / 16) * cube * (1 + 1e-7)
+    limit = least_scale(0.0035 * step_factors(steps, 0.25), -z0, cube(3))
+    assert np.all(np.diff([*chain, limit]) <= 1e-7 * limit)
+    assert chain[2] <= 3 ** (1 / 16) * limit * (1 + 1e-7)
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ from pontryagin import Infeasible
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge, printed
 from pontryagin.orbit_correction.plan.thrust import Thrust
 from pontryagin.orbit_correction.system.satellite import LINEAR, step_input, step_transition
+from strategies import deviations
 
 Z0 = np.array(printed.Z0)
 
@@ -48,7 +49,7 @@ def fly(plan):
 
 @pytest.mark.slow
 @given(
-    st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3).map(np.array),
+    deviations(),
     st.sampled_from([0.25, 1.0, np.pi]),
     st.sampled_from(["ball", "disc", "box"]),
 )

@@ -5,41 +5,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.optimize import linprog
 
+from independent import cube, least_scale
 from pontryagin.numerics import jit
 from pontryagin.orbit_correction.gauges.zonotope import turning_place
 from pontryagin.orbit_correction.plan.thrust import THRUSTS, Thrust
+from strategies import deviations
 
 INTERVALS = (0.25, 1.0, np.pi / 2, np.pi, 4.0)
 
 
-def least_peak_by_linear_programme(factors, z0, normals):
-    """Least scale at which impulses in the polygons {w: normals w <= 1} bring z0 to 0, by HiGHS."""
-    steps, _, width = factors.shape
-    sides = len(normals)
-    within = np.zeros((steps * sides, steps * width + 1))
-    for k in range(steps):
-        within[k * sides : (k + 1) * sides, k * width : (k + 1) * width] = normals
-    within[:, -1] = -1.0
-    reach = np.hstack([np.moveaxis(factors, 0, 1).reshape(3, -1), np.zeros((3, 1))])
-    cost = np.zeros(steps * width + 1)
-    cost[-1] = 1.0
-    free = [(None, None)] * (steps * width) + [(0, None)]
-    answer = linprog(cost, A_ub=within, b_ub=np.zeros(len(within)), A_eq=reach, b_eq=-z0, bounds=free)
-    assert answer.success
-    return answer.fun
+states = deviations(least=1e-5)
 
 
-def states():
-    return (
-        st.tuples(*[st.floats(-0.02, 0.02, allow_subnormal=False)] * 3)
-        .map(np.array)
-        .filter(lambda z: np.abs(z).max() > 1e-5)
-    )
-
-
-@given(states(), st.sampled_from(INTERVALS), st.integers(2, 12), st.sampled_from(THRUSTS))
+@given(states, st.sampled_from(INTERVALS), st.integers(2, 12), st.sampled_from(THRUSTS))
 def test_controls_and_costate_agree_from_both_sides(z0, interval, steps, name):
     thrust = Thrust(name, interval, 0.0035)
     found = thrust.gauges(z0[None], np.array([steps]))
@@ -54,25 +33,24 @@ def test_controls_and_costate_agree_from_both_sides(z0, interval, steps, name):
     assert_allclose(found.upper[0], found.lower[0], rtol=5e-12)
 
 
-@given(states(), st.sampled_from(INTERVALS), st.integers(2, 9))
+@given(states, st.sampled_from(INTERVALS), st.integers(2, 9))
 def test_the_box_is_the_linear_programme(z0, interval, steps):
     thrust = Thrust("box", interval, 0.0035)
-    square = np.vstack([np.eye(2), -np.eye(2)])
-    by_highs = least_peak_by_linear_programme(thrust.factors(steps), z0, square)
+    by_highs = least_scale(thrust.factors(steps), -z0, cube(2))
     assert_allclose(thrust.gauges(z0[None], np.array([steps])).upper[0], by_highs, rtol=1e-8)
 
 
-@given(states(), st.sampled_from(INTERVALS), st.integers(2, 6))
+@given(states, st.sampled_from(INTERVALS), st.integers(2, 6))
 def test_the_disc_lies_between_its_polygons(z0, interval, steps):
     thrust = Thrust("disc", interval, 0.0035)
     angles = np.arange(96) * 2 * np.pi / 96
     around = np.column_stack([np.cos(angles), np.sin(angles)])
-    outer = least_peak_by_linear_programme(thrust.factors(steps), z0, around)
+    outer = least_scale(thrust.factors(steps), -z0, around)
     found = thrust.gauges(z0[None], np.array([steps])).upper[0]
     assert outer * (1 - 1e-8) <= found <= outer / np.cos(np.pi / 96) * (1 + 1e-8)
 
 
-@given(states(), st.sampled_from(THRUSTS))
+@given(states, st.sampled_from(THRUSTS))
 def test_the_gauge_falls_with_the_number_of_steps_and_scales_with_the_state(z0, name):
     thrust = Thrust(name, 0.25, 0.0035)
     counts = np.arange(2, 20)

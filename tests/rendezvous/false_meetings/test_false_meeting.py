@@ -106,7 +106,9 @@ def test_a_false_meeting_can_cost_less_than_the_optimum():
 
 def test_the_error_of_a_curve_that_turns_back_names_where_it_ends():
     true = meeting(20)
-    with pytest.raises(NotConverged, match=r"the curve of false meetings ends at -?\d.* rad, before -2.967"):
+    with pytest.raises(
+        NotConverged, match=r"the curve of false meetings ends at -?\d.* rad, before it reaches -2.967"
+    ):
         false_meeting(true.problem, math.radians(-170), true)
 
 

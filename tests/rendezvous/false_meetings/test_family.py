@@ -163,7 +163,7 @@ def test_the_errors_name_the_argument():
         false_family(true_meeting(0), [math.nan])
     with pytest.raises(ValueError, match=r"angles must be of shape \(k,\)"):
         false_family(true_meeting(0), [[0.1]])
-    with pytest.raises(ValueError, match="first and last must be below and above 0"):
+    with pytest.raises(ValueError, match="first must be below 0 and last above 0, got"):
         false_curve(true_meeting(0), 0.2, 0.5)
     with pytest.raises(ValueError, match="solution must have a free duration"):
         false_family(true_meeting(0, duration=5.406142860948114), [0.1])
@@ -171,5 +171,7 @@ def test_the_errors_name_the_argument():
 
 @pytest.mark.slow
 def test_the_error_of_a_curve_that_ends_names_the_angle_that_is_not_reached():
-    with pytest.raises(NotConverged, match=r"the curve of false meetings ends at .* rad, before -?3 rad"):
+    with pytest.raises(
+        NotConverged, match=r"the curve of false meetings ends at .* rad, before it reaches -?3 rad"
+    ):
         false_family(true_meeting(20), [3.0, -3.0])

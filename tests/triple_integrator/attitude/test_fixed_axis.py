@@ -17,6 +17,7 @@ from pontryagin.triple_integrator import (
     minimum_time,
 )
 from pontryagin.triple_integrator.attitude import RigidBody, turn
+from strategies import bodies
 
 BODY = RigidBody([[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]])
 AXIS = np.array([1.0, 2.0, 2.0]) / 3
@@ -25,13 +26,6 @@ QUARTER = Maneuver([0, 0, 0], [np.pi / 2, 0, 0], tf=2.0)
 numbers = st.floats(-2.0, 2.0)
 states = st.tuples(numbers, numbers, numbers).map(np.array)
 axes = states.filter(lambda v: np.linalg.norm(v) > 0.1)
-
-
-@st.composite
-def bodies(draw):
-    x, y, z = (draw(st.floats(0.1, 2.0)) for _ in range(3))
-    frame = Rotation.from_rotvec(draw(states)).as_matrix()
-    return RigidBody(frame @ np.diag([y + z, x + z, x + y]) @ frame.T)
 
 
 @pytest.mark.parametrize("solve", NORMS)

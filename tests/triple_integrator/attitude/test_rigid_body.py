@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from pontryagin.numerics import rotation as kinematics
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, RigidBody, simulate
 from pontryagin.triple_integrator.derivation import rigid_body as derivation
+from strategies import bodies
 
 J, w, a, e, q, phi = (
     derivation.inertia,
@@ -24,14 +25,6 @@ STILL = Commands(np.zeros(0), lambda t, z: z, np.zeros(0))
 coordinates = st.floats(-2.0, 2.0)
 rotation_vectors = st.tuples(coordinates, coordinates, coordinates).map(np.array)
 unit_quaternions = rotation_vectors.map(kinematics.quaternion)
-
-
-@st.composite
-def bodies(draw):
-    """Any mass distribution: principal moments are sums of pairs of second moments of the mass."""
-    x, y, z = (draw(st.floats(0.1, 2.0)) for _ in range(3))
-    frame = Rotation.from_rotvec(draw(rotation_vectors)).as_matrix()
-    return RigidBody(frame @ np.diag([y + z, x + z, x + y]) @ frame.T)
 
 
 def free(t, attitude, rate, commands):

@@ -7,8 +7,8 @@ import pytest
 import sympy as sp
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
-from scipy.optimize import linprog
 
+from independent import grid_impulse, grid_peak
 from pontryagin.triple_integrator.derivation import channel, duality, model
 from pontryagin.triple_integrator.derivation.channel import tau
 from pontryagin.triple_integrator.derivation.model import T, s
@@ -27,26 +27,9 @@ def integrated(state, duration, program, force):
 
 
 @cache
-def grid_peak(moments, count=200):
-    """Least peak of controls that are constant on the cells of a grid in unit time, by HiGHS."""
-    edges = np.linspace(0, 1, count + 1)
-    powers = [np.diff(edges ** (k + 1)) / ((k + 1) * d) for k, d in ((2, 2), (1, 1), (0, 1))]
-    equalities = np.column_stack([np.array(powers), np.zeros(3)])
-    bounds = np.vstack([np.column_stack([sign * np.eye(count), -np.ones(count)]) for sign in (1, -1)])
-    cost = np.append(np.zeros(count), 1)
-    answer = linprog(
-        cost, bounds, np.zeros(2 * count), equalities, moments, [(None, None)] * count + [(0, None)]
-    )
-    return answer.fun
-
-
-@cache
-def grid_impulse(moments, count=2000):
-    """Least total impulse at the instants of a grid in unit time, by HiGHS."""
-    instants = np.linspace(0, 1, count + 1)
-    rows = np.array([instants**2 / 2, instants, np.ones(count + 1)])
-    answer = linprog(np.ones(2 * count + 2), A_eq=np.hstack([rows, -rows]), b_eq=moments, bounds=(0, None))
-    return answer.fun
+def on_a_grid(moments):
+    """Least peak and least total impulse on grids of unit time, by HiGHS."""
+    return grid_peak(moments, cells=200), grid_impulse(moments, cells=2000)
 
 
 def test_a_rotation_keeps_lengths_its_axis_and_composes():
@@ -146,14 +129,13 @@ CASES = [(1, 0, 0), (0, 0, 1), (R(1, 3), -R(1, 5), R(2, 7)), (-1, R(1, 2), 2)]
 def test_no_dual_function_bounds_more_than_the_best_control_on_a_grid(moments, multipliers):
     """(1.13): no h with l'c = 1 proves more than the least norm."""
     c, l = sp.Matrix(moments), sp.Matrix(multipliers)
-    numbers = tuple(float(m) for m in moments)
-    assert float(duality.peak_bound(l, c, sp.S.One)) <= grid_peak(numbers) + 1e-6
-    assert float(duality.impulse_bound(l, c, sp.S.One)) <= grid_impulse(numbers) + 1e-9
+    peak, impulse = on_a_grid(tuple(float(m) for m in moments))
+    assert float(duality.peak_bound(l, c, sp.S.One)) <= peak + 1e-6
+    assert float(duality.impulse_bound(l, c, sp.S.One)) <= impulse + 1e-9
 
 
 def test_the_bounds_of_the_unit_turn_are_tight():
-    assert_allclose(grid_peak((1.0, 0, 0)), 32, rtol=1e-9)
-    assert_allclose(grid_impulse((1.0, 0, 0)), 16, rtol=1e-9)
+    assert_allclose(on_a_grid((1.0, 0, 0)), [32, 16], rtol=1e-9)
     turn = sp.Matrix([1, 0, 0])
     assert duality.peak_bound(sp.Matrix([1, -R(1, 2), R(3, 32)]), turn, sp.S.One) == 32
     assert duality.impulse_bound(sp.Matrix([16, -8, 1]), turn, sp.S.One) == 16

@@ -23,15 +23,19 @@ from pontryagin.triple_integrator.derivation.parabola import (
 )
 
 R = sp.Rational
-switching = st.tuples(
-    st.fractions(R(1, 20), R(9, 20), max_denominator=40),
-    st.fractions(R(11, 20), R(19, 20), max_denominator=40),
-    st.sampled_from([-3, -1, 2, 5]),
+
+
+def shares(low, high):
+    """Fractions of the unit time, as SymPy's numbers."""
+    return st.fractions(low, high, max_denominator=40).map(lambda x: R(x.numerator, x.denominator))
+
+
+switching = given(
+    early=shares(R(1, 20), R(9, 20)),
+    late=shares(R(11, 20), R(19, 20)),
+    height=st.sampled_from([-3, -1, 2, 5]),
 )
-
-
-def exact(value):
-    return R(value.numerator, value.denominator)
+few = settings(max_examples=10, deadline=None)
 
 
 def bang_bang(early, late, height):
@@ -60,11 +64,10 @@ def test_the_zeros_are_zeros():
         assert sp.simplify(parabola.vertex_form().subs(tau, zero)) == 0
 
 
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_areas_are_integrals(case):
+@switching
+@few
+def test_the_areas_are_integrals(early, late, height):
     """S1 - S2 + S3, by (3.7) in the form (3.12), is the integral of the modulus."""
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
     numbers = {alpha: height, apex: (early + late) / 2, half_width: (late - early) / 2, T: 1}
     grid = np.linspace(0, 1, 20_001)
     h = float(height) * (grid - float(early)) * (grid - float(late))
@@ -73,11 +76,10 @@ def test_the_areas_are_integrals(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_optimum_solves_all_four_conditions(case):
+@switching
+@few
+def test_the_optimum_solves_all_four_conditions(early, late, height):
     """(3.15), (3.16) and (3.17) on the curve (3.18), (3.19); (3.13) is (3.11) with the zeros."""
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
     moments = bang_bang(early, late, height)
     at = {T: 1, slope: -R(1, height), **dict(zip(c, moments, strict=True))}
     curve = {key: value.subs(at) for key, value in parabola.curve().items()}
@@ -90,10 +92,9 @@ def test_the_optimum_solves_all_four_conditions(case):
 
 
 @pytest.mark.slow
-@given(switching)
-@settings(max_examples=10, deadline=None)
-def test_the_level_is_the_root_of_largest_modulus(case):
-    early, late, height = exact(case[0]), exact(case[1]), case[2]
+@switching
+@few
+def test_the_level_is_the_root_of_largest_modulus(early, late, height):
     at = {T: 1, **dict(zip(c, bang_bang(early, late, height), strict=True))}
     roots = sp.Poly(parabola.level_polynomial().subs(at), level).real_roots()
     assert height in roots

@@ -1,4 +1,4 @@
-"""Least total impulse against linear programmes and SciPy's integrator, in all regimes and at borders."""
+"""Least total impulse against linear programmes, in all regimes and at borders."""
 
 import numpy as np
 import pytest
@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from independent import impulse_bracket, propagate, response
+from independent import impulse_bracket, response
 from pontryagin.triple_integrator import Maneuver, minimum_impulse
-from strategies import maneuver_with, maneuvers, moments, multipliers, signs
+from strategies import maneuver_with, moments, multipliers, signs
 
 sizes = st.floats(0.01, 5.0)
 
@@ -29,15 +29,6 @@ def of_impulses(places, amplitudes):
 def present(solution):
     keep = ~np.isnan(solution.impulse_times)
     return list(zip(solution.impulse_times[keep].tolist(), solution.impulses[keep].tolist(), strict=True))
-
-
-@given(maneuvers())
-def test_the_impulses_steer_the_true_state_to_the_target(maneuver):
-    solution = minimum_impulse(maneuver)
-    reached, largest = propagate(maneuver, lambda t: 0.0, impulses=present(solution))
-    assert_allclose(reached, maneuver.xf, atol=1e-10 * (1 + largest.max()))
-    assert_allclose(solution.state(maneuver.tf)[0], maneuver.xf, atol=1e-10 * (1 + largest.max()))
-    assert solution.certificate.holds(1e-12)
 
 
 @settings(max_examples=10)
@@ -193,14 +184,3 @@ def test_the_control_is_zero_and_infinite_at_the_impulses():
 def test_the_state_is_that_before_an_impulse_at_the_start_and_after_any_other():
     solution = minimum_impulse(Maneuver([0, 0, 0], [1, 0, 0], 2.0))
     assert solution.state([0.0, 1e-9, 1.0, 2.0])[:, 2].tolist() == [0.0, 1.0, -1.0, 0.0]
-
-
-@pytest.mark.parametrize("exponent", [-290, -170, -160, -100, 100, 160, 170, 290])
-def test_tiny_and_huge_moments_scale_exactly(exponent):
-    for ends in ([1.0, -0.25, 0.5], [0.3, -0.8, 0.9], [0.2, 0.6, 0.5], [0.2, 0.5, 1.0]):
-        unit, scaled = (
-            minimum_impulse(maneuver_with(np.array(ends) * size)) for size in (1.0, 2.0**exponent)
-        )
-        assert scaled.norm == unit.norm * 2.0**exponent
-        assert scaled.regime == unit.regime
-        assert (scaled.impulses == unit.impulses * 2.0**exponent).all()

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
+from independent import integral, moments_of, pieces, propagate
 from pontryagin import NotConverged
 from pontryagin.triple_integrator.norms.energy import minimum_energy
 from pontryagin.triple_integrator.norms.impulse import minimum_impulse
@@ -21,55 +22,18 @@ from pontryagin.triple_integrator.norms.quadrature import (
     moments_beyond,
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from strategies import maneuvers, multipliers
 
 few = settings(max_examples=8, deadline=None)
 REST_TO_REST = Maneuver([0, 0, 0], [1, 0, 0], tf=1.0)
 
 exponents = st.sampled_from([1.02, 1.1, 1.3, 1.7, 2.0, 2.5, 4.0, 9.0, 40.0, 100.0])
-numbers = st.floats(-3, 3, allow_subnormal=False).map(lambda x: round(x, 3))
-states = st.tuples(numbers, numbers, numbers)
-
-
-@st.composite
-def maneuvers(draw):
-    start = draw(st.floats(-2, 2))
-    duration = draw(st.floats(0.3, 4))
-    m = Maneuver(draw(states), draw(states), tf=start + duration, t0=start, disturbance=draw(numbers))
-    return m if np.abs(m.moments).max() > 1e-3 else REST_TO_REST
+moving = maneuvers().filter(lambda m: np.abs(m.moments).max() > 1e-3)
 
 
 def moment_scale(m):
-    T = m.duration
-    return np.array([T**3 / 6, T**2 / 2, T]) * max(
-        np.abs(m.moments / np.stack([T**3 / 6, T**2 / 2, T])).max(), 1e-300
-    )
-
-
-def pieces(solution):
-    m = solution.maneuver
-    return itertools.pairwise([float(m.t0), *solution.breakpoints, float(m.tf)])
-
-
-def integral(solution, weight):
-    """Integral of weight(t, u(t)) over the manoeuvre, by QUADPACK."""
-    return sum(
-        quad(lambda t: weight(t, solution.control([t])[0]), a, b, epsabs=1e-13, epsrel=1e-12, limit=400)[0]
-        for a, b in pieces(solution)
-    )
-
-
-def propagated(solution):
-    """x(tf) by SciPy's integrator from x(t0), the control and the disturbance (a number) alone."""
-    m = solution.maneuver
-    force = 0.0 if m.disturbance is None else float(m.disturbance)
-
-    def rates(t, x):
-        return [x[1], x[2] + force, solution.control([t])[0]]
-
-    x = m.x0
-    for a, b in pieces(solution):
-        x = solve_ivp(rates, (a, b), x, method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1]
-    return x
+    scale = m.duration ** np.array([3, 2, 1]) / [6, 2, 1]
+    return scale * np.abs(m.moments / scale).max()
 
 
 def assert_same_control(found, expected, q):
@@ -82,26 +46,25 @@ def assert_same_control(found, expected, q):
 
 @pytest.mark.slow
 @few
-@given(maneuvers(), exponents)
+@given(moving, exponents)
 def test_the_control_has_the_required_moments(m, q):
     """The moment equalities (1.11)."""
-    s = minimum_norm(m, q)
-    tf = float(m.tf)
-    found = [integral(s, lambda t, u, j=j: u * (tf - t) ** j / max(j, 1)) for j in (2, 1, 0)]
-    assert_allclose(np.array(found) / moment_scale(m), m.moments / moment_scale(m), atol=2e-9)
+    found = moments_of(minimum_norm(m, q))
+    assert_allclose(found / moment_scale(m), m.moments / moment_scale(m), atol=2e-9)
 
 
 @pytest.mark.slow
 @few
-@given(maneuvers(), st.sampled_from([1.1, 1.5, 2.0, 3.0, 4.0]))
+@given(moving, st.sampled_from([1.1, 1.5, 2.0, 3.0, 4.0]))
 def test_the_control_steers_the_true_state_to_the_target(m, q):
     s = minimum_norm(m, q)
-    assert_allclose((propagated(s) - m.xf) / moment_scale(m), 0, atol=1e-9)
+    reached, _ = propagate(m, lambda t: s.control([t])[0], s.breakpoints)
+    assert_allclose((reached - m.xf) / moment_scale(m), 0, atol=1e-9)
 
 
 @pytest.mark.slow
 @settings(max_examples=4, deadline=None)
-@given(maneuvers(), exponents)
+@given(moving, exponents)
 def test_the_state_reaches_the_target_and_follows_the_equations(m, q):
     s = minimum_norm(m, q)
     t = np.linspace(float(m.t0), float(m.tf), 9)
@@ -118,7 +81,7 @@ def test_the_state_reaches_the_target_and_follows_the_equations(m, q):
 
 
 @few
-@given(maneuvers(), exponents)
+@given(moving, exponents)
 def test_the_norm_is_that_of_the_control_and_is_certified(m, q):
     s = minimum_norm(m, q)
     by_quadrature = s.peak * integral(s, lambda t, u: abs(u / s.peak) ** q) ** (1 / q)
@@ -128,7 +91,7 @@ def test_the_norm_is_that_of_the_control_and_is_certified(m, q):
 
 
 @few
-@given(maneuvers(), exponents, states)
+@given(moving, exponents, multipliers)
 def test_no_multipliers_give_a_bound_above_the_norm(m, q, l):
     s = minimum_norm(m, q)
     assert dual_bound(m, q, l) <= s.norm * (1 + 1e-12)
@@ -142,7 +105,7 @@ def test_the_bound_is_the_pairing_over_the_conjugate_norm():
 
 
 @few
-@given(maneuvers(), exponents)
+@given(moving, exponents)
 def test_hoelders_inequality_is_an_equality(m, q):
     """(1.14): |u|^q is proportional to |psi_3|^p, and u has the sign of psi_3."""
     s = minimum_norm(m, q)
@@ -156,7 +119,7 @@ def test_hoelders_inequality_is_an_equality(m, q):
 
 
 @few
-@given(maneuvers())
+@given(moving)
 def test_q_two_is_the_least_energy(m):
     s, energy = minimum_norm(m, 2), minimum_energy(m)
     t = np.linspace(float(m.t0), float(m.tf), 7)
@@ -167,7 +130,7 @@ def test_q_two_is_the_least_energy(m):
 
 @pytest.mark.slow
 @few
-@given(maneuvers())
+@given(moving)
 def test_the_power_mean_grows_with_q_between_both_ends(m):
     T = float(m.duration)
     means = [float(minimum_impulse(m).norm) / T]
@@ -194,7 +157,7 @@ def test_the_limit_of_large_q_switches_where_the_least_peak_does():
 
 
 @few
-@given(maneuvers(), exponents, st.floats(-6, 6), st.floats(-3, 3), st.sampled_from([-1.0, 1.0]))
+@given(moving, exponents, st.floats(-6, 6), st.floats(-3, 3), st.sampled_from([-1.0, 1.0]))
 def test_units_and_sign_do_not_matter(m, q, amplitude, clock, sign):
     a, T = sign * 10.0**amplitude, 10.0**clock
     by_clock = a / T ** np.array([0.0, 1.0, 2.0])
@@ -209,7 +172,7 @@ def test_units_and_sign_do_not_matter(m, q, amplitude, clock, sign):
 
 
 @few
-@given(maneuvers(), exponents)
+@given(moving, exponents)
 def test_reversal_of_time(m, q):
     """In reversed time x2 and u change sign; the norm does not."""
     mirror = np.array([1.0, -1.0, 1.0])

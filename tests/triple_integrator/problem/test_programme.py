@@ -10,7 +10,7 @@ from independent import propagate
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 from pontryagin.triple_integrator.problem.bang_bang import bang_bang, first_sign, switch_times
 from pontryagin.triple_integrator.problem.programme import truncated_power
-from strategies import maneuvers, stacked
+from strategies import maneuver_with, maneuvers, stacked
 
 SOLVERS = [minimum_energy, minimum_peak, minimum_impulse]
 every_solver = pytest.mark.parametrize("solve", SOLVERS)
@@ -25,22 +25,48 @@ def test_the_state_joins_the_ends(solve, maneuver):
     assert_allclose(state, [maneuver.x0, maneuver.xf], atol=1e-11 * size)
 
 
+def flown(solution, until):
+    """The state at a time by SciPy, and the largest modulus of each coordinate on the way."""
+    m, control, kicks = solution.maneuver, lambda t: float(solution.control(t)[0]), []
+    if hasattr(solution, "impulses"):
+        pairs = zip(solution.impulse_times.tolist(), solution.impulses.tolist(), strict=True)
+        control, kicks = lambda t: 0.0, [(t, size) for t, size in pairs if t <= until]
+    part = Maneuver(m.x0, m.xf, until, m.t0, m.disturbance)
+    return propagate(part, control, [t for t in solution.breakpoints if t < until], kicks)
+
+
+@every_solver
+@given(maneuver=maneuvers())
+def test_the_control_steers_the_true_state_to_the_target(solve, maneuver):
+    solution = solve(maneuver)
+    reached, largest = flown(solution, float(maneuver.tf))
+    assert_allclose(reached, maneuver.xf, atol=1e-10 * (1 + largest.max()))
+    assert_allclose(solution.state(maneuver.tf)[0], maneuver.xf, atol=1e-10 * (1 + largest.max()))
+    assert solution.certificate.holds(1e-12)
+
+
 @every_solver
 @given(maneuver=maneuvers(), share=st.floats(0.05, 0.95))
 def test_the_state_on_the_way_is_that_of_scipy(solve, maneuver, share):
-    solution = solve(maneuver)
     time = float(maneuver.t0 + share * maneuver.duration)
-    part = Maneuver(maneuver.x0, maneuver.xf, time, maneuver.t0, maneuver.disturbance)
-    kicks = []
-    if solve is minimum_impulse:
-        pairs = zip(solution.impulse_times.tolist(), solution.impulses.tolist(), strict=True)
-        kicks = [(t, size) for t, size in pairs if t <= time]
-    control = (
-        (lambda t: 0.0) if kicks or solve is minimum_impulse else lambda t: float(solution.control(t)[0])
-    )
-    before = [t for t in solution.breakpoints if t < time]
-    reached, largest = propagate(part, control, before, kicks)
+    solution = solve(maneuver)
+    reached, largest = flown(solution, time)
     assert_allclose(solution.state(time)[0], reached, atol=1e-10 * (1 + largest.max()))
+
+
+@every_solver
+@pytest.mark.parametrize("exponent", [-290, -170, -160, -100, 100, 160, 170, 290])
+@pytest.mark.parametrize("c", [[1.0, -0.25, 0.5], [0.3, -0.8, 0.9], [0.2, 0.6, 0.5], [0.2, 0.5, 1.0]])
+def test_tiny_and_huge_moments_scale_exactly(solve, c, exponent):
+    size = 2.0**exponent
+    unit, scaled = (solve(maneuver_with(np.array(c) * factor)) for factor in (1.0, size))
+    assert scaled.norm == unit.norm * size
+    assert_allclose(scaled.multipliers * size, unit.multipliers, rtol=1e-14)
+    if solve is minimum_peak:
+        assert scaled.switch_times.tolist() == unit.switch_times.tolist()
+    if solve is minimum_impulse:
+        assert scaled.regime == unit.regime
+        assert (scaled.impulses == unit.impulses * size).all()
 
 
 @every_solver

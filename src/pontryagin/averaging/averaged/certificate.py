@@ -94,5 +94,5 @@ def _require_turning(omega: Array, slow: Array, names: Sequence[str], members: N
             f"{name} = {value:.6g}" for name, value in zip(names, slow[member, place], strict=True)
         )
         where = f" (problem {members[member]} of the stack)" if len(members) > 1 else ""
-        message = f"omega must be positive all the way, got {omega[member, place]:.6g} at {at}{where}"
-        raise ArgumentValueError(message, "omega")
+        got = f"{omega[member, place]:.6g} at {at}{where}"
+        raise ArgumentValueError(f"omega must be positive along the whole trajectory, got {got}", "omega")

@@ -60,8 +60,8 @@ def terms(reference: ReferenceExtremal, start: Array, ending: Array | None = Non
     equations = canonical(reference.system)
     if ending is None and fixed_ending(equations):
         raise ArgumentValueError(
-            "ending must be given: the least-time trajectory of one slow variable leaves no choice of the "
-            "anomaly at the end, with which J1 varies",
+            "ending must be given for the least time with one slow variable, got None: the control cannot "
+            "choose the anomaly at the end there, and J1 depends on it",
             "ending",
         )
     first, last = _ends(reference, equations, start, ending)
@@ -115,7 +115,11 @@ def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] =
             return found
         before = found
     if not (change <= ROUGH * scale).all():
-        raise NotConverged(f"{what} does not settle", float((change / scale).max()))
+        raise NotConverged(
+            f"{what} has not converged with {sizes[-1]} points: the last increase of their number changed it "
+            f"by more than {ROUGH:g} of its size",
+            float((change / scale).max()),
+        )
     return found
 
 

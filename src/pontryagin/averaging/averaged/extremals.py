@@ -180,8 +180,8 @@ def _resolved(
             break
         if last:
             raise NotConverged(
-                f"the averaged extremal is not smooth enough for {path.mesh.panels} panels"
-                f"{_which(problem, members[active[0]])}",
+                f"the averaged extremal is not smooth enough for {path.mesh.panels} collocation panels, the "
+                f"most that are tried{_which(problem, members[active[0]])}",
                 float(tails.max()),
             )
         coarse = path.mesh == COARSE
@@ -195,7 +195,8 @@ def _resolved(
         if lost.any():
             member = members[active[np.argmax(lost)]]
             raise NotConverged(
-                f"Newton's method lost the extremal on {finer.panels} panels{_which(problem, member)}",
+                f"Newton's method did not converge after the mesh was refined to {finer.panels} panels"
+                f"{_which(problem, member)}",
                 float(tails.max()),
             )
     return groups
@@ -216,29 +217,31 @@ def _require_sound(
     if stopped.any():
         member, place = (int(i[0]) for i in np.nonzero(stopped))
         raise ArgumentValueError(
-            f"omega must be positive all the way, got {guess.frequency[member, place]:.6g} at "
+            f"omega must be positive along the whole trajectory, got {guess.frequency[member, place]:.6g} at "
             f"{_point(names, guess.slow[member, place])}{_which(problem, first + member)}",
             "omega",
         )
     idle = ~(guess.idle < 0)
     if idle.any():
         member = int(np.nonzero(idle)[0][0])
-        name = (
-            "kappa must be less than the mean running cost over omega"
-            if problem.kappa[member]
-            else ("running_cost must be positive on average")
-        )
+        kappa, rate = problem.kappa[member], -guess.idle[member]
+        where = _which(problem, first + member)
+        if kappa:
+            raise ArgumentValueError(
+                f"kappa must be less than the mean running cost over omega, got {kappa:.6g}: the mean of the "
+                f"running cost minus kappa omega is {rate:.6g} at the start{where}",
+                "kappa",
+            )
         raise ArgumentValueError(
-            f"{name}, at the start the cost rate is {-guess.idle[member]:.6g}"
-            f"{_which(problem, first + member)}",
-            name.split(" ")[0],
+            f"running_cost must be positive on average over a turn, got {rate:.6g} at the start{where}",
+            "running_cost",
         )
     stuck = guess.stuck & ~there[:, None]
     if single and stuck.any():
         member, place = (int(i[0]) for i in np.nonzero(stuck))
         raise Infeasible(
             f"the target cannot be reached: at {_point(names, guess.slow[member, place])} the mean drift "
-            f"opposes every control and exceeds it{_which(problem, first + member)}"
+            f"leads away from it, and no control outweighs the drift{_which(problem, first + member)}"
         )
 
 
@@ -270,7 +273,7 @@ def _continued(problem: Problem, names: Sequence[str], member: int) -> Trajector
             reached = _point(names, known[-1][1].z[0, -1, : model.slow]) if known else "the start"
             raise NotConverged(
                 f"no averaged extremal was found beyond {100 * done:.1f} % of the way to the target, "
-                f"at {reached}; it may be out of reach{_which(problem, member)}",
+                f"at {reached}; the target may be out of reach{_which(problem, member)}",
                 float(np.abs((1 - done) * far).max()),
             )
     return known[-1][1]

@@ -99,7 +99,7 @@ class AveragedSolution:
         return self.model.averaged(self._z(tau), self._numbers)[1].value
 
     def phase(self, tau: ArrayLike, epsilon: float, phase: ArrayLike | None = None) -> Array:
-        """psi_0 + integral of omega d tau / epsilon, with an error of O(1), as (..., k).
+        """psi_0 + integral of omega d tau / epsilon, (2.5), with an error of O(1), as (..., k).
 
         Raises
         ------
@@ -163,7 +163,11 @@ class AveragedSolution:
         begin = self.initial_phase if phase is None else finite("phase", phase, "a number or an array (...)")
         last = None if ending is None else finite("ending", ending, "a number or an array (...)")
         if not (self.kappa == 0).all():
-            raise ArgumentValueError("the correction is that of the optimum: solve with kappa = 0", "kappa")
+            other = self.kappa[self.kappa != 0].flat[0]
+            raise ArgumentValueError(
+                f"kappa must be 0 for a correction, which is known for the optimum alone, got {other:g}",
+                "kappa",
+            )
         start = anomaly_at(self.model, self.start, begin, self.numbers)
         return terms(self._regular, start, last)
 
@@ -192,7 +196,7 @@ class AveragedSolution:
             )
         if not self.duration > 0:
             raise ArgumentValueError(
-                "exact takes a problem that is not solved at the start: the target holds there"
+                "exact takes a problem of positive duration, got one whose start already meets the target"
             )
         from pontryagin.averaging.exact.roots import extremals
 

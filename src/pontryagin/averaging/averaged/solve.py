@@ -12,8 +12,8 @@ from pontryagin.averaging.averaged.extremals import extremals
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
-from pontryagin.errors import ArgumentTypeError, ArgumentValueError
-from pontryagin.validation import finite, vectors
+from pontryagin.errors import ArgumentTypeError
+from pontryagin.validation import common_shape, finite, vectors
 
 if TYPE_CHECKING:
     from pontryagin.averaging.averaged.reference import ReferenceExtremal
@@ -44,7 +44,7 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
         If the frequency is not positive along the whole way, the running cost is not positive on average, or
         an input is not finite or wrongly shaped.
     Infeasible
-        If the target cannot be reached: the mean drift opposes every control and exceeds it.
+        If the target cannot be reached: the mean drift leads away from it, and no control outweighs it.
     NotConverged
         If no extremal was found, with the residual of the equations or the distance left to the target.
 
@@ -93,12 +93,12 @@ def solved(
     """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
     family = finite("kappa", kappa, "a number or an array (...)")
     phase = np.asarray(initial_phase, dtype=float)
-    try:
-        shape = np.broadcast_shapes(
-            start.shape[:-1], family.shape, phase.shape, *(number.shape for number in numbers)
-        )
-    except ValueError:
-        raise ArgumentValueError("leading shapes of start, kappa and the numbers do not broadcast") from None
+    shape = common_shape(
+        start=start.shape[:-1],
+        numbers=np.broadcast_shapes(*(number.shape for number in numbers)),
+        kappa=family.shape,
+        initial_phase=phase.shape,
+    )
     n = len(names)
     each = [np.broadcast_to(number, shape) for number in (*numbers, family)]
     begin = np.broadcast_to(start, (*shape, n))

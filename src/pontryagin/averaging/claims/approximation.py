@@ -24,7 +24,7 @@ n = sp.Symbol("n", integer=True, positive=True)
 
 @claim.proof(
     "after (2.16): Hamiltonian",
-    "(2.11) is Hamilton's, and ωκ + (ηf0) constant",
+    "(2.11) is a Hamiltonian system, along which ωκ + (ηf0) is constant",
     display=r"\omega(\xi)\kappa + (\eta f_0) = \mathrm{const}",
 )
 def averaged_hamiltonian() -> Steps:
@@ -40,11 +40,11 @@ def averaged_hamiltonian() -> Steps:
 
 @claim(
     "after (2.16): optimal κ",
-    "the optimal κ is 0, and τ1(0) the root of (2.12) there",
+    "the optimal κ is 0, and τ1(0) is the root of (2.12) at κ = 0",
     verdict="conditional",
-    remark="True where (2.15) and (2.16) hold, as in the smooth example. κ = 0 may be a local maximum, and "
-    "(2.12) may have several roots there, only one of them optimal: the example after (2.13) has τ1 = 1, 2 "
-    "and 3, the second a maximum.",
+    remark="True where (2.15) and (2.16) hold, as in the smooth example. But κ = 0 may be a local maximum, "
+    "and (2.12) may have several roots at κ = 0, only one of them optimal: the example after (2.13) "
+    "has τ1 = 1, 2 and 3, the second a maximum.",
 )
 def optimal_kappa() -> Evidence:
     def argument() -> Steps:
@@ -73,7 +73,9 @@ def optimal_kappa() -> Evidence:
 
 
 @claim.proof(
-    "after (2.16): (ηf0)", "at the optimum (ηf0) = 0 all along", display=r"(\eta f_0(\xi, \eta)) = 0"
+    "after (2.16): (ηf0)",
+    "at the optimum (ηf0) = 0 along the whole motion",
+    display=r"(\eta f_0(\xi, \eta)) = 0",
 )
 def zero_level() -> Steps:
     yield "h0 = −ωκ along a member", vanishes(averaged.h0 + averaged.omega * averaged.integral())
@@ -83,8 +85,8 @@ def zero_level() -> Steps:
 
 @claim.proof(
     "after (2.16): order",
-    "the order falls by one by (2.10), and of the 2n + 2 by three in all",
-    remark="q by H* = 0, ψ by averaging, one more by (ηf0) = 0.",
+    "(2.10) lowers the order by one; in all, the order 2n + 2 is lowered by three",
+    remark="q is removed by H* = 0, ψ by averaging, and one more variable by (ηf0) = 0.",
 )
 def order() -> Steps:
     sizes = averaged.order(n)
@@ -100,7 +102,7 @@ def order() -> Steps:
 @claim.proof(
     "after (2.16): quadrature",
     "with one degree of freedom a quadrature and an equation for τ1(0) are left",
-    remark="For one slow variable and the cost, on which no rate depends.",
+    remark="One degree of freedom means one slow variable and the cost, on which no rate depends.",
 )
 def quadrature() -> Steps:
     yield "the cost's costate is constant", averaged.cyclic_costate() == 0
@@ -129,9 +131,9 @@ def apart_from_the_phase() -> Steps:
 
 @claim.proof(
     "(2.17)",
-    "u = u0*(a, ψ, η*) with ψ as it turns is the first approximation, J* = J0(0)",
-    remark="With the true phase ψ. The phase of (2.5) is off by O(1) and will not do where u0* depends on "
-    "it.",
+    "u = u0*(a, ψ, η*), with ψ the phase of the actual motion, is the first approximation, and J* = J0(0)",
+    remark="The control needs the true phase ψ. The phase of (2.5) is off by O(1) and cannot replace it "
+    "where u0* depends on it.",
     display=r"u = u_0^*(a, \psi, \eta^*),\quad J^* = J_0(0),\quad \xi^* = \xi(\tau, \tau_1(0), 0),\quad "
     r"\eta^* = \eta(\tau, \tau_1(0), 0)",
 )

@@ -35,8 +35,8 @@ def smooth_instance(expression: sp.Expr, at: dict[sp.Symbol, sp.Expr]) -> sp.Exp
     "(2.3)",
     "averaged system of the first approximation",
     verdict="misprint",
-    remark="Printed: dη/dτ = −ω'ω⁻¹(ηf0) − (η∂f0/∂ξ). Right: +ω'ω⁻¹(ηf0), as in (2.1). With the print "
-    "ω(ηf0) would be constant and not (2.10), which the paper derives from it.",
+    remark="Printed: dη/dτ = −ω'ω⁻¹(ηf0) − (η∂f0/∂ξ). Right: +ω'ω⁻¹(ηf0), as in (2.1). With the printed sign "
+    "ω(ηf0) would be constant, and not (2.10), which the paper derives from (2.3).",
 )
 def averaged_system() -> Evidence:
     forward, backward = r"\frac{d\xi_1}{d\tau}", r"\frac{d\eta_1}{d\tau}"
@@ -67,8 +67,8 @@ def averaged_system() -> Evidence:
     "after (2.3): mean",
     "f0 is the mean of f0* over ψ at fixed ξ and η",
     remark="The mean of the costate's rate is then a derivative of (ηf0), as averaging at fixed ψ and "
-    "differentiation commute. With another anomaly x the weight dψ/dx must be in the mean before it is "
-    "differentiated.",
+    "differentiation commute. With another anomaly x the mean has to include the weight dψ/dx before "
+    "it is differentiated.",
 )
 def mean_rates() -> Steps:
     for variable, rest in zip((*xi, *eta), averaged.mean_and_derivative_commute(), strict=True):
@@ -107,9 +107,10 @@ def end_conditions() -> Evidence:
     "(2.5): a, p",
     "a = ξ + O(ε) and p = η + O(ε) for a given t1",
     verdict="conditional",
-    remark="True where the averaged problem's solution moves by O(ε) when its data do, as is assumed. Not in "
-    "the paper's example 1, least time: p(t1) = 1/x' at the anomaly where the motion ends, η(τ1) = 1/ω, and "
-    "with the mass (1 + cos(x)/2)² they are as 3 to 2 for ε as small as one likes.",
+    remark="True where the solution of the averaged problem moves by O(ε) when its data do, as is assumed. "
+    "False in the paper's example 1, least time: p(t1) = 1/x' at the anomaly where the motion ends, "
+    "while η(τ1) = 1/ω, and with the mass (1 + cos(x)/2)² the two are in the ratio 3 to 2 for ε as "
+    "small as one likes.",
 )
 def closeness() -> Evidence:
     def argument() -> Steps:

@@ -31,8 +31,8 @@ CHIRP = sp.sin(t + x * sp.sqrt(t))
 
 @claim.proof(
     "end of section 2: discontinuous controls",
-    "the approach can serve where u* jumps, of the order of 1/ε times",
-    remark="Shown on a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
+    "the approach can be used where u* jumps, with a number of jumps of the order of 1/ε",
+    remark="Shown on the example a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
 )
 def jumping_controls() -> Steps:
     mean = sp.integrate(sp.cos(phi), (phi, -sp.pi / 2, sp.pi / 2)) / sp.pi
@@ -53,8 +53,8 @@ def jumping_controls() -> Steps:
 
 @claim.proof(
     "end of section 2: small q",
-    "q ~ ε changes control and cost by the order of ε",
-    remark="Where the control jumps it is the instants that move, by the order of ε in the phase.",
+    "a costate q of the order ε changes control and cost by the order of ε",
+    remark="Where the control jumps, the instants of the jumps move, by the order of ε in the phase.",
 )
 def small_phase_costate() -> Steps:
     yield "q enters h as qF", principle.small_part().coeff(principle.q) == principle.F
@@ -106,12 +106,12 @@ def gronwall() -> sp.Expr:
 
 @claim(
     "end of section 2: theorem [12]",
-    "averaging for discontinuous X: |x − ξ| < η up to t = L/ε for ε small enough",
+    "averaging theorem for discontinuous X: |x − ξ| < η up to t = L/ε for ε small enough",
     verdict="conditional",
-    remark="True where the second limit is uniform in r_k too. For each r_k by itself it follows from the "
-    "first and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = 0, and x moves from 2 to "
-    "about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in t, as division by ψ' gives, has "
-    "the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
+    remark="True where the second limit is uniform in r_k too. If it is taken for each r_k by itself, it "
+    "follows from the first limit and adds nothing, and the theorem fails: X = sign(sin tx) has X0 = "
+    "0, while x moves from 2 to about √3 by t = 1/ε, as x² + τ² − 2εG(tx) is constant. X periodic in "
+    "t, as division by ψ' gives, has the uniform limit if ∫(X − X0)dt is Lipschitz in x.",
 )
 def averaging_theorem() -> Evidence:
     def argument() -> Steps:
@@ -163,7 +163,7 @@ def averaging_theorem() -> Evidence:
     )
 
 
-@claim.proof("end of section 2: no order", "the theorem does not give |x − ξ| ~ ε")
+@claim.proof("end of section 2: no order", "the theorem does not show that |x − ξ| is of the order ε")
 def no_order() -> Steps:
     moved = sp.integrate(1 / sp.sqrt(1 + t), (t, 0, T))
     yield "X = (1 + t)^(−1/2) has X0 = 0", sp.limit(moved / T, T, sp.oo) == 0
@@ -174,11 +174,11 @@ def no_order() -> Steps:
 
 @claim(
     "end of section 2: sharper estimate",
-    "with ∫Z dt differentiable in x and |N| ≤ d0/T, |x − ξ| ≤ dε",
+    "if ∫Z dt is differentiable in x and |N| ≤ d0/T, then |x − ξ| ≤ dε",
     verdict="conditional",
-    remark="True where the derivative of ∫Z dt by x is bounded, as it is for X periodic in t. It need not "
-    "be: X = ∂S/∂t, S = sin(t + x√t), meets all the conditions, those of the theorem uniformly in r_k, and "
-    "|x − ξ| is of the order √ε.",
+    remark="True where the derivative of ∫Z dt with respect to x is bounded, as it is for X periodic in t. "
+    "It need not be bounded: X = ∂S/∂t, S = sin(t + x√t), satisfies all the conditions, those of the "
+    "theorem uniformly in r_k, and |x − ξ| is of the order √ε.",
 )
 def sharper_estimate() -> Evidence:
     def argument() -> Steps:

@@ -32,7 +32,11 @@ def smooth_instance(expression: sp.Expr) -> sp.Expr:
     return concrete.subs(omega, a[0]).doit().subs({a[0]: 1, p[0]: 1})
 
 
-@claim("(2.1): a'", "the slow variables to the leading order: f at q = 0, ε = 0", verdict="holds")
+@claim(
+    "(2.1): a'",
+    "the rates of the slow variables to the leading order, with f at q = 0, ε = 0",
+    verdict="holds",
+)
 def slow_rate() -> Evidence:
     held = principle.leading(principle.u_star)
 
@@ -53,8 +57,8 @@ def slow_rate() -> Evidence:
     "(2.1): p'",
     "the costates to the leading order",
     verdict="misprint",
-    remark="Printed: −εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a. Right: +εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a, as −ω'q with "
-    "q = −εω⁻¹(pf0*) of the line below it gives; (2.11) with (2.10) has the right sign.",
+    remark="Printed: −εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a. Right: +εω'ω⁻¹(pf0*) − ε∂(pf0*)/∂a. This follows from −ω'q "
+    "with q = −εω⁻¹(pf0*) of the line below it; (2.11) with (2.10) has the right sign.",
 )
 def costate_rate() -> Evidence:
     key = r"\dot p_1/\varepsilon"
@@ -103,12 +107,12 @@ def remainders() -> Steps:
 
 @claim(
     "after (2.1): family",
-    "t1 as the parameter: for each t1 the problem without (2.2) has one solution",
+    "t1 is the parameter of a family: for each t1 the problem without (2.2) has one solution",
     verdict="conditional",
-    remark="An assumption of the paper, not met by its own example 1: there the motion of least time does "
-    "not depend on the member at all, and a solution exists for one t1 only. In the smooth example, rippled "
-    "or not, it is met as long as v does not overshoot. A parameter that always runs is the phase at the "
-    "end.",
+    remark="This is an assumption of the paper that its own example 1 does not satisfy: there the motion of "
+    "least time does not depend on the member of the family at all, and a solution exists for one t1 "
+    "only. The smooth example, rippled or not, satisfies it as long as v does not overshoot. The "
+    "phase at the end always changes from member to member, and can serve as the parameter.",
 )
 def one_solution_for_each_end() -> Evidence:
     def argument() -> Steps:
@@ -144,7 +148,7 @@ def one_solution_for_each_end() -> Evidence:
 
 
 @claim.proof(
-    "(2.2)", "h* = (pf*) = 0 at t1 picks the extremals", display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0"
+    "(2.2)", "h* = (pf*) = 0 at t1 selects the extremals", display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0"
 )
 def condition() -> Steps:
     level = omega * q + epsilon * principle.h_star
@@ -162,9 +166,10 @@ def condition() -> Steps:
     "after (2.2): one root",
     "where the root is unique, the solution of the boundary value problem is the optimum",
     verdict="conditional",
-    remark="True where an optimum exists and is normal, as the form of (1.6) supposes: it is an extremal, "
-    "and there is one. An abnormal optimum is no root: a1' = εu², a2' = ε(1 + 2u), |u| ≤ 1, least time from "
-    "0 to a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, and the one root has J = 3.",
+    remark="True where an optimum exists and is normal, as the form of (1.6) supposes: the optimum is an "
+    "extremal, and there is only one extremal. An abnormal optimum is not a root: a1' = εu², a2' = "
+    "ε(1 + 2u), |u| ≤ 1, least time from 0 to a1(a2 + 3) = (a2 − 1)(a2 + 3) = 0 has J = 1 with u = 0, "
+    "and the only root has J = 3.",
 )
 def one_root() -> Evidence:
     control, first_costate, second_costate = sp.symbols("u p_1 p_2", real=True)

@@ -22,7 +22,12 @@ claim = Page("Akulenko 1977")
 R = sp.Rational
 
 
-@claim("(2.10)", "κ = −(ηf0)/ω is constant along (2.3)", verdict="holds", remark="With (2.3) as corrected.")
+@claim(
+    "(2.10)",
+    "κ = −(ηf0)/ω is constant along (2.3)",
+    verdict="holds",
+    remark="This holds with (2.3) as corrected.",
+)
 def integral() -> Evidence:
     def argument() -> Steps:
         yield "its rate along (2.3) is 0", averaged.along(averaged.integral(), averaged.standard_rates()) == 0
@@ -37,7 +42,8 @@ def integral() -> Evidence:
 @claim.proof(
     "after (2.10): identity",
     "∂(ηf0)/∂η = f0, which makes dκ/dτ = 0",
-    remark="f0 itself depends on η; the identity is the envelope's, or Euler's for the degree one.",
+    remark="f0 itself depends on η; the identity is that of the envelope, or Euler's for functions of degree "
+    "one.",
     display=r"\partial(\eta f_0)/\partial\eta = f_0",
 )
 def envelope() -> Steps:
@@ -85,7 +91,7 @@ def with_kappa() -> Evidence:
     )
 
 
-@claim.proof("after (2.10): equivalent", "(2.3) and (2.11) with (2.12) are the same")
+@claim.proof("after (2.10): equivalent", "(2.3) is equivalent to (2.11) with (2.12)")
 def equivalent() -> Steps:
     backward = averaged.rates()[1].subs(kappa, averaged.integral())
     yield "(2.11) with κ from (2.10) is (2.3)", vanishes(backward - averaged.standard_rates()[1])
@@ -97,7 +103,7 @@ def equivalent() -> Steps:
     )
 
 
-@claim("(2.12)", "ωκ + (ηf0) = 0 at τ1 ties κ to τ1", verdict="holds")
+@claim("(2.12)", "the condition ωκ + (ηf0) = 0 at τ1 relates κ to τ1", verdict="holds")
 def end_level() -> Evidence:
     rising = {ripple.rise: 1}
 
@@ -129,8 +135,8 @@ def end_level() -> Evidence:
     "where dΨ/dκ ≠ 0, Ψ = ∫ω dτ, an ε-neighbourhood of every κ about 0 has a root of (2.2)",
     verdict="conditional",
     remark="True where h* depends on the phase, in the window between κ' and κ''. The smooth example has "
-    "dΨ/dκ > 0 and one root. In the paper's example 1, least time, (2.13) itself fails: the motion does not "
-    "depend on κ, Ψ = (a1 − a0)/u0, and κ is no parameter at all.",
+    "dΨ/dκ > 0 and one root only. In the paper's example 1, least time, (2.13) itself fails: the "
+    "motion does not depend on κ, Ψ = (a1 − a0)/u0, and κ cannot serve as a parameter.",
 )
 def roots_near_every_kappa() -> Evidence:
     def argument() -> Steps:
@@ -176,8 +182,9 @@ def roots_near_every_kappa() -> Evidence:
     "after (2.13): minimisation",
     "to minimise J0 over τ1 is to minimise it over κ with (2.12)",
     verdict="conditional",
-    remark="Where τ1(κ) is one function. (2.12) can have several branches, and κ = 0 a root on each: v' = "
-    "εu, s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − 3)(6 + 11τ1)/(36τ1²).",
+    remark="True where τ1(κ) is a single-valued function. (2.12) can have several branches with a root κ = 0 "
+    "on each: the system v' = εu, s' = ε, ω = 1, b' = ε(k(s) + u²) with κ(τ1) = (τ1 − 1)(τ1 − 2)(τ1 − "
+    "3)(6 + 11τ1)/(36τ1²) has three such roots.",
 )
 def over_kappa() -> Evidence:
     def argument() -> Steps:

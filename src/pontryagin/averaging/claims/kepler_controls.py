@@ -57,9 +57,9 @@ def controls_on_the_optimum() -> Evidence:
 
 @claim.proof(
     "after (3.9): γ",
-    "γ = γ0 on the average, for the mean of γ' vanishes",
-    remark="With the controls (3.8), with either sign in (3.6), to O(ε/e); a constant u_r = 1 would turn the "
-    "orbit at the mean rate εp^(1/2).",
+    "γ = γ0 on the average, since the mean of γ' vanishes",
+    remark="True with the controls (3.8), for either sign in (3.6), to O(ε/e); a constant u_r = 1 would turn "
+    "the orbit at the mean rate εp^(1/2).",
     display=r"\gamma = \gamma_0 = \mathrm{const}",
 )
 def pericentre_stays() -> Steps:
@@ -115,8 +115,9 @@ def velocity() -> Evidence:
 @claim.proof(
     "after (3.9): e, p",
     "the averaged e and p follow from E(τ) and K(τ) of (3.9)",
-    remark="With the square in E(τ). Then EK² is constant, and with it e: the orbit keeps its shape and p = "
-    "p0E0/E. The printed E(τ) would change e² from 1/2 to 3/4 for E0 = −1, E1 = −4, l = 2, K0 = 1/2.",
+    remark="True with the square in E(τ). Then EK² is constant, and so is e: the orbit keeps its shape and p "
+    "= p0E0/E. The printed E(τ) would change e² from 1/2 to 3/4 for E0 = −1, E1 = −4, l = 2, K0 = "
+    "1/2.",
 )
 def shape_on_the_optimum() -> Steps:
     found = solution()
@@ -134,8 +135,8 @@ def shape_on_the_optimum() -> Steps:
 @claim.proof(
     "after (3.9): u_r ~ e",
     "for small e the radial control is small, of order e",
-    remark="u_r* = ∓(l/(1 − e²))^(1/2) e sin x. What the first approximation leaves out is O(ε), so this is "
-    "the leading term where e ≫ ε.",
+    remark="u_r* = ∓(l/(1 − e²))^(1/2) e sin x. The first approximation leaves out terms O(ε), so that this "
+    "is the leading term where e ≫ ε.",
     display=r"u_r^* \sim e",
 )
 def radial_control() -> Steps:

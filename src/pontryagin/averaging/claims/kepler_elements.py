@@ -46,8 +46,8 @@ PLACE = {u_radial: 1, u_transverse: 0, epsilon: 1, momentum: 1, e: R(1, 2), anom
 @claim.proof(
     "before (3.6): type (1.1)",
     "(3.4) and (3.5) take (3.3) to a system of the form (1.1)",
-    remark="For 0 < e < 1. Slow are E, K and γ, the phase is ψ; the rates of γ and ψ grow as 1/e near the "
-    "circle.",
+    remark="This holds for 0 < e < 1. The slow variables are E, K and γ, the phase is ψ; the rates of γ and "
+    "ψ grow as 1/e near the circle.",
 )
 def standard_form() -> Steps:
     rates = kepler.element_rates()
@@ -93,9 +93,9 @@ def radius_rate(pericentre: sp.Expr) -> sp.Expr:
     "how thrust turns the orbit",
     verdict="misprint",
     remark="Printed: +u_r cos x. Right: −u_r cos x. As printed, a radial impulse would displace the body: r' "
-    "− v_r is −2ε p^(3/2) u_r sin x cos x (1 + e cos x)^(−2), not 0. What the example concludes is not "
-    "affected: γ' enters neither (3.8) nor the averages of E and K, and the mean of u_r* cos x, odd in x, is "
-    "0 with either sign. Corrections beyond the first approximation are.",
+    "− v_r is −2ε p^(3/2) u_r sin x cos x (1 + e cos x)^(−2), not 0. What the example concludes is "
+    "not affected: γ' enters neither (3.8) nor the averages of E and K, and the mean of u_r* cos x, "
+    "odd in x, is 0 with either sign. Corrections beyond the first approximation are affected.",
 )
 def pericentre() -> Evidence:
     key = r"\dot\gamma"
@@ -119,7 +119,8 @@ def pericentre() -> Evidence:
     "(3.6): ψ",
     "how thrust changes the phase, in terms of γ' and e'",
     verdict="holds",
-    remark="With the right γ'. The braces are −(1 − e²)^(1/2) (2 + e cos x) sin x (1 + e cos x)^(−2).",
+    remark="This holds with the right γ'. The braces are −(1 − e²)^(1/2) (2 + e cos x) sin x (1 + e cos "
+    "x)^(−2).",
 )
 def phase_rate() -> Evidence:
     first = (1 + e) * (1 + e * cos) ** -1 * sin * (sp.sqrt(1 - e) * (1 + e) ** R(-1, 2)).diff(e)
@@ -138,8 +139,8 @@ def phase_rate() -> Evidence:
 @claim.proof(
     "after (3.6): initial data",
     "the initial values of (3.6) follow from (3.3)–(3.5)",
-    remark="e cos x = r v_φ² − 1 and e sin x = r v_φ v_r give e and x; then γ = φ − x, and ψ by (3.5). For "
-    "e > 0.",
+    remark="e cos x = r v_φ² − 1 and e sin x = r v_φ v_r give e and x; then γ = φ − x, and ψ follows from "
+    "(3.5). This needs e > 0.",
 )
 def initial_data() -> Steps:
     state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]

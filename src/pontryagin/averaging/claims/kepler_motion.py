@@ -120,8 +120,8 @@ def focal_parameter() -> Evidence:
     "after (3.4): e",
     "the eccentricity, strictly between 0 and 1 for E < 0, K > 0",
     verdict="conditional",
-    remark="True unless E = −1/(2K²), the least energy there is for K. That is the circle: e = 0, γ is not "
-    "defined and (3.6) divides by zero. There use e cos γ, e sin γ for e, γ.",
+    remark="True unless E = −1/(2K²), the least energy for the given K. The orbit is then a circle: e = 0, γ "
+    "is not defined and (3.6) divides by zero. There e cos γ and e sin γ have to replace e and γ.",
 )
 def eccentricity() -> Evidence:
     def argument() -> Steps:
@@ -161,8 +161,8 @@ def arbitrary_constants() -> Steps:
 
 @claim.proof(
     "after (3.4): period",
-    "the motion is bounded and periodic, its period depends on the energy only",
-    remark="For E < 0.",
+    "the motion is bounded and periodic, and its period depends on the energy only",
+    remark="This holds for E < 0.",
 )
 def bounded_and_periodic() -> Steps:
     radius = kepler.ellipse_radius()

@@ -53,8 +53,8 @@ def left_over(variable: sp.Symbol, path: sp.Expr) -> sp.Expr:
 @claim.proof(
     "before (3.9)",
     "an explicit solution of the boundary value problem, and with it the controls (3.8)",
-    remark="With E(τ) put right. J0 = 2lτ1, and by Cauchy and Schwarz no control of the averaged system "
-    "costs less: the extremal is its global minimum.",
+    remark="True with E(τ) corrected. J0 = 2lτ1, and by the Cauchy–Schwarz inequality no control of the "
+    "averaged system costs less: the extremal is its global minimum.",
 )
 def explicit_solution() -> Steps:
     found = solution()
@@ -98,9 +98,9 @@ def explicit_solution() -> Steps:
     "(3.9): E",
     "the energy on the optimum",
     verdict="misprint",
-    remark="The square is missing: E0 (1 + ρτ/(2 − ρτ1))². As printed E(τ1) is −(E0E1)^(1/2), not E1, and "
-    "neither dE/dτ = −p_E E nor EK² = const is satisfied. τ1, ρ, p_E, K and the controls are those of the "
-    "square.",
+    remark="Right: E0 (1 + ρτ/(2 − ρτ1))²; the print lacks the square. As printed E(τ1) is −(E0E1)^(1/2), "
+    "not E1, and neither dE/dτ = −p_E E nor EK² = const is satisfied. τ1, ρ, p_E, K and the controls "
+    "belong to the formula with the square.",
 )
 def energy_on_the_optimum() -> Evidence:
     def consequence() -> Consequence:
@@ -157,7 +157,7 @@ def duration_of_the_optimum() -> Evidence:
     "(3.9): ρ",
     "the constant ρ with its sign",
     verdict="holds",
-    remark="For E1 ≠ E0. ρ > 0 on the way down (|E1| > |E0|): p_E < 0, the thrust brakes.",
+    remark="True for E1 ≠ E0. Where the energy falls (|E1| > |E0|), ρ > 0 and p_E < 0: the thrust brakes.",
 )
 def rho_with_its_sign() -> Evidence:
     def argument() -> Steps:

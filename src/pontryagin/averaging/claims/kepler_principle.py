@@ -50,10 +50,10 @@ SAMPLE = {energy: -R(1, 2), momentum: R(1, 2), p_E: 1, p_K: 1, price: 1, kappa: 
 
 @claim(
     "(3.7)",
-    "least l τ1 + ∫ u² dτ to a level of energy E1 ≤ 0, a problem of the form of section 1",
+    "to minimise l τ1 + ∫ u² dτ up to the energy E1 ≤ 0 is a problem of the form of section 1",
     verdict="conditional",
-    remark="For E1 < 0. E1 = 0 is not of that form: ω(E1) = 0, against ω ≥ ω0 > 0 in (1.1), and (3.9) "
-    "divides by E1. τ1 stays finite, but K and the period grow beyond all bounds on the way.",
+    remark="True for E1 < 0. E1 = 0 is not of that form: ω(E1) = 0, while (1.1) requires ω ≥ ω0 > 0, and "
+    "(3.9) divides by E1. τ1 stays finite, but K and the period grow without limit on the way.",
 )
 def problem() -> Evidence:
     def argument() -> Steps:
@@ -120,7 +120,7 @@ def phase_influence() -> sp.Matrix:
 @claim.proof(
     "before (3.8): p_ψ",
     "p_ψ = O(ε) over times of order 1/ε, and the controls follow from E and K alone",
-    remark="For 0 < e < 1: H = 0 gives it, whatever the time; p_ψ' = O(ε) alone would leave O(1).",
+    remark="True for 0 < e < 1: H = 0 gives it over any time; p_ψ' = O(ε) alone would leave O(1).",
     display=r"p_\psi = O(\varepsilon),\quad t_1 \sim \varepsilon^{-1}",
 )
 def costate_of_the_phase() -> Steps:
@@ -174,8 +174,8 @@ def hamiltonian_drift(momentum_costate_rate: sp.Expr) -> sp.Expr:
     "the averaged equation of p_K",
     verdict="misprint",
     remark="Printed: p_E ∂⟨v_φ r⟩/∂K. Right: ½ p_E ∂⟨v_φ r⟩/∂K, from h0 = ¼⟨(p_E v_r)² + (p_E v_φ + p_K r)²⟩ "
-    "− l; the ¼ of the other term is right. The factor p_K stands, so that p_K ≡ 0 is not affected, nor is "
-    "anything after it.",
+    "− l; the ¼ of the other term is right. The common factor p_K is printed, so that p_K ≡ 0 is not "
+    "affected, nor is anything after it.",
 )
 def momentum_costate_rate() -> Evidence:
     key = r"dp_K/d\tau"
@@ -200,7 +200,7 @@ def momentum_costate_rate() -> Evidence:
 @claim.proof(
     "after (3.8): p_K ≡ 0",
     "the costate of K vanishes identically in the first approximation",
-    remark="For every κ, with the right and with the printed equation.",
+    remark="True for every κ, with the right and with the printed equation.",
     display=r"p_K \equiv 0",
 )
 def costate_of_the_momentum() -> Steps:

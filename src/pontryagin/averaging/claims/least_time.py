@@ -52,11 +52,11 @@ def named(quantity: sp.Expr) -> sp.Expr:
 
 @claim(
     "example 1: mean force",
-    "the case without mean force: ⟨f⟩ = 0 over a turn",
+    "the case without mean force is that of ⟨f⟩ = 0 over a turn",
     verdict="conditional",
-    remark="True of the mean over the angle x, ⟨x'f⟩/ω. Read as the mean over the phase (over time), as ⟨ "
-    "⟩ is in section 2, it does not do: for m = (1 + ½cos x)², V = 0, f = cos x − ¼ that mean is 0, and "
-    "yet the averaged rate is ω(u − ¼).",
+    remark="True of the mean over the angle x, ⟨x'f⟩/ω. If the mean over the phase (over time) is meant, as "
+    "⟨ ⟩ is in section 2, the condition is not the right one: for m = (1 + ½cos x)², V = 0, f = cos x "
+    "− ¼ that mean is 0, but the averaged rate is ω(u − ¼).",
 )
 def mean_of_the_force() -> Evidence:
     def argument() -> Steps:
@@ -81,12 +81,13 @@ def mean_of_the_force() -> Evidence:
 
 @claim(
     "example 1: solution",
-    "without mean force: u* = u₀sign(a₁ − a₀), u₀τ sign(a₁ − a₀) = ∫dξ/ω, ω = ⟨x'⟩; it is the only one",
+    "without mean force: u* = u₀sign(a₁ − a₀), u₀τ sign(a₁ − a₀) = ∫dξ/ω, ω = ⟨x'⟩; this solution is "
+    "the only one",
     verdict="holds",
     remark="ξ and u do not depend on κ, so that (2.13) and (2.15) say nothing here: ∫ω dτ is the same for "
-    "all κ. When the energy is raised, full thrust is optimal exactly, for every ε. When it is lowered, "
-    "the exact optimum may start with an arc of acceleration, of an angle of order 1 (its costate falls "
-    "through 0 once): a change of τ₁ of order ε.",
+    "all κ. When the energy is raised, full thrust is exactly optimal for every ε. When it is "
+    "lowered, the exact optimum may start with an arc of acceleration over an angle of order 1 (its "
+    "costate passes through 0 once, from above): this changes τ₁ by order ε.",
 )
 def least_time_without_mean_force() -> Evidence:
     keys = (r"u_0\tau\,\mathrm{sign}(a_1 - a_0)", r"\langle x'\rangle")
@@ -132,12 +133,12 @@ def least_time_without_mean_force() -> Evidence:
 
 @claim(
     "example 1: special case",
-    "if ψ' = const, √ξ runs linearly from √a₀ to √a₁",
+    "if ψ' = const, √ξ is a linear function of τ from √a₀ to √a₁",
     verdict="misprint",
-    remark="Printed: ψ' = const. Meant: V = const, taken as 0: then ω = √(2a)/⟨√m⟩, d√ξ/dτ = ±u₀*, with "
-    "u₀* = u₀/(√2⟨√m⟩), a symbol that the paper does not explain. A rotor's frequency always grows with "
-    "its energy, so ψ' = const does not happen; if ω were constant, ξ itself would be linear in τ. Should "
-    "V = const not be 0, ξ − V stands for ξ.",
+    remark="Printed: ψ' = const. Meant: V = const, taken as 0: then ω = √(2a)/⟨√m⟩, d√ξ/dτ = ±u₀*, with u₀* "
+    "= u₀/(√2⟨√m⟩), a symbol that the paper does not explain. A rotor's frequency always grows with "
+    "its energy, so ψ' = const does not happen; if ω were constant, ξ itself would be linear in τ. If "
+    "the constant V is not 0, ξ − V takes the place of ξ.",
 )
 def square_root_of_the_energy() -> Evidence:
     rate = sp.Symbol("u_0*", positive=True)
@@ -187,10 +188,10 @@ def square_root_of_the_energy() -> Evidence:
     "with a mean force: dξ/dτ = u₀ω sign(a₁ − a₀) + ⟨f⟩",
     verdict="misprint",
     remark="Printed: ⟨f⟩. Right: ⟨x'f⟩, which is ω times the mean of f over the angle: the power of the "
-    "force, not the force. Neither reading of ⟨f⟩ saves the print, as a constant force shows: v' = ε(u + "
-    "f₀) with u₀ = 1, f₀ = ½ takes v from 1 to 2 in τ₁ = 2/3; the print makes it 1 − ½ln(5/3) = 0.745. "
-    "For f₀ = −1, u₀ = ½ it would let the energy rise above ξ = 2, where no control can raise it. That "
-    "there need not be a solution is not affected.",
+    "force, not the force. The print is wrong with either reading of ⟨f⟩, as a constant force shows: "
+    "v' = ε(u + f₀) with u₀ = 1, f₀ = ½ takes v from 1 to 2 in τ₁ = 2/3; by the print τ₁ is 1 − "
+    "½ln(5/3) = 0.745. For f₀ = −1, u₀ = ½ the print would let the energy rise above ξ = 2, where no "
+    "control can raise it. The remark that a solution need not exist is not affected.",
 )
 def least_time_with_mean_force() -> Evidence:
     key = r"d\xi/d\tau"
@@ -216,8 +217,8 @@ def least_time_with_mean_force() -> Evidence:
 @claim.proof(
     "example 1: existence",
     "this problem does not always have a solution",
-    remark="There is one exactly where u₀ + s f̄(ξ) > 0 all the way from a₀ to a₁, f̄ the mean of f over the "
-    "angle and s = sign(a₁ − a₀).",
+    remark="There is a solution exactly where u₀ + s f̄(ξ) > 0 for all ξ from a₀ to a₁, with f̄ the mean of "
+    "f over the angle and s = sign(a₁ − a₀).",
 )
 def no_solution_against_a_strong_force() -> Steps:
     best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))

@@ -32,7 +32,7 @@ def closed(form: sp.Expr) -> sp.Expr:
 @claim.proof(
     "before (2.14): dJ0",
     "dJ0/dκ = −(η1 dξ1/dκ)",
-    remark="With η1 = −(g' + αM'); as (2.4) is printed, the right-hand side would be 0.",
+    remark="This holds with η1 = −(g' + αM'); with (2.4) as printed, the right-hand side would be 0.",
     display=r"dJ_0/d\kappa = -(\eta_1 d\xi_1/d\kappa)",
 )
 def cost_by_the_end() -> Steps:
@@ -44,7 +44,11 @@ def cost_by_the_end() -> Steps:
     yield "with the printed η1 = −αM' the product is 0", left == 0
 
 
-@claim("before (2.14): dξ1", "dξ1/dκ by the end's time and along the family", verdict="holds")
+@claim(
+    "before (2.14): dξ1",
+    "dξ1/dκ is the sum of a term from the end time and a term along the family",
+    verdict="holds",
+)
 def end_by_the_chain_rule() -> Evidence:
     time, end = sp.symbols("tau tau_1", real=True)
     path, T = sp.Function("xi"), sp.Function("T")(kappa)
@@ -95,7 +99,7 @@ def main_result() -> Evidence:
 
 @claim.proof(
     "after (2.14): stationary",
-    "κ = 0 is stationary, and under (2.13) the only such point",
+    "κ = 0 is a stationary point of J0, and under (2.13) the only one",
     remark="Where (2.13) fails away from κ = 0, J0 is stationary there too.",
 )
 def stationary() -> Steps:
@@ -147,7 +151,7 @@ def second_derivative() -> Evidence:
 
 @claim.proof(
     "(2.16)",
-    "sufficient for the least J0 over the whole range of κ",
+    "the condition is sufficient for κ = 0 to give the least J0 over the whole range of κ",
     display=r"\kappa\int_0^{\tau_1}\omega(\xi)d\tau \ge \int_0^{\kappa}d\kappa_1\int_0^{\tau_1(\kappa_1)}"
     r"\omega(\xi(\tau, \tau_1(\kappa_1), \kappa_1))d\tau",
 )
@@ -168,7 +172,7 @@ def global_minimum() -> Steps:
         )
 
 
-@claim("after (2.16): J0", "J0(κ) by parts from (2.14)", verdict="holds")
+@claim("after (2.16): J0", "J0(κ) follows from (2.14) by integration by parts", verdict="holds")
 def cost_by_parts() -> Evidence:
     inner = sp.Integral(Psi.subs(kappa, INNER), (INNER, 0, kappa))
     return Equality(

@@ -44,11 +44,12 @@ def hamiltonian() -> Evidence:
 
 @claim(
     "(1.5)",
-    "where the optimum is unique, the maximum of H over U picks one control",
+    "where the optimum is unique, the maximum of H over U determines one control",
     verdict="conditional",
-    remark="True where h is strictly concave in u, or U strictly convex and the vector that multiplies u not "
-    "zero. Uniqueness of the optimum alone does not do: a1' = εu, |u| ≤ 1, a2' = ε, J = ∫a1²dτ, a1(0) = "
-    "a2(0) = 0, M = a2 − 1 has the one optimum u = 0, along which H does not depend on u.",
+    remark="True where h is strictly concave in u, or where U is strictly convex and the vector that "
+    "multiplies u is not zero. Uniqueness of the optimum alone is not enough: a1' = εu, |u| ≤ 1, a2' "
+    "= ε, J = ∫a1²dτ, a1(0) = a2(0) = 0, M = a2 − 1 has the single optimum u = 0, along which H does "
+    "not depend on u.",
 )
 def one_control() -> Evidence:
     control, costate, state = sp.symbols("u p_1 a_1", real=True)
@@ -97,8 +98,9 @@ def costate_rate() -> Evidence:
     "transversality for the slow variables",
     verdict="misprint",
     remark="Printed without the terminal cost: p(t1) = −∂(αM)/∂a. Right: p(t1) = −∂(g + αM)/∂a. With the "
-    "print no control is better than another: in the smooth example the cost would have the costate 0. "
-    "dJ0/dκ = −(η1 dξ1/dκ) before (2.14) needs the right form, and section 3 uses it.",
+    "printed condition no control is better than another: in the smooth example the costate of the "
+    "cost would be 0. The formula dJ0/dκ = −(η1 dξ1/dκ) before (2.14) needs the right form, and "
+    "section 3 uses it.",
 )
 def transversality() -> Evidence:
     key = r"p_2(t_1)"
@@ -131,7 +133,7 @@ def phase_costate() -> Evidence:
 
 @claim.proof(
     "(1.6): u*",
-    "the derivatives may be taken at u held, or after u* is put in",
+    "the derivatives of H may be taken with u held fixed, or after u* is inserted",
     display=r"\frac{\partial H}{\partial a}\Bigr|_{u^*}",
 )
 def envelope() -> Steps:
@@ -144,7 +146,7 @@ def envelope() -> Steps:
     yield "unit ball, u* = s/|s| on its boundary: s·∂u*/∂s = 0", vanishes(best.jacobian(s).T * s)
 
 
-@claim("(1.7)", "the free end time: H* = εh* = 0 at t1", verdict="holds")
+@claim("(1.7)", "since the end time is free, H* = εh* = 0 at t1", verdict="holds")
 def free_end() -> Evidence:
     h = p[0] * f[0] + p[1] * f[1]
 
@@ -159,7 +161,9 @@ def free_end() -> Evidence:
     )
 
 
-@claim.proof("(1.8)", "H* = ωq + εh* = 0 all along", display=r"H^* = \omega q + \varepsilon h^* = 0")
+@claim.proof(
+    "(1.8)", "H* = ωq + εh* = 0 along the whole motion", display=r"H^* = \omega q + \varepsilon h^* = 0"
+)
 def conserved() -> Steps:
     H = omega * q + epsilon * h_star
     yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0

@@ -41,7 +41,7 @@ def equations_of_the_body() -> Evidence:
     "after (3.10): change of variables",
     "with ω_x = a cos ψ, ω_y = a sin ψ, ω_z = c: rates of a, c and ψ, and their initial values",
     verdict="holds",
-    remark="The signs of the gyroscopic terms survive: they cancel in a' and leave ψ' = +(d − 1)c.",
+    remark="The gyroscopic terms cancel in a', and with their signs they leave ψ' = +(d − 1)c.",
 )
 def polar_variables() -> Evidence:
     start = sp.sqrt(wx**2 + wy**2)
@@ -67,9 +67,9 @@ def polar_variables() -> Evidence:
     "for a > 0, c ≠ 0 the system is of the standard form (1.1)",
     verdict="conditional",
     remark="True where (d − 1)c > 0 and a is bounded away from 0. For (d − 1)c < 0 take −ψ for the phase, "
-    "since (1.1) asks for a positive frequency. And the target a = 0 lies on the edge: F grows as 1/a "
-    "there, so that (1.1) and section 2 do not cover it. The result does not suffer: in axes that turn "
-    "with the free motion there is no 1/a (see τ₁ below).",
+    "since (1.1) requires a positive frequency. The target a = 0 lies on the boundary of the region: "
+    "F grows as 1/a there, so that (1.1) and section 2 do not cover it. The result is right "
+    "nevertheless: in axes that turn with the free motion there is no 1/a (see τ₁ below).",
 )
 def standard_form() -> Evidence:
     def argument() -> Steps:

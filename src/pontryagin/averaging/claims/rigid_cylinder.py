@@ -43,7 +43,7 @@ def exact_rates(control: sp.Matrix) -> sp.Matrix:
     "example 3: thrusters",
     "fixed engines bound the moment about z; two vernier engines on the z axis bound the other two by a "
     "circle",
-    remark="A circle of u because I_x = I_y.",
+    remark="The bound is a circle of u because I_x = I_y.",
     display=r"u_x^2 + u_y^2 \le l^2,\quad |u_z| \le h",
 )
 def thrusters() -> Steps:
@@ -65,9 +65,10 @@ def thrusters() -> Steps:
     "example 3: controls on the cylinder",
     "u_x = cos ψ sign p, u_y = sin ψ sign p, u_z = sign q",
     verdict="misprint",
-    remark="Printed without the factors: right are l cos ψ sign p, l sin ψ sign p, h sign q. As printed the "
-    "control is on its set for l = h = 1 only, and a' = ε sign p, so that the integral of sign p would be "
-    "a₁ − a₀, not the printed (a₁ − a₀)/l. The conditions and τ₁ below belong to the right control.",
+    remark="The print lacks the factors: right are l cos ψ sign p, l sin ψ sign p, h sign q. As printed the "
+    "control is on its set for l = h = 1 only, and a' = ε sign p, so that the integral of sign p "
+    "would be a₁ − a₀, not the printed (a₁ − a₀)/l. The conditions and τ₁ below belong to the right "
+    "control.",
 )
 def controls_on_the_cylinder() -> Evidence:
     keys = ("u_x", "u_y", "u_z")
@@ -111,9 +112,10 @@ SHORT = {a0: 3, a1: 1, c0: 1, c1: 2, l: 1, h: 1}
     "example 3: singular controls",
     "the problem with a and c given at the end leads to singular controls",
     verdict="conditional",
-    remark="True where |a₁ − a₀|/l ≠ |c₁ − c₀|/h: the costate of the one that has time to spare is 0 "
-    "throughout, and its control is any that gets there, such as a constant one. Where the two are equal "
-    "nothing is singular: both thrust fully all the time, and both costates may differ from 0.",
+    remark="True where |a₁ − a₀|/l ≠ |c₁ − c₀|/h: the costate of the variable that has time to spare is 0 "
+    "throughout, and its control may be any that reaches the given value in time, such as a constant "
+    "one. Where the two are equal no control is singular: both thrust fully all the time, and both "
+    "costates may differ from 0.",
 )
 def singular_controls() -> Evidence:
     def argument() -> Steps:
@@ -155,9 +157,10 @@ def singular_controls() -> Evidence:
     "example 3: sign p, sign q",
     "sign p and sign q are piecewise constant functions of τ with finitely many jumps",
     verdict="conditional",
-    remark="True of a selection: on a singular control one jump is enough, and its time is determined. "
-    "Not of the signs of the costates, which are constants: they do not jump, and the one that belongs to "
-    "the singular control is 0. The jumps are not needed either: a constant u_z does as well.",
+    remark="True of one choice of the controls: for a singular control one jump is enough, and its time is "
+    "determined. Not true of the signs of the costates, which are constants: they do not jump, and "
+    "the one that belongs to the singular control is 0. The jumps are not needed either: a constant "
+    "u_z serves as well.",
 )
 def jumps_of_the_signs() -> Evidence:
     def argument() -> Steps:
@@ -187,7 +190,7 @@ def jumps_of_the_signs() -> Evidence:
     "example 3: integrals",
     "the integrals of sign p and sign q are (a₁ − a₀)/l and (ω_z1 − ω_z0)/h",
     verdict="holds",
-    remark="Exactly, for every ε: a' = εl sign p, c' = εh sign q without averaging.",
+    remark="This is exact for every ε: a' = εl sign p, c' = εh sign q without averaging.",
 )
 def integrals_of_the_signs() -> Evidence:
     def derived() -> RightSides:
@@ -213,7 +216,7 @@ def integrals_of_the_signs() -> Evidence:
 @claim.proof(
     "example 3: τ1 on the cylinder",
     "τ₁ is the larger of |a₁ − a₀|/l and |ω_z1 − ω_z0|/h",
-    remark="The exact minimum for every ε, also where ω_z changes its sign on the way: the frequency "
+    remark="This is the exact minimum for every ε, also where ω_z changes its sign on the way: the frequency "
     "vanishes there and averaging would fail, but nothing is averaged.",
     display=r"\tau_1 = \max\{|a_1 - a_0|l^{-1}, |\omega_{z1} - \omega_{z0}|h^{-1}\}",
 )
@@ -235,9 +238,10 @@ def duration_on_the_cylinder() -> Steps:
 
 @claim.proof(
     "end of section 3",
-    "some other problems on an asymmetric body, with viscous friction for one, can be solved in the same way",
-    remark="Shown by one: any body with friction, torques in a ball, brought to rest. The length G of the "
-    "angular momentum obeys a closed equation; the solution is exact for every ε.",
+    "some other problems of an asymmetric body, for example with viscous friction, can be solved in "
+    "the same way",
+    remark="Shown on one problem: any body with friction, torques in a ball, brought to rest. The length G "
+    "of the angular momentum obeys a closed equation; the solution is exact for every ε.",
 )
 def other_problems() -> Steps:
     inertia = sp.diag(*rigid_body.moments)

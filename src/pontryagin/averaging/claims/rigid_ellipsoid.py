@@ -55,9 +55,9 @@ def of_modulus(modulus: sp.Expr) -> sp.Expr:
     "example 3: synthesis",
     "control on the ellipsoid that brings a to 0 fastest: u_x = −l_xω_x/r, u_y = −l_yω_y/r",
     verdict="misprint",
-    remark="Printed: l_x, l_y. Right: l_x², l_y², with the printed r. As printed u is not on its "
-    "ellipsoid: for l_x = l_y = l it has the length 1, not l, so that l = ½ is overrun twice; for l_x = "
-    "2, l_y = 1, ω_x = ω_y the sum of squares is 2/5. a, ⟨R⟩ and τ₁ below belong to the right control.",
+    remark="Printed: l_x, l_y. Right: l_x², l_y², with the printed r. As printed u is not on its ellipsoid: "
+    "for l_x = l_y = l it has the length 1, not l, which is twice the bound for l = ½; for l_x = 2, "
+    "l_y = 1, ω_x = ω_y the sum of squares is 2/5. a, ⟨R⟩ and τ₁ below belong to the right control.",
 )
 def synthesis() -> Evidence:
     numbers = {lx: 2, ly: 1, semiaxes[2]: 1, wx: 1, wy: 1}
@@ -78,7 +78,7 @@ def synthesis() -> Evidence:
 @claim.proof(
     "example 3: set of controls",
     "the synthesis keeps to the ellipsoid, and no control in it lowers a faster",
-    remark="The corrected one, with l_x² and l_y².",
+    remark="This holds for the corrected synthesis, with l_x² and l_y².",
 )
 def synthesis_is_optimal() -> Steps:
     control = rigid_body.braking()
@@ -95,9 +95,9 @@ def synthesis_is_optimal() -> Steps:
 
 @claim.proof(
     "example 3: u_z",
-    "u_z ≡ 0: the axial rate is left alone",
-    remark="In the first approximation. Exactly, the costate of c moves by O(ε) unless l_x = l_y, and u_z "
-    "with it.",
+    "u_z ≡ 0: the axial rate is not changed",
+    remark="True in the first approximation. In the exact problem the costate of c changes by O(ε) unless "
+    "l_x = l_y, and so does u_z.",
     display=r"u_z \equiv 0",
 )
 def axial_control() -> Steps:
@@ -119,9 +119,9 @@ def axial_control() -> Steps:
     "example 3: solution",
     "a = a₀ − ⟨R⟩τ, c = c₀, τ₁ = a₀/⟨R⟩",
     verdict="holds",
-    remark="With u_z = 0 exactly within one turn: in axes that turn with the free motion the control "
-    "reaches, in whole turns, a disc of radius ⟨R⟩τ. So the passage to a = 0, which section 2 does not "
-    "cover, does no harm.",
+    remark="With u_z = 0 this is exact to within one turn: in axes that turn with the free motion the "
+    "control reaches, in whole turns, a disc of radius ⟨R⟩τ. So the passage to a = 0, which section 2 "
+    "does not cover, does no harm.",
 )
 def solution() -> Evidence:
     slowing, duration = a0 - R_mean * tau, a0 / R_mean
@@ -153,9 +153,9 @@ def solution() -> Evidence:
     "example 3: ⟨R⟩",
     "the mean deceleration as a complete elliptic integral of the second kind, in two branches",
     verdict="holds",
-    remark="E of the modulus: E(√k) = ∫√(1 − k sin²ψ)dψ over a quarter turn. SciPy's ellipe and SymPy's "
-    "elliptic_e take the parameter, which is k here. For l_x = 1, l_y = ½: 0.7710; with √k taken for the "
-    "parameter it would be 0.7203.",
+    remark="E is a function of the modulus: E(√k) = ∫√(1 − k sin²ψ)dψ over a quarter turn. SciPy's ellipe "
+    "and SymPy's elliptic_e take the parameter, which is k here. For l_x = 1, l_y = ½ the value is "
+    "0.7710; with √k taken for the parameter it would be 0.7203.",
 )
 def mean_deceleration() -> Evidence:
     def derived() -> tuple[sp.Expr, sp.Expr]:
@@ -199,13 +199,13 @@ SLENDER = {rigid_body.moments[0]: 1, rigid_body.moments[1]: R(6, 5), rigid_body.
 
 @claim(
     "example 3: nearly symmetric body",
-    "the same solution serves a body close to symmetric: the small additions to the gyroscopic terms have "
-    "the mean 0",
+    "the same solution holds for a body close to symmetric, as the small additions to the gyroscopic "
+    "terms have the mean 0",
     verdict="conditional",
     remark="True within O(ε) where the equatorial moments differ by shares of order ε. The addition to ψ' "
-    "has the mean 0 only with d taken from their average; it does not matter in the first approximation. "
-    "A fixed asymmetry is not made good by a small ε: I = (1, 6/5, 1/2), unit ball of controls, a₀ ≪ c₀ "
-    "along x: τ₁ ≤ 0.871a₀, against a₀.",
+    "has the mean 0 only with d taken from their average; it does not matter in the first "
+    "approximation. A fixed asymmetry does not become harmless for small ε: for I = (1, 6/5, 1/2), "
+    "the unit ball of controls and a₀ ≪ c₀ along x, τ₁ ≤ 0.871a₀, while the formula gives a₀.",
 )
 def nearly_symmetric_body() -> Evidence:
     def argument() -> Steps:

@@ -24,9 +24,9 @@ KAPPA = smooth.kappa
     "after (2.2): number of roots",
     "for small ε the equation has many roots, of the order of 1/ε, since h* oscillates with t1",
     verdict="conditional",
-    remark="True where h* depends on the phase: their number is |Ψ(κ'') − Ψ(κ')|/(πε), Ψ = ∫ω dτ, κ' and κ'' "
-    "the ends of the range in which h* takes both signs over a turn. The paper's smooth example has one root "
-    "for every ε, and so has the least time of its example 1.",
+    remark="True where h* depends on the phase: the number of roots is |Ψ(κ'') − Ψ(κ')|/(πε), where Ψ = ∫ω "
+    "dτ, and κ' and κ'' are the ends of the range in which h* takes both signs over a turn. The "
+    "paper's smooth example has one root for every ε, and so has the least time of its example 1.",
 )
 def number_of_roots() -> Evidence:
     def argument() -> Steps:
@@ -88,8 +88,8 @@ def mean_is_slow() -> Steps:
 @claim.proof(
     "Figure 1",
     "h* against τ1 oscillates about ⟨h*⟩, with an amplitude of the order of one and a frequency of 1/ε",
-    remark="The paper names no system; ours is its smooth example with the ripple cos(x)/2 in the force, "
-    "since without a ripple nothing oscillates.",
+    remark="The paper names no system; the one used here is its smooth example with the ripple cos(x)/2 in "
+    "the force, since without a ripple nothing oscillates.",
 )
 def first_figure() -> Steps:
     for eps in (0.05, 0.02):
@@ -119,10 +119,10 @@ def turns(eps: float) -> list[tuple[int, float, float, float]]:
 
 @claim.proof(
     "Figure 2",
-    "J against τ1: ripples on a curve with one minimum",
-    remark="Ours, as Figure 1. The reference to section 3, example 1, does not show it: J of the smooth "
-    "example has no ripples. dJ = q(t1)dψ(t1) on H* = 0, so J is stationary at every root of (2.2), and "
-    "minima and maxima alternate.",
+    "J against τ1 has ripples on a curve with one minimum",
+    remark="The system is the one used for Figure 1. The paper refers to section 3, example 1, which does "
+    "not show this: J of the smooth example has no ripples. On H* = 0, dJ = q(t1)dψ(t1), so that J is "
+    "stationary at every root of (2.2), and minima and maxima alternate.",
 )
 def second_figure() -> Steps:
     yield "d(p Da + q Dψ)/dt = 0 along extremals with H* = 0 and one start", optimum.exact_identity() == 0
@@ -147,7 +147,7 @@ def second_figure() -> Steps:
 @claim.proof(
     "after Figure 2: error",
     "the approach gives slow variables and cost with an error of the order ε",
-    remark="The costates too where (2.13) holds; see (2.5).",
+    remark="The costates have such an error too where (2.13) holds; see (2.5).",
 )
 def errors() -> Steps:
     for eps in worked.EPSILONS:

@@ -38,7 +38,7 @@ def equation_of_the_rotor() -> Evidence:
     "(3.1): bounds",
     "with x₁' < x' < x₂' the frequency stays between x₁' and x₂', away from 0",
     remark="ω is the harmonic mean of x' over the angle. x' > 0 at the start is not enough: the bounds need "
-    "a > max V all the way, so a0 and a1 both above V₂.",
+    "a > max V along the whole motion, so that a0 and a1 must both lie above V₂.",
     display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty",
 )
 def frequency_is_bounded() -> Steps:
@@ -53,7 +53,7 @@ def frequency_is_bounded() -> Steps:
     )
 
 
-@claim("after (3.1): integration", "at ε = 0: energy a, and t + γ = ∫dx/x'", verdict="holds")
+@claim("after (3.1): integration", "at ε = 0 the energy a is constant, and t + γ = ∫dx/x'", verdict="holds")
 def unperturbed_motion() -> Evidence:
     def derived() -> dict[str, sp.Expr]:
         lagrangian = MASS * v**2 / 2 - POTENTIAL
@@ -74,7 +74,7 @@ def unperturbed_motion() -> Evidence:
 
 @claim(
     "after (3.1): standard form",
-    "energy and rotating phase: a' = εx'(u + f), ψ' = ω(a) + O(ε)",
+    "in energy and rotating phase the system is a' = εx'(u + f), ψ' = ω(a) + O(ε)",
     verdict="holds",
 )
 def standard_form() -> Evidence:

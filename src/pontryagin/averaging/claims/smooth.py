@@ -84,9 +84,9 @@ def cost_on_the_condition() -> sp.Expr:
     "after (3.2): J0",
     "the cost as a function of τ₁ and κ",
     verdict="conditional",
-    remark="True on the curve (2.12), which has been used to remove (Δv)²/τ₁, not for independent τ₁ and κ: "
-    "there the cost of (3.2) is kτ₁ + (Δv)²/τ₁ + κ²τ₁³/48. For k = Δv = 1, τ₁ = 2, κ = 0 the print gives "
-    "4, the cost is 5/2. What follows stays on the curve.",
+    remark="True on the curve (2.12), which has been used to remove (Δv)²/τ₁, but not for independent τ₁ and "
+    "κ: there the cost of (3.2) is kτ₁ + (Δv)²/τ₁ + κ²τ₁³/48. For k = Δv = 1, τ₁ = 2, κ = 0 the print "
+    "gives 4, but the cost is 5/2. What follows in the paper stays on the curve.",
 )
 def cost_of_duration_and_kappa() -> Evidence:
     def argument() -> Steps:
@@ -112,7 +112,7 @@ def cost_of_duration_and_kappa() -> Evidence:
     )
 
 
-@claim("after J0: condition", "the condition of the kind (2.12) for τ₁(κ)", verdict="holds")
+@claim("after J0: condition", "the condition that corresponds to (2.12) and gives τ₁(κ)", verdict="holds")
 def condition_for_the_duration() -> Evidence:
     return Equality(
         {r"\tau_1^2\,[\omega\kappa + h_0]_{\tau_1}": (v1 * kappa - k) * T**2 + (gap + kappa * T**2 / 4) ** 2},
@@ -121,7 +121,7 @@ def condition_for_the_duration() -> Evidence:
     )
 
 
-@claim("after J0: dJ0/dκ", "the total derivative of J0 by κ is 0 at κ = 0", verdict="holds")
+@claim("after J0: dJ0/dκ", "the total derivative of J0 with respect to κ is 0 at κ = 0", verdict="holds")
 def first_derivative() -> Evidence:
     key = r"dJ_0/d\kappa|_{\kappa = 0}"
 
@@ -138,7 +138,7 @@ def first_derivative() -> Evidence:
     return Proof(argument, Equality({key: 2 * k * slope - T * gap / 2 - v1 * T}, derived))
 
 
-@claim("after J0: dτ1/dκ", "the derivative of τ₁ by κ at κ = 0", verdict="holds")
+@claim("after J0: dτ1/dκ", "the derivative of τ₁ with respect to κ at κ = 0", verdict="holds")
 def derivative_of_the_duration() -> Evidence:
     return Equality(
         {r"d\tau_1/d\kappa|_{\kappa = 0}": T / (2 * k) * (v1 + gap / 2)},
@@ -152,7 +152,7 @@ def derivative_of_the_duration() -> Evidence:
     "after J0: second derivative",
     "the second derivative of J0 at κ = 0, by (2.15), is positive",
     verdict="holds",
-    remark="With ξ as printed in (3.2), (2.15) would give 5τ₁³/24 for τ₁³/24: the printed value comes "
+    remark="With ξ as printed in (3.2), (2.15) would give 5τ₁³/24 instead of τ₁³/24: the printed value comes "
     "from the right sign.",
 )
 def second_derivative() -> Evidence:
@@ -184,8 +184,8 @@ def second_derivative() -> Evidence:
     "after J0: solution",
     "the approximate solution u*, J0*, τ₁(0), ξ",
     verdict="holds",
-    remark="Nothing depends on the phase here, so it is exact for every ε, the only extremal, and the global "
-    "minimum.",
+    remark="Nothing depends on the phase here, so that the solution is exact for every ε, the only extremal, "
+    "and the global minimum.",
 )
 def solution() -> Evidence:
     keys = ("u^*", "J_0^*", r"\tau_1(0)", r"\xi")

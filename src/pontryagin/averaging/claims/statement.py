@@ -37,7 +37,8 @@ def smaller_dimension() -> Steps:
 
 @claim.proof(
     "(1.1)",
-    "standard system: slow variables, a rotating phase with ω ≥ ω0 > 0, all 2π-periodic in the phase",
+    "the standard system has slow variables and a rotating phase with ω ≥ ω0 > 0; all is 2π-periodic "
+    "in the phase",
     remark="The smooth example of section 3 and its rippled form, which this ledger uses throughout, are of "
     "this form with a = (v, b), ψ = x and ω = v.",
     display=r"\dot a = \varepsilon f(a, \psi, u, \varepsilon),\quad \dot\psi = \omega(a) + \varepsilon "
@@ -55,7 +56,7 @@ def standard_system() -> Steps:
 
 @claim.proof(
     "(1.2)",
-    "1 ≤ r ≤ n − 1 conditions on the slow variables at the end",
+    "1 ≤ r ≤ n − 1 conditions are imposed on the slow variables at the end",
     display=r"M(a, \varepsilon)|_{t_1} = 0,\quad M = (M_1, \dots, M_r)",
 )
 def target() -> Steps:
@@ -130,9 +131,9 @@ def constants_of_motion() -> Steps:
     "section 1: duration",
     "t1 is of the order of 1/ε",
     verdict="conditional",
-    remark="Never shorter, as |a'| ≤ εC. Not longer where the averaged problem, at ε = 0, has an optimum. "
-    "f, M and g may depend on ε, and then it can be longer: the smooth example with k = ε² has its one "
-    "optimum at t1 = |Δv|/ε².",
+    remark="t1 is never shorter, as |a'| ≤ εC. It is not longer where the averaged problem, at ε = 0, has an "
+    "optimum. But f, M and g may depend on ε, and then it can be longer: the smooth example with k = "
+    "ε² has its only optimum at t1 = |Δv|/ε².",
 )
 def duration_of_the_order_of_one_over_epsilon() -> Evidence:
     def argument() -> Steps:

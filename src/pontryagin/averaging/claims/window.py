@@ -22,7 +22,8 @@ R = sp.Rational
 
 @claim.proof(
     "(2.6)",
-    "with (2.5) put in, (2.2) does not fix τ1 as closely as needed, the phase being known to O(1)",
+    "with (2.5) inserted, (2.2) does not determine τ1 as closely as needed, since the phase is known "
+    "to O(1) only",
     display=r"h^*(\xi + O(\varepsilon), \frac{1}{\varepsilon}\int_0^{\tau_1}\omega d\tau + O(1), \eta + "
     r"O(\varepsilon), O(\varepsilon), \varepsilon) = 0",
 )
@@ -60,12 +61,12 @@ def approximate_roots(eps: float) -> np.ndarray:
 
 @claim(
     "after (2.6): neighbourhood",
-    "in an ε-neighbourhood of every root of (2.6) without the errors lies a root of (2.2); (2.7) and (2.8) "
-    "suffice",
+    "every root of (2.6) without the errors has a root of (2.2) in its ε-neighbourhood; for this "
+    "(2.7) and (2.8) suffice",
     verdict="conditional",
-    remark="True where h* takes both signs over a turn of the phase, as it does near a root of (2.7) if it "
-    "depends on the phase at all. If it does not, (2.7) and (2.8) do not suffice: v' = εu, s' = ε, ω = 1, "
-    "b' = ε(k(s) − ε + u²) has a double root at ε = 0, and no root near it for ε > 0.",
+    remark="True where h* takes both signs over a turn of the phase, as it does near a root of (2.7) if h* "
+    "depends on the phase at all. If it does not, (2.7) and (2.8) do not suffice: v' = εu, s' = ε, ω "
+    "= 1, b' = ε(k(s) − ε + u²) has a double root at ε = 0, and no root near it for ε > 0.",
 )
 def neighbourhood() -> Evidence:
     def argument() -> Steps:
@@ -98,7 +99,7 @@ def neighbourhood() -> Evidence:
 
 @claim.proof(
     "(2.7)",
-    "the roots lie about the root of ⟨h*⟩ = 0",
+    "the roots lie around the root of ⟨h*⟩ = 0",
     display=r"\langle h_0(\xi(\tau_1, \tau_1), \eta(\tau_1, \tau_1)) \rangle = 0",
 )
 def mean_condition() -> Steps:
@@ -110,7 +111,9 @@ def mean_condition() -> Steps:
     yield f"rippled: the window from κ = {low:.3f} to {high:.3f} has κ = 0 inside", low < 0 < high
 
 
-@claim("(2.8)", "the phase at the end runs with τ1: derivative of ∫ω dτ by τ1", verdict="holds")
+@claim(
+    "(2.8)", "the phase at the end changes with τ1: derivative of ∫ω dτ with respect to τ1", verdict="holds"
+)
 def phase_runs() -> Evidence:
     end, time = sp.symbols("tau_1 tau", positive=True)
     w, path = sp.Function("omega"), sp.Function("xi")(time, end)
@@ -130,9 +133,10 @@ def phase_runs() -> Evidence:
 
 @claim.proof(
     "(2.9)",
-    "to the first order τ1 may be taken from an interval, and is optimal where J0(τ1) is least",
-    remark="Where h* takes both signs over a turn. The optimal τ1 is off by O(ε), with a factor that jumps "
-    "from ε to ε as the best root changes.",
+    "to the first order τ1 may be taken from an interval, and the optimal τ1 is the one for which "
+    "J0(τ1) is least",
+    remark="True where h* takes both signs over a turn. The exact optimal τ1 differs by O(ε), with a factor "
+    "that jumps from one ε to another as the best root changes.",
     display=r"J_0 = g_0(\xi(\tau_1, \tau_1)) \to \min_{\tau_1}",
 )
 def interval() -> Steps:

@@ -91,7 +91,7 @@ def cost_slope() -> sp.Expr:
 
 
 def leibniz() -> sp.Expr:
-    """d/dkappa of the integral of w(tau, kappa) over (0, T(kappa)), by Leibniz's rule."""
+    """d/dkappa of the integral of w(tau, kappa) over (0, T(kappa)); for w = omega that of (2.13)."""
     w, T = sp.Function("w")(tau, kappa), sp.Function("T")(kappa)
     return sp.Integral(w, (tau, 0, T)).diff(kappa)
 

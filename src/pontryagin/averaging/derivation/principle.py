@@ -6,8 +6,8 @@ a, p           slow variables and costates, two of each; no formula couples more
 psi, q         rotating phase and its costate
 u              control; one component stands for all of them
 f, F, omega    undefined functions: rates of a and psi per epsilon, frequency
-M, g, alpha    one target condition, terminal cost, multiplier; more conditions add like terms
-h_star         h after the maximum over u, at given q and epsilon
+M, g, alpha    one target condition (1.2), terminal cost (1.3), multiplier; further ones add like terms
+h_star         h after the maximum over u, (1.5), at given q and epsilon
 
 The costate of the cost is -1, so that H is maximised.
 """
@@ -66,7 +66,7 @@ def costate_rates() -> sp.Matrix:
 
 @cache
 def end_conditions() -> tuple[sp.Matrix, sp.Expr]:
-    """(p, q) at t1 and the expression that vanishes there, by variation of g + alpha M and of the end time.
+    """(p, q) at t1, (1.6), and the expression that vanishes there, (1.7), by variation of g + alpha M and t1.
 
     The end is displaced by (A1, A2, Psi) and the end time by T; the motion at fixed time is then displaced by
     (A1, A2, Psi) minus its rate times T.
@@ -122,7 +122,7 @@ def along(quantity: sp.Expr) -> sp.Expr:
 
 
 def leading(expression: sp.Expr) -> sp.Expr:
-    """An expression at q = 0 and epsilon = 0, which is the part that the first approximation keeps."""
+    """An expression at q = 0 and epsilon = 0; for the control u_star it is u0* of (2.17)."""
     return expression.subs({q: 0, epsilon: 0}).doit()
 
 
@@ -145,5 +145,5 @@ def standard_costate_rates() -> list[sp.Expr]:
 
 
 def leading_h() -> sp.Expr:
-    """(p f0*): h* at q = 0 and epsilon = 0, a function of a, psi and p."""
+    """(p f0*): h* at q = 0 and epsilon = 0, a function of a, psi and p, which (2.2) makes zero at t1."""
     return leading(h_star)

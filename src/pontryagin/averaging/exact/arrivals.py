@@ -68,7 +68,7 @@ def arrivals(problem: Shooting, sign: float, turns: float) -> Shot:
         if (shot := _extremal(problem, sign, anomaly, energy)) is not None
     ]
     if not found:
-        raise NotConverged("no arrival at the target is an extremal", np.inf)
+        raise NotConverged("no trajectory that arrives at the target is an extremal", np.inf)
     return Shot.joined(found)
 
 
@@ -96,7 +96,10 @@ def _crossings(problem: Shooting, sign: float, turns: float) -> list[tuple[float
         if found and begin > found[-1][0] + 2 * np.pi:
             return found
         points = min(points, FINE) if found else points
-    raise NotConverged("the trajectory does not arrive at the target", float(abs(missing[-1])))
+    raise NotConverged(
+        f"the trajectory does not arrive at the target before the anomaly {begin:.6g}",
+        float(abs(missing[-1])),
+    )
 
 
 def _refined(problem: Shooting, sign: float, state: Array, low: float, high: float) -> tuple[float, float]:

@@ -39,7 +39,7 @@ class Canonical:
     control : tuple of m expressions
         u*, without modes.
     hamiltonian : expression
-        h* + y r, which vanishes on extremals.
+        h* + y r, which vanishes on extremals, (1.8).
     gap : expression
         h* minus p f + p_x F - L - (cost of u) at u*: never negative, and zero where u* maximises.
     rate : expression

@@ -90,7 +90,7 @@ def _together(problem: Shooting, starts: Array, duration: Array, shares: Array) 
 
     result = solve_ivp(rate, (0.0, 1.0), starts.T.ravel(), "DOP853", shares, rtol=1e-13, atol=1e-14)
     if not result.success:
-        raise NotConverged(f"an extremal could not be propagated: {result.message}", 1.0)
+        raise NotConverged(f"the integration of an extremal stopped: {result.message}", 1.0)
     return result.y.reshape(width, count, len(shares)).transpose(2, 1, 0)
 
 

@@ -1,10 +1,10 @@
 """The expected number of extremals, |Psi(kappa'') - Psi(kappa')| / (pi epsilon), from the averaged family.
 
-A member kappa of the averaged family ends with <h*> = -omega kappa. The exact extremals near it are where h*
-vanishes on the turn at its end: at two phases if h* rises and falls once a turn, at four for the rigid body.
-The members counted lie between kappa' < 0 < kappa'', beyond which h* keeps one sign, or Psi turns back, or
-there is no averaged solution. Over them the phase at the end runs through
-|Psi(kappa'') - Psi(kappa')|/epsilon.
+A member kappa of the averaged family ends with <h*> = -omega kappa, so that (2.7) holds at kappa = 0. The
+exact extremals near it are where h* vanishes on the turn at its end: at two phases if h* rises and falls
+once a turn, at four for the rigid body. The members counted lie between kappa' < 0 < kappa'', beyond which
+h* keeps one sign, or Psi turns back, or there is no averaged solution. Over them the phase at the end runs
+through |Psi(kappa'') - Psi(kappa')|/epsilon.
 """
 
 from collections.abc import Callable
@@ -88,12 +88,23 @@ def window(solution: AveragedSolution) -> Window:
     (35, ('no further root', 'no further root'))
     """
     if solution.duration.shape or solution.kappa != 0:
-        raise ArgumentValueError("solution must be that of one problem, at kappa = 0", "solution")
+        got = (
+            f"a stack of shape {shape}"
+            if (shape := solution.duration.shape)
+            else f"kappa = {solution.kappa:g}"
+        )
+        raise ArgumentValueError(f"solution must be that of one problem, at kappa = 0, got {got}", "solution")
     if fixed_ending(canonical(solution.system)):
-        message = "solution must leave a choice of the end, unlike the least time of one slow variable"
+        message = (
+            "solution must leave the control a choice of the end's anomaly, got the least time with one slow "
+            "variable, which leaves none"
+        )
         raise ArgumentValueError(message, "solution")
     if np.ptp(_at_end(solution)) <= LEVEL * float(solution.cost / solution.duration):
-        message = "solution must end where h* depends on the phase: here there is one extremal"
+        message = (
+            "solution must end where h* depends on the phase, got one whose h* does not: "
+            "there is one extremal only"
+        )
         raise ArgumentValueError(message, "solution")
 
     @cache
@@ -166,7 +177,7 @@ def _phase_angle(solution: AveragedSolution) -> float:
 
 
 def _at_end(solution: AveragedSolution) -> Array:
-    """h* on the turn at the end, (..., points)."""
+    """h* of the averaged solution on the turn at the end, which (2.6) makes zero, (..., points)."""
     end = solution.duration[..., None]
     z = np.concatenate([solution.slow(end), solution.costate(end)], axis=-1)
     x = 2 * np.pi * np.arange(POINTS) / POINTS

@@ -163,7 +163,9 @@ class Extremals(Sequence[Extremal]):
             If there is no family, as for the least time with one slow variable.
         """
         if self.family is None:
-            raise ValueError("these extremals have no family over the ending anomaly")
+            raise ValueError(
+                "extremals of the least time with one slow variable have no family over the ending anomaly"
+            )
         return self.family
 
     @overload

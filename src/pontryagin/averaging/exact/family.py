@@ -168,7 +168,10 @@ def _outwards(
     found: list[_Turn] = []
     while not (reason := last.ends[(sense + 1) // 2]):
         if len(found) == TURNS:
-            raise NotConverged("the family has no end", float(abs(last.mean)))
+            raise NotConverged(
+                f"the family of solutions over the ending anomaly has no end within {TURNS} turns",
+                float(abs(last.mean)),
+            )
         angles = _angles(problem, theta, size, sense * (len(found) + 1))
         following = _next_turn(problem, history, angles, size, sense)
         if following is None:
@@ -196,7 +199,7 @@ def _next_turn(problem: Shooting, history: list[_Turn], angles: Array, size: int
     weights = {1: [1.0], 2: [-1.0, 2.0], 3: [1.0, -3.0, 3.0]}.get(len(past))
     try:
         if weights is None:
-            raise NotConverged("no turn before", np.inf)
+            raise NotConverged("there is no earlier turn to extrapolate from", np.inf)
         guess = np.einsum("i,i...->...", np.array(weights), np.array(guesses))
         jacobians = past[-1].jacobians[size - len(angles) :]
         return _Turn(angles, *chord(problem, angles, guess, jacobians), ends)

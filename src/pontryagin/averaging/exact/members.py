@@ -59,7 +59,9 @@ def members(
         conditions, guess, tolerance=CLOSE, iterations=iterations, halvings=4, decrease=0.25, size=_largest
     )
     if not found.converged.all():
-        raise NotConverged("Newton's method found no extremal that ends there", float(found.residual.max()))
+        raise NotConverged(
+            "Newton's method found no solution that ends at a given anomaly", float(found.residual.max())
+        )
     if not np.array_equal(found.unknowns, guess):
         shot, slopes = problem.slopes(theta, found.unknowns)
     return found.unknowns, shot, slopes.residual_w

@@ -106,7 +106,10 @@ def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float)
     for reached, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
         if reached[0] == angle:
             return unknowns, shot
-    raise NotConverged("a member of the family was not found between its neighbours", float(np.abs(angle)))
+    raise NotConverged(
+        f"no solution that ends at the anomaly {angle:.6g} was found between its neighbours in the family",
+        float(np.abs(angle)),
+    )
 
 
 def interpolated(current: Family, values: Array, left: NDArray[np.intp], theta: Array) -> Array:

@@ -122,7 +122,7 @@ def _found(problem: Shooting, centre: float, guess: Array) -> tuple[Family | Non
 
 
 def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
-    """Bracket and polish every root of y1; returns the family with the members added on the way.
+    """Bracket and polish every root of y1, (2.2); returns the family with the members added on the way.
 
     Raises
     ------
@@ -131,7 +131,10 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
     """
     current = turns_resolved(problem, traced)
     if len(_sign_changes(current)) == 0:
-        raise NotConverged("the phase's costate does not vanish in the window", float(np.abs(traced.y).min()))
+        raise NotConverged(
+            "no solution of the family is an extremal: the phase's costate at the end does not change sign",
+            float(np.abs(traced.y).min()),
+        )
     found: list[Roots] = []
     solved = np.empty(0)
     for _ in range(10):
@@ -146,7 +149,9 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
         solved = np.append(solved, low[good])
         if not good.all():
             current = with_members(problem, current, theta[~good])
-    raise NotConverged("an extremal was bracketed but not found", float(np.abs(current.y[at]).max()))
+    raise NotConverged(
+        "an extremal between two solutions of the family was not found", float(np.abs(current.y[at]).max())
+    )
 
 
 def _sign_changes(current: Family) -> NDArray[np.intp]:

@@ -45,7 +45,7 @@ class Shot:
     residual : (k, n + r) array
         Scaled errors of the conditions at the end.
     y, hamiltonian, duration, cost : (k,) array
-        p_x/epsilon, h* = -y r, slow time and J at the end.
+        p_x/epsilon, h* = -y r, slow time and J at the end; extremals have y = 0 there, hence h* = 0, (1.7).
     ends : (k, 2n + 3) array
         States at the end.
     """
@@ -157,7 +157,7 @@ class Shooting:
         )
 
     def starts(self, w: Array) -> Array:
-        """Initial states (k, 2n + 3): y0 from H = 0 by Newton's method from y0 = 0."""
+        """Initial states (k, 2n + 3): y0 from H = 0, (1.8), by Newton's method from y0 = 0."""
         n, count = len(self.start), len(w)
         p = w[:, :n]
         y0 = np.zeros(count)
@@ -168,7 +168,10 @@ class Shooting:
             if (np.abs(step) <= 4e-16 * (1 + np.abs(y0))).all():
                 break
         else:
-            raise NotConverged("H = 0 has no solution for the phase's costate", float(np.abs(step).max()))
+            raise NotConverged(
+                "Newton's method found no costate of the phase with H = 0 at the start",
+                float(np.abs(step).max()),
+            )
         fixed = np.broadcast_to(self.start, (count, n))
         return np.concatenate([fixed, p, y0[:, None], np.zeros((count, 2))], axis=1)
 

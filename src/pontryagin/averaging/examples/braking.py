@@ -72,7 +72,9 @@ def brake(omega0: ArrayLike, semiaxes: ArrayLike, ratio: float, epsilon: float) 
     for name, value in (("semiaxes", axes), ("ratio", ratio), ("epsilon", epsilon)):
         positive(name, value)
     if not np.hypot(*start[:2]) > 0:
-        message = f"omega0 must have w_x or w_y other than 0, or there is nothing to brake, got {start}"
+        message = (
+            f"omega0 must have w_x or w_y other than 0, as there is no precession otherwise, got {start}"
+        )
         raise ArgumentValueError(message, "omega0")
     path, last = fly(start, axes, ratio, epsilon)
     turns = max(abs((ratio - 1) * start[2]), float(np.hypot(*start[:2]))) * last / (2 * np.pi)
@@ -110,7 +112,10 @@ def fly(start: Array, semiaxes: Array, ratio: float, epsilon: float) -> tuple[Od
         dense_output=True,
     )
     if run.status != 1:
-        raise NotConverged(f"the body does not come to rest: {run.message}", rest(0.0, run.y[:, -1]))
+        raise NotConverged(
+            f"the precession has not stopped at the time {run.t[-1]:.6g}: {run.message}",
+            rest(0.0, run.y[:, -1]),
+        )
     return cast(OdeSolution, run.sol), float(run.t[-1])
 
 

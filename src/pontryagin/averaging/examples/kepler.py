@@ -9,7 +9,7 @@ from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import finite, positive
+from pontryagin.validation import common_shape, finite, positive
 
 ROUND = 1e-6
 """Orbits with at most this eccentricity count as round, without a pericentre as the phase's origin."""
@@ -51,6 +51,7 @@ def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> Average
     """
     begin, end = _bound("E0", E0), _bound("E1", E1)
     momentum, price = positive("K0", K0), positive("l", l)
+    shape = common_shape(E0=begin.shape, K0=momentum.shape, E1=end.shape, l=price.shape)
     squared = 1 + 2 * begin * momentum**2
     if (squared < -1e-14).any():
         most = np.sqrt(-1 / (2 * begin))
@@ -61,16 +62,17 @@ def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> Average
             "K0",
         )
     if (squared <= ROUND**2).any():
+        least = np.sqrt(max(squared.min(), 0.0))
         raise ArgumentValueError(
-            f"K0 must leave an eccentricity above {ROUND:g}, got that of a round orbit, on which the phase "
-            "has no pericentre to be counted from",
+            f"K0 must leave an eccentricity above {ROUND:g}, got {least:.3g}: the phase is "
+            "counted from the pericentre, which a round orbit does not have",
             "K0",
         )
     if (squared == 1).any():
-        message = "K0 must leave an eccentricity below 1, got one too small to tell from 0"
+        small = np.broadcast_to(momentum, squared.shape)[squared == 1].flat[0]
+        message = f"K0 must leave an eccentricity below 1, got {small:g}, which is too small for that"
         raise ArgumentValueError(message, "K0")
     numbers = (end, price)
-    shape = np.broadcast_shapes(begin.shape, momentum.shape)
     start = np.stack([np.broadcast_to(begin, shape), np.broadcast_to(momentum, shape)], axis=-1)
     return solved(
         example_model("kepler"),
@@ -84,6 +86,8 @@ def kepler(E0: ArrayLike, K0: ArrayLike, E1: ArrayLike, l: ArrayLike) -> Average
 def _bound(name: str, value: ArrayLike) -> np.ndarray:
     energy = finite(name, value, "a negative number or an array of them")
     if not (energy < 0).all():
-        message = f"{name} must be negative, that of a bound orbit, got {energy[~(energy < 0)].flat[0]}"
+        message = (
+            f"{name} must be negative, as the energy of a bound orbit is, got {energy[~(energy < 0)].flat[0]}"
+        )
         raise ArgumentValueError(message, name)
     return energy

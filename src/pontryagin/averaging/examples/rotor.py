@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solved
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import finite, positive
+from pontryagin.validation import common_shape, finite, positive
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -54,7 +54,7 @@ def rotor(
         Naming the argument: an unknown symbol, an energy that does not exceed the potential's maximum (omega
         vanishes on the way), a mass, peak or k that is not positive, both or none of peak and k.
     Infeasible
-        If the mean drift opposes every control and exceeds it on the way.
+        If the mean drift leads away from the target somewhere on the way, and no control outweighs it.
 
     Examples
     --------
@@ -65,11 +65,13 @@ def rotor(
     from pontryagin.averaging.system import derived_systems
 
     if (peak is None) == (k is None):
-        raise ArgumentValueError("exactly one of peak and k must be given", "peak")
-    bound = None if peak is None else positive("peak", peak)
-    price = None if k is None else positive("k", k)
+        got = "neither" if peak is None else "both"
+        raise ArgumentValueError(f"exactly one of peak and k must be given, got {got}", "peak")
+    given = {name: value for name, value in (("peak", peak), ("k", k)) if value is not None}
+    chosen = {name: positive(name, value) for name, value in given.items()}
     begin = finite("a0", a0, "a number or an array (...)")
     end = finite("a1", a1, "a number or an array (...)")
+    common_shape(a0=begin.shape, a1=end.shape, **{name: value.shape for name, value in chosen.items()})
     m, V = _of("mass", mass, "x"), _of("potential", potential, "x")
     lightest = _over_a_turn(m).min()
     if not lightest > 0:
@@ -78,17 +80,17 @@ def rotor(
     for name, energy in (("a0", begin), ("a1", end)):
         if not (energy > top).all():
             raise ArgumentValueError(
-                f"{name} must exceed the potential's maximum {top:.6g}, for omega vanishes there, "
+                f"{name} must exceed the potential's maximum {top:.6g}, at which omega vanishes, "
                 f"got {energy.min():.6g}",
                 name,
             )
     f = _of("force", force, "xv")
     return solved(
-        derived_systems.rotor_model(m, V, f, bound is not None),
+        derived_systems.rotor_model(m, V, f, peak is not None),
         ("a",),
         begin[..., None],
-        (end, *(value for value in (bound, price) if value is not None)),
-        partial(derived_systems.rotor, m, V, f, end, bound, price),
+        (end, *chosen.values()),
+        partial(derived_systems.rotor, m, V, f, end, chosen.get("peak"), chosen.get("k")),
     )
 
 

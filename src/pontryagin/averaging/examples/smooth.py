@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
-from pontryagin.validation import finite, positive
+from pontryagin.validation import common_shape, finite, positive
 
 
 def smooth_example(
@@ -42,6 +42,7 @@ def smooth_example(
     """
     begin, end, price = positive("v0", v0), positive("v1", v1), positive("k", k)
     force = finite("ripple", ripple, "a number or an array (...)")
+    common_shape(v0=begin.shape, v1=end.shape, k=price.shape, ripple=force.shape)
     numbers = (end, price, force)
     return solved(
         example_model("smooth"),

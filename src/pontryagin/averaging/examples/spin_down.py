@@ -10,7 +10,7 @@ from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.examples.models import example_model, example_system
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import common_shape, positive, vectors
 
 if TYPE_CHECKING:
     from pontryagin.averaging.examples.rotating_frame import RotatingFrame
@@ -52,11 +52,13 @@ def spin_down(omega0: ArrayLike, semiaxes: ArrayLike, ratio: ArrayLike) -> Avera
     axes = vectors("semiaxes", semiaxes, 3)
     positive("semiaxes", axes)
     d = positive("ratio", ratio)
+    common_shape(omega0=w.shape[:-1], semiaxes=axes.shape[:-1], ratio=d.shape)
     if (d == 1).any():
-        message = "ratio must differ from 1: omega = (ratio - 1) w_z vanishes on a body like a sphere"
+        message = "ratio must differ from 1, got 1: omega = |(ratio - 1) w_z| would be 0"
         raise ArgumentValueError(message, "ratio")
     if (w[..., 2] == 0).any():
-        message = "omega0 must have w_z other than 0: omega = (ratio - 1) w_z vanishes"
+        got = w[w[..., 2] == 0][0]
+        message = f"omega0 must have w_z other than 0, got {got}: omega = |(ratio - 1) w_z| would be 0"
         raise ArgumentValueError(message, "omega0")
     sense = np.sign((d - 1) * w[..., 2])
     numbers = (*np.moveaxis(axes, -1, 0), d, sense)

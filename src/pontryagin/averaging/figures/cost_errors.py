@@ -16,6 +16,7 @@ from pontryagin.averaging.examples.kepler import kepler
 from pontryagin.averaging.examples.rotor import rotor
 from pontryagin.averaging.examples.smooth import smooth_example
 from pontryagin.averaging.examples.spin_down import spin_down
+from pontryagin.errors import ArgumentValueError
 
 EPSILONS = (0.04, 0.028, 0.02, 0.014, 0.01, 0.007)
 X = sp.Symbol("x", real=True)
@@ -95,7 +96,9 @@ def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
         If there is no such problem.
     """
     if name not in problems():
-        raise ValueError(f"name: got {name!r}, takes one of {', '.join(map(repr, problems()))}")
+        raise ArgumentValueError(
+            f"name: got {name!r}, takes one of {', '.join(map(repr, problems()))}", "name"
+        )
     make, phase = problems()[name]
     return measured(make(), epsilons, phase, name)
 

@@ -14,6 +14,7 @@ from pontryagin.display.plotting import (
     styled,
     subplots,
 )
+from pontryagin.errors import ArgumentValueError
 
 TAU = r"slow time $\tau=\varepsilon t$"
 SAMPLES = 1201
@@ -44,7 +45,9 @@ def drift(solution: AveragedSolution, exact: Extremal | None = None) -> Figure:
     """
     if solution.duration.shape:
         shape = solution.duration.shape
-        raise ValueError(f"solution must be that of one problem, got a stack of shape {shape}")
+        raise ArgumentValueError(
+            f"solution must be that of one problem, got a stack of shape {shape}", "solution"
+        )
     names = [*solution.names, *(str(u) for u in solution.system.control)]
     figure, axes = subplots(len(names), height=1.0 + 1.25 * len(names), sharex=True, squeeze=False)
     panels = list(axes[:, 0])

@@ -113,7 +113,10 @@ def _integrated(rate: Callable[[float, Array], Array], start: Array, last: float
     """omega as a function of time, (k,) to (3, k)."""
     run = solve_ivp(rate, (0.0, last), start, method="DOP853", rtol=1e-10, atol=1e-12, dense_output=True)
     if not run.success:
-        raise NotConverged(f"the rates were not integrated past t = {run.t[-1]}", last - run.t[-1])
+        raise NotConverged(
+            f"the integration of the angular velocity stopped at t = {run.t[-1]:.6g}: {run.message}",
+            last - run.t[-1],
+        )
     return cast(OdeSolution, run.sol)
 
 

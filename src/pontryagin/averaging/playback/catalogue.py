@@ -15,6 +15,7 @@ from pontryagin.averaging.playback.body import record_body
 from pontryagin.averaging.playback.orbit import record_orbit
 from pontryagin.averaging.playback.pair import Pair
 from pontryagin.averaging.playback.wheel import record_wheel
+from pontryagin.errors import ArgumentValueError
 
 
 def recordings() -> dict[str, Callable[[Path], None]]:
@@ -67,5 +68,9 @@ def record_solution(solution: AveragedSolution, exact: Extremal, path: Path) -> 
     scenes: dict[tuple[str, ...], Callable[[Pair, Path], None]]
     scenes = {("E", "K"): record_orbit, ("a", "c"): record_body, ("v",): record_wheel, ("a",): record_wheel}
     if solution.names not in scenes:
-        raise ValueError(f"solution must be that of an example of the paper, got one in {solution.names}")
+        names = ", ".join(solution.names)
+        raise ArgumentValueError(
+            f"solution must be that of one of the paper's examples, got one with the slow variables {names}",
+            "solution",
+        )
     scenes[solution.names](Pair(solution, exact), path)

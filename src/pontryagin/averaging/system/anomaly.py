@@ -52,7 +52,10 @@ def _weight_series(model: Model, slow: Array, numbers: tuple[Array, ...]) -> NDA
             )
             return series[..., : keep + 1]
         size *= 2
-    raise NotConverged("the weight dpsi/dx is not smooth", float(np.abs(series[..., -size // 8 :]).max()))
+    raise NotConverged(
+        f"the weight dpsi/dx is not smooth enough in x for {LAST} Fourier points",
+        float(np.abs(series[..., -size // 8 :]).max()),
+    )
 
 
 def _phase(series: NDArray[np.complex128], x: Array) -> Array:

@@ -22,7 +22,11 @@ def checked(system: StandardForm) -> dict[str, object]:
     numbers = _numbers(system.numbers, {*slow, *control, phase})
     parameters = set(numbers)
     if len({*slow, *control, phase}) < len(slow) + len(control) + 1:
-        raise ArgumentValueError("slow, control and phase must be different symbols")
+        repeated = {s for s in (*slow, *control, phase) if (*slow, *control, phase).count(s) > 1}
+        raise ArgumentValueError(
+            f"slow, control and phase must be different symbols, got {listed(repeated)} more than once",
+            "slow",
+        )
 
     in_slow = {*slow} | parameters
     in_phase = in_slow | {phase}
@@ -74,27 +78,31 @@ def checked(system: StandardForm) -> dict[str, object]:
 
 def _sequence(name: str, value: Any) -> list[Any]:
     if isinstance(value, str) or not hasattr(value, "__iter__"):
-        raise ArgumentTypeError(f"{name} must be a sequence, got {value!r}", name)
+        raise ArgumentTypeError(f"{name} must be a sequence such as a list, got {value!r}", name)
     return list(value)
 
 
 def _symbols(name: str, values: object) -> tuple[sp.Symbol, ...]:
     symbols = tuple(_sequence(name, values))
     if not symbols:
-        raise ArgumentValueError(f"{name} must hold at least one symbol", name)
+        raise ArgumentValueError(f"{name} must hold at least one symbol, got none", name)
     for symbol in symbols:
         if not isinstance(symbol, sp.Symbol):
             raise ArgumentTypeError(f"{name} must hold SymPy symbols, got {symbol!r}", name)
         if not symbol.is_real:
             raise ArgumentValueError(
-                f"{name} must hold real symbols: write sympy.Symbol({str(symbol)!r}, real=True)", name
+                f"{name} must hold real symbols: write sympy.Symbol({str(symbol)!r}, real=True), "
+                f"got {symbol}, which is not declared real",
+                name,
             )
     return symbols
 
 
 def _numbers(values: object, taken: set[sp.Symbol]) -> dict[sp.Symbol, Array]:
     if not isinstance(values, Mapping):
-        raise ArgumentTypeError(f"numbers must map symbols to numbers, got {values!r}", "numbers")
+        raise ArgumentTypeError(
+            f"numbers must map symbols to numbers, as a dict does, got {values!r}", "numbers"
+        )
     if values:
         _symbols("numbers", values)
     both = taken & set(values)
@@ -148,11 +156,13 @@ def _frequencies(
     system: StandardForm, in_slow: set[sp.Symbol], in_phase: set[sp.Symbol]
 ) -> dict[str, sp.Expr | None]:
     if (system.omega is None) == (system.anomaly_rate is None):
-        raise ArgumentValueError("exactly one of omega and anomaly_rate must be given", "omega")
+        got = "neither" if system.omega is None else "both"
+        raise ArgumentValueError(f"exactly one of omega and anomaly_rate must be given, got {got}", "omega")
     if system.omega is None:
         if sp.sympify(system.weight) != 1:
             raise ArgumentValueError(
-                "weight must not be given beside anomaly_rate, which determines it", "weight"
+                f"weight must not be given where anomaly_rate is, which determines it, got {system.weight}",
+                "weight",
             )
         rate = _expression("anomaly_rate", system.anomaly_rate, in_phase)
         result: dict[str, sp.Expr | None] = {"omega": None, "anomaly_rate": rate}
@@ -169,7 +179,7 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
     for first in control:
         slope = sp.diff(expression, first)
         if slope.has(*control) and sp.simplify(slope).has(*control):
-            message = f"{name} must be affine in the control, its derivative in {first} is {slope}"
+            message = f"{name} must be affine in the control, got one whose derivative in {first} is {slope}"
             raise ArgumentValueError(message, name.partition("[")[0])
 
 

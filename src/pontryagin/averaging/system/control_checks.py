@@ -21,7 +21,7 @@ def refusal(message: str) -> ArgumentValueError:
 def require_count(name: str, values: Sequence[object], dimension: int) -> None:
     """Raise ValueError unless there is one entry for each control."""
     if len(values) != dimension:
-        raise refusal(f"{name} must hold one for each of {dimension} controls, got {len(values)}")
+        raise refusal(f"{name} must hold one number for each of {dimension} controls, got {len(values)}")
 
 
 def require_positive(name: str, values: Sequence[object], numbers: Numbers) -> None:
@@ -29,7 +29,7 @@ def require_positive(name: str, values: Sequence[object], numbers: Numbers) -> N
     for value in numeric(name, values, numbers):
         least = value.min()
         if not (np.isfinite(least) and least > 0):
-            raise refusal(f"{name} must be positive for a convex set of controls, got {least:g}")
+            raise refusal(f"{name} must be positive, got {least:g}")
 
 
 def numeric(name: str, values: Sequence[object], numbers: Numbers) -> tuple[Array, ...]:
@@ -38,7 +38,9 @@ def numeric(name: str, values: Sequence[object], numbers: Numbers) -> tuple[Arra
     used = set().union(*(expression.free_symbols for expression in expressions))
     unknown = used - set(numbers)
     if unknown:
-        raise refusal(f"{name} holds unknown symbols {listed(unknown)}")
+        raise refusal(
+            f"{name} holds unknown symbols {listed(unknown)}; it may hold {listed(numbers) or 'numbers only'}"
+        )
     symbols = sorted(used, key=str)
     evaluate = compiler.function("values", symbols, {f"v{i}": e for i, e in enumerate(expressions)})
     return evaluate(*(numbers[symbol] for symbol in symbols))

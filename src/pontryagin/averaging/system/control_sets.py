@@ -78,7 +78,8 @@ class Quadratic:
         matrix = self._matrix(dimension)
         if matrix.shape != (dimension, dimension):
             raise refusal(
-                f"Quadratic: weight must be a number or ({dimension}, {dimension}), got shape {matrix.shape}"
+                f"Quadratic: weight must be a number or a matrix of shape ({dimension}, {dimension}), "
+                f"got shape {matrix.shape}"
             )
         entries = np.stack(numeric("Quadratic: weight", list(matrix), numbers), axis=-1)
         for values in entries.reshape(-1, dimension, dimension):
@@ -285,7 +286,10 @@ class Custom:
         value = self.support(free)
         unknown = value.free_symbols - set(free) - set(numbers)
         if unknown:
-            raise refusal(f"Custom: the support function holds unknown symbols {listed(unknown)}")
+            raise refusal(
+                f"Custom: the support function holds unknown symbols {listed(unknown)}; beside its "
+                f"arguments it may hold {listed(numbers) or 'numbers only'}"
+            )
         symbols = sorted(value.free_symbols & set(numbers), key=str)
         evaluate = compiler.function("support", [*free, *symbols], {"sigma": value})
         constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in symbols]
@@ -296,9 +300,15 @@ class Custom:
         )
         scale = 1e-12 * (np.abs(first) + np.abs(second) + np.abs(both))
         if not (np.abs(tripled - 3 * first) <= 3 * scale).all():
-            raise refusal("Custom: a support function must be homogeneous of degree one, this one is not")
+            raise refusal(
+                "Custom: the support function must be homogeneous of degree one, got a sigma with "
+                "sigma(3 s) other than 3 sigma(s)"
+            )
         if not (both <= first + second + scale).all() or not (first + opposite >= -scale).all():
-            raise refusal("Custom: not the support function of a convex set, sigma is not convex")
+            raise refusal(
+                "Custom: the support function must be convex, as that of every convex set is, "
+                "got one that is not"
+            )
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:

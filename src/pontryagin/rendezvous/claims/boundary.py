@@ -56,12 +56,12 @@ tilde = conjugate(attitude)
 
 @claim(
     "(15)",
-    "what is equal at t_k and t0: λ~∘ν∘λ~",
+    "λ~∘ν∘λ~ has the same value at t_k and at t0",
     verdict="misprint",
-    remark="Printed, or so the scan shows: a tilde over all four λ. Right: λ∘ν∘λ~, the integral ν*, as "
-    "ν* = μ∘λ~ before (11) gives it. The scan is read by machine: bar and tilde stand right in all other "
-    "products, but here, twice, a bar taken for a tilde cannot be excluded. At t_k, λ*(t_k) has to stand for "
-    "λ(t_k), or it says nothing of the meeting.",
+    remark="Printed, as far as the scan shows: a tilde over all four λ. Right: λ∘ν∘λ~, the integral ν*, as "
+    "ν* = μ∘λ~ before (11) gives it. The scan was read by machine: bars and tildes are right in all "
+    "other products, but it cannot be excluded that here a bar was twice taken for a tilde. At t_k, "
+    "λ*(t_k) has to replace λ(t_k), or (15) says nothing about the meeting.",
 )
 def equal_at_both_ends() -> Misprint:
     key = r"\bar\nu^*"
@@ -93,7 +93,7 @@ def equal_at_both_ends() -> Misprint:
     )
 
 
-@claim.proof("(15): origin", "it follows from (6) and the integral ν*", remark="It does not imply (6).")
+@claim.proof("(15): origin", "(15) follows from (6) and the integral ν*", remark="(15) does not imply (6).")
 def origin_of_15() -> Steps:
     for k, part in enumerate(reduction.invariant()):
         moves = reduction.along(part)
@@ -143,7 +143,7 @@ def constant_of_integration() -> Steps:
     )
 
 
-@claim("(17)", "the integral H⁰, zero since t_k is free", verdict="holds")
+@claim("(17)", "the integral H⁰ is zero, since t_k is free", verdict="holds")
 def hamiltonian() -> Proof:
     printed = (
         -(time_weight + energy_weight * (p1**2 + p2**2 + p3**2))

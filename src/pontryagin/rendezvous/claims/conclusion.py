@@ -26,10 +26,11 @@ tilde = conjugate(attitude)
     "conclusion: reduced",
     "the boundary value problem of 16 equations is reduced to one of ten",
     verdict="false",
-    remark="(15) compares two vectors of equal length: rank 2, where (6) has rank 3. The turn about ν* is "
-    "lost, in one plane the whole place on the orbit. Families of false meetings satisfy (5), (15), (16) and "
-    "(17) to rounding; one that is 20° ahead even costs less than the true one. Repair: an eleventh "
-    "equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and χ(t_k) from λ*.",
+    remark="(15) compares two vectors of equal length and has rank 2, where (6) has rank 3. It leaves the "
+    "turn about ν* free, and with it, for motion in one plane, the whole place on the orbit. Families "
+    "of false meetings satisfy (5), (15), (16) and (17) to rounding; one that is 20° ahead even costs "
+    "less than the true one. Repair: an eleventh equation, χ' = c/r² + (r p3/c) ν1/(|ν| + ν3), and "
+    "χ(t_k) from λ*.",
 )
 def reduced_problem() -> Refutation:
     def counterexample() -> Steps:
@@ -87,7 +88,7 @@ def repaired() -> Steps:
 @claim.proof(
     "conclusion: simpler",
     "the right-hand sides have become simpler",
-    remark="With the eleventh equation too.",
+    remark="They are simpler even with the eleventh equation.",
 )
 def simpler() -> Steps:
     for mode in ("unsaturated", "saturated"):

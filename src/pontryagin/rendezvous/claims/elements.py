@@ -67,8 +67,8 @@ def target() -> Steps:
 @claim.proof(
     "abstract: elements",
     "quaternion or vector elements of the orbit are used",
-    remark="(1) is in the quaternion ones, A and B. The vector ones are not on the page; the classical, R × "
-    "V and Laplace's vector, are quadratic in A and B.",
+    remark="(1) uses the quaternion elements A and B. The vector elements are not on the page; the classical "
+    "ones, R × V and Laplace's vector, are quadratic in A and B.",
 )
 def elements() -> Steps:
     still = [rates.subs(FREE) for rates in sapunkov.element_rates()]
@@ -95,8 +95,9 @@ def elements() -> Steps:
     "abstract: regular",
     "the equations of motion in the elements are regular",
     verdict="conditional",
-    remark="While the osculating orbit is an ellipse, Q > 0: no denominators, the centre of attraction "
-    "included. On a parabola Q is infinite, on a hyperbola negative, and dt/dφ is not real.",
+    remark="True while the osculating orbit is an ellipse, Q > 0: the equations have no denominators, and "
+    "the centre of attraction is included. On a parabola Q is infinite; on a hyperbola Q is negative, "
+    "and dt/dφ is not real.",
 )
 def regular() -> Conditional:
     def argument() -> Steps:
@@ -129,10 +130,10 @@ def regular() -> Conditional:
     "abstract: structure",
     "the equations in the elements have a structure that suits numerical solution",
     verdict="not checked",
-    remark="A judgement. What can be shown is shown: they are regular on ellipses, and A and B are constant "
-    "without thrust. `solve_in_elements` meets all of the report's cases in them, four of them from the "
-    "costates of `solve`; the three redundancies of the four numbers u must be taken out of the shooting "
-    "first.",
+    remark="This is a judgement. What can be shown is shown in other entries: the equations are regular on "
+    "ellipses, and A and B are constant without thrust. `solve_in_elements` solves all of the "
+    "report's cases in them, four of them from the costates of `solve`; the three redundancies of the "
+    "four numbers u must be taken out of the shooting first.",
 )
 def structure() -> None:
     return None
@@ -152,9 +153,9 @@ def functionals() -> None:
 @claim.proof(
     "section 1: both craft",
     "(1) describes the motion of the controlled and of the uncontrolled craft",
-    remark="Each in its own φ: a meeting compares the two craft at one t, where their φ differ. The page "
-    "leaves undefined ε (unit of thrust in units of gravity), P(u), (·,·), u² = |u|², and the condition on "
-    "the start, scal(ũ∘i1∘w) = 0.",
+    remark="Each craft has its own φ: a meeting compares the two craft at one t, where their φ differ. The "
+    "page does not define ε (the unit of thrust in units of gravity), P(u), (·,·), u² = |u|², nor the "
+    "condition on the start, scal(ũ∘i1∘w) = 0.",
 )
 def both_craft() -> Steps:
     moved = sapunkov.place_rate() - square * velocity
@@ -188,7 +189,7 @@ def element_rates() -> Equality:
     "(1): dt/dφ",
     "rate of the time",
     verdict="holds",
-    remark="In units with fM = 1, which “dimensionless” must mean.",
+    remark="This holds in units with fM = 1, which “dimensionless” must mean.",
 )
 def time_rate() -> Equality:
     return Equality(
@@ -198,7 +199,7 @@ def time_rate() -> Equality:
     )
 
 
-@claim("(1): Q", "Q = A² + B²", verdict="holds", remark="It is −1/h: twice the semi-axis.")
+@claim("(1): Q", "Q = A² + B²", verdict="holds", remark="Q is −1/h, twice the semi-major axis.")
 def size_of_the_orbit() -> Proof:
     def argument() -> Steps:
         speed = sapunkov.spinor_rate()
@@ -237,7 +238,7 @@ def lifted_force() -> Steps:
     yield "dh/dφ = 2ε(w, q)", vanishes(sp.expand(work))
 
 
-@claim("(1): F1", "what drives the elements", verdict="holds")
+@claim("(1): F1", "the quantity F1, which drives the elements", verdict="holds")
 def driving_force() -> Equality:
     def derived() -> RightSides:
         whole = (sapunkov.oscillation_rate() + u) / (epsilon * Q)

@@ -31,10 +31,10 @@ def r_of_target() -> tuple[sp.Expr, sp.Expr]:
 
 @claim(
     "(7)",
-    "the functional: the integral of α1 + α2p², to be least",
+    "the functional to be minimised is the integral of α1 + α2p²",
     verdict="holds",
-    remark="α1, α2 ≥ 0 admits α1 = α2 = 0 too: then every control costs 0, and nothing is left to be least. "
-    "`Rendezvous` refuses it.",
+    remark="The condition α1, α2 ≥ 0 admits α1 = α2 = 0 too: every control then costs 0, and there is "
+    "nothing to minimise. `Rendezvous` refuses this case.",
 )
 def functional() -> Equality:
     def derived() -> RightSides:
@@ -52,13 +52,14 @@ def functional() -> Equality:
 
 @claim(
     "section 1: α1 = 0",
-    "α1 ≥ 0 may be any, α1 = 0 too, while t_k is free",
+    "any α1 ≥ 0 is admitted, α1 = 0 too, while t_k is free",
     verdict="conditional",
-    remark="The page claims no more than α1, α2 ≥ 0. For α1 > 0 a cost bounds the time, t_k ≤ J/α1, and an "
-    "unsaturated end has p > 0; that an optimum always exists is not proved here. For α1 = 0, the problem of "
-    "least energy, there is none. Slow spirals meet the target with an energy that falls as 1/t_k: the "
-    "infimum is 0, and only a coasting craft would attain it. The law at the end says it too: n(t_k) = 0, "
-    "three conditions in place of one. Fix t_k instead.",
+    remark="The page claims no more than α1, α2 ≥ 0. For α1 > 0 a cost bounds the time, t_k ≤ J/α1, and p > "
+    "0 at an unsaturated end; that an optimum always exists is not proved here. For α1 = 0, the "
+    "problem of least energy, there is no optimum. Slow spirals meet the target with an energy that "
+    "falls as 1/t_k: the infimum is 0, and only a coasting craft would attain it. The law at the end "
+    "shows it too: it becomes n(t_k) = 0, three conditions in place of one. For α1 = 0 fix t_k "
+    "instead.",
 )
 def least_energy_in_free_time() -> Conditional:
     s, T = spirals.share, spirals.duration
@@ -113,9 +114,10 @@ def ever_cheaper() -> Steps:
     "section 1: energy",
     "the functional stands for the energy spent and the time",
     verdict="conditional",
-    remark="∫p²dt is the jet's energy, but for a factor, at a constant flow of mass and a mass that hardly "
-    "changes; it is no craft's energy in general. At constant exhaust speed the jet's energy is that of the "
-    "mass burnt, and goes with ∫p dt; at constant power it is N t_k, and ∫p²dt stands for the mass.",
+    remark="∫p²dt is the jet's energy up to a factor where the flow of mass is constant and the mass hardly "
+    "changes; in general it is not the energy of a craft. At constant exhaust speed the jet's energy "
+    "is that of the mass burnt, and depends on ∫p dt; at constant power it is N t_k, and ∫p²dt stands "
+    "for the mass.",
 )
 def energy_spent() -> Conditional:
     def argument() -> Steps:
@@ -190,9 +192,9 @@ def whose_mass() -> Slip:
     "section 1: dm/dt",
     "with dm/dt constant the functional stands for the loss of mass and the time",
     verdict="conditional",
-    remark="With dm/dt = const the loss is |dm/dt| t_k, whatever p is: the same loss and time can have "
-    "different J. ∫p²dt stands for the loss at constant jet power (dm/dt = −m²p²/(2N)), or where the exhaust "
-    "speed is constant too, and then p is not free.",
+    remark="With dm/dt = const the loss is |dm/dt| t_k, whatever p is: the same loss and time can go with "
+    "different J. ∫p²dt stands for the loss at constant jet power (dm/dt = −m²p²/(2N)), or where the "
+    "exhaust speed is constant as well as dm/dt, but then p cannot be chosen.",
 )
 def loss_of_mass() -> Conditional:
     mass = start_mass - flow_rate * t

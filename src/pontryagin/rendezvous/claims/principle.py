@@ -46,7 +46,7 @@ PRIMER = dict(zip(canonical.PSI, (sp.Rational(k, 6) for k in (2, -1, 3, 2, 3, 6)
 
 @claim.proof(
     "section 2: costates",
-    "μ, ρ, s1, e, Φ*, ψ0 belong to λ, r, v1, c, φ*, g",
+    "μ, ρ, s1, e, Φ* and ψ0 are the costates of λ, r, v1, c, φ* and g",
     display=r"\dot g = \alpha_1 + \alpha_2 p^2,\quad g(t_0) = 0",
 )
 def costates() -> Steps:
@@ -67,7 +67,7 @@ def costates() -> Steps:
     )
 
 
-@claim("(8)", "the thrust lies along n", verdict="holds", remark="Where n ≠ 0.")
+@claim("(8)", "the thrust lies along n", verdict="holds", remark="This holds where n ≠ 0.")
 def direction() -> Proof:
     def derived() -> RightSides:
         n = principle.switching()
@@ -94,7 +94,7 @@ def direction() -> Proof:
     "(9)",
     "n = s1 i1 + e r i2 + [r ν1/(2c)] i3, and its length",
     verdict="holds",
-    remark="The scan prints ν like v; that ν1 is meant, the line after (10) says.",
+    remark="The scan prints ν like v; the line after (10) says that ν1 is meant.",
 )
 def switching_vector() -> Equality:
     printed = {
@@ -137,8 +137,9 @@ def thrust_size() -> Proof:
 
 @claim.proof(
     "(10), α2 = 0",
-    "without α2 the thrust is always p_max",
-    remark="But for instants with n = 0. That n cannot stay 0 is not shown there; for α1 > 0 it cannot.",
+    "for α2 = 0 the thrust is always p_max",
+    remark="Instants with n = 0 are excepted. The page does not show that n cannot stay 0; for α1 > 0 it "
+    "cannot.",
     display=r"\alpha_2 = 0:\ p^0 = p_{\max}",
 )
 def no_singular_arcs() -> Steps:
@@ -181,7 +182,7 @@ def variable_nu() -> Equality:
     )
 
 
-@claim.proof("section 2: 16", "the problem comes to 16 differential equations")
+@claim.proof("section 2: 16", "the problem leads to 16 differential equations")
 def sixteen() -> Steps:
     form = forms.full("unsaturated")
     yield "eight for r, v1, c, φ*, λ and eight for their costates", len(form.rates) == 16

@@ -38,7 +38,7 @@ def constant(expression: sp.Expr) -> bool:
 @claim.proof(
     "section 2: ν*",
     "ν* = μ∘λ~ is a first integral",
-    remark="At any thrust.",
+    remark="This holds at any thrust.",
     display=r"\bar\nu^* = \bar\mu\circ\tilde{\bar\lambda} = \mathrm{const}",
 )
 def invariant() -> Steps:
@@ -48,7 +48,7 @@ def invariant() -> Steps:
 
 @claim.proof(
     "section 2: ν = λ~∘ν*∘λ",
-    "the new variable from the integral",
+    "the new variable ν is obtained from the integral ν*",
     display=r"\bar\nu = \tilde{\bar\lambda}\circ\bar\nu^*\circ\bar\lambda",
 )
 def nu_from_the_invariant() -> Steps:
@@ -60,8 +60,9 @@ def nu_from_the_invariant() -> Steps:
 @claim.proof(
     "section 2: integrals",
     "the boundary value problem has first integrals, which are taken into account",
-    remark="ν* (four), |λ|, C_φ and H. ν0 is one of the four in disguise, and a pure gauge: no thrust "
-    "contains it. |ν| stays constant in (14) and is not used: the ten equations are one more than needed.",
+    remark="The integrals are ν* (four), |λ|, C_φ and H. ν0 is one of the four, the scalar part of ν*, and "
+    "may be chosen at will, as no thrust contains it. |ν| is constant along (14) and is not used: the "
+    "ten equations are one more than needed.",
 )
 def integrals() -> Steps:
     norm, gauge, square = reduction.norms()
@@ -133,8 +134,9 @@ def order_ten() -> Steps:
 @claim.proof(
     "after (14): eleven",
     "ten arbitrary constants appear, and t_k is the eleventh unknown",
-    remark="Of (11) to (14) and φ*'. A twelfth, C_φ, comes with (16); what follows does not count it. The "
-    "law (n, p) = α1 + α2p² at t_k takes the place of (16) and (17) and does without.",
+    remark="The ten constants are those of (11) to (14) and φ*'. A twelfth unknown, C_φ, comes with (16); "
+    "the paper does not count it in what follows. The law (n, p) = α1 + α2p² at t_k takes the place "
+    "of (16) and (17) and does not contain C_φ.",
 )
 def eleven_unknowns() -> Steps:
     closed = reduction.rates().subs(dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True)))
@@ -153,10 +155,11 @@ def eleven_unknowns() -> Steps:
 
 @claim(
     "before (15)",
-    "(5), (15), (16) and (17) serve to determine six unknown constants and t_k",
+    "(5), (15), (16) and (17) determine six unknown constants and t_k",
     verdict="false",
-    remark="With C_φ eight unknowns; (5), (16) and (17) are five conditions, and (15) counts for two, since "
-    "|ν| is constant: seven in all. One-parameter families satisfy everything, see the conclusion.",
+    remark="With C_φ there are eight unknowns. (5), (16) and (17) are five conditions, and (15) counts for "
+    "two, since |ν| is constant: seven in all. One-parameter families satisfy all of them, see the "
+    "entry on the conclusion.",
 )
 def six_unknowns() -> Refutation:
     def counterexample() -> Steps:

@@ -50,7 +50,8 @@ def at_unit_norm(expression: sp.Expr, quaternion: sp.Matrix = attitude) -> sp.Ex
 @claim.proof(
     "abstract",
     "nonlinear transformations lower the dimension of the boundary value problem",
-    remark="To ten equations and one quadrature more than the paper has: see the conclusion.",
+    remark="The dimension falls to that of ten equations and one quadrature, which the paper does not have: "
+    "see the entry on the conclusion.",
 )
 def lower_dimension() -> Steps:
     counts = [len(form("unsaturated").states) for form in (forms.full, forms.repaired)]
@@ -172,7 +173,7 @@ def constant_area() -> Steps:
     yield "and η3 stays where it is", vanishes(change.applyfunc(sp.expand))
 
 
-@claim.proof("section 1: η*", "η1* along R*, η3* along c*: v1* is the projection of V* on η1*")
+@claim.proof("section 1: η*", "η1* points along R* and η3* along c*, and v1* is the projection of V* on η1*")
 def axes_of_the_target() -> Steps:
     place, velocity = model.cartesian()
     yield "R lies along η1", vanishes((place - r * rotated(EX, lam)).applyfunc(sp.expand))
@@ -205,8 +206,8 @@ def orientation_by_angles() -> Steps:
     "section 1: given",
     "p*, e*, c*, Λ* and φ0* are given",
     verdict="conditional",
-    remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) is no motion of a coasting "
-    "craft.",
+    remark="One of p* and c* follows from the other: c*² = fM p*. Otherwise (5) does not describe the motion "
+    "of a coasting craft.",
 )
 def given_quantities() -> Conditional:
     def left_over() -> sp.Expr:
@@ -235,8 +236,8 @@ def given_quantities() -> Conditional:
 
 @claim.proof(
     "section 1: moving end",
-    "φ*_k is not fixed: the end lies on the manifold (5), (6), and the right end moves",
-    remark="Two curves, in fact: λ = λ* and λ = −λ*, the same attitudes.",
+    "φ*_k is not fixed: the right end of the trajectory moves on the manifold (5), (6)",
+    remark="The manifold consists of two curves, λ = λ* and λ = −λ*, which are the same attitudes.",
 )
 def moving_end() -> Steps:
     curve = transversality.meeting()

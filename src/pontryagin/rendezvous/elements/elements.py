@@ -72,7 +72,7 @@ class Elements:
         object.__setattr__(self, "phi", np.broadcast_to(phi, shape))
         object.__setattr__(self, "gravity", gravity)
         if np.any(self.Q == 0):
-            raise ValueError("A and B must not both vanish, got 0, 0, 0, 0 for either")
+            raise ValueError("A and B must not both be zero, got 0, 0, 0, 0 for each")
         if np.any(off := np.abs(self.relation) > RELATED * self.Q):
             worst = float(np.broadcast_to(self.relation, off.shape)[off].flat[0])
             raise ValueError(f"A and B must satisfy scal(A~ o i1 o B) = 0, got {worst:.6g}")
@@ -101,8 +101,8 @@ class Elements:
         energy = np.sum(V**2, axis=-1) / 2 - scale / r
         if np.any(energy >= 0):
             raise ValueError(
-                "velocity must leave the energy V^2/2 - gravity/r negative, as elements A and B are those of "
-                f"an ellipse, got {float(np.max(energy)):.6g}"
+                "velocity must leave the energy V^2/2 - gravity/r negative, as the elements A and B exist on "
+                f"ellipses only, got {float(np.max(energy)):.6g}"
             )
         both = _oscillation(R, V / np.sqrt(scale))
         return cls(both[..., :4], both[..., 4:], np.zeros(r.shape), scale)

@@ -180,7 +180,9 @@ def fly_elements(
     mode = law.mode(float(np.linalg.norm(switching(state, np.array(0.0)))))
     pieces, last = follow(flow_of(law, taylor, rough), np.append(state, columns), mode, 0.0, phi)
     if not np.isfinite(last).all():
-        raise NotConverged("the extremal leaves the domain of the equations", float("inf"))
+        raise NotConverged(
+            "the flight is not finite at its end: it left the domain of the equations", float("inf")
+        )
     end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
     return ElementFlight(scaled, law, np.array(costates), phi, pieces, end, slopes, taylor)
 

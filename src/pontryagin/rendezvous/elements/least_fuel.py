@@ -83,11 +83,11 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     require_solvable(problem)
     integer("revolutions", revolutions)
     if problem.energy_weight == 0:
-        raise ValueError("energy_weight must be greater than 0, got 0: nothing but time would cost")
+        raise ValueError("energy_weight must be greater than 0, got 0: only time would have a cost")
     if problem.peak == math.inf:
         raise ValueError(
-            "peak must be finite, got inf: without a bound the least integral of |p| is not reached by any "
-            "thrust, but approached by impulses"
+            "peak must be finite, got inf: without a bound impulses approach the least integral of |p|, but "
+            "no thrust attains it"
         )
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)
@@ -160,7 +160,10 @@ def _sharpen(
                 return found, meet(ElementsSetting(scaled, law, duration), found[-1].unknowns)
             except NotConverged:
                 continue
-    raise NotConverged("the smoothed thrust could not be sharpened", WIDTHS[-1])
+    raise NotConverged(
+        "the extremal with a smoothed thrust could not be continued to one with jumps of the thrust",
+        WIDTHS[-1],
+    )
 
 
 def rescaled_unknowns(gentle: Root[ElementFlight], law: Law) -> Array:

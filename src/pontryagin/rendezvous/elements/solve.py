@@ -96,7 +96,9 @@ def carried(start: Extremal) -> Array:
     phi = half_anomaly(flight)
     if math.isnan(phi):
         raise Infeasible(
-            "start flies through a parabola or a hyperbola, on which the elements A and B do not exist"
+            "start must stay on osculating ellipses, got a flight through a parabola or a hyperbola, on "
+            "which the elements A and B do not exist",
+            "start",
         )
     return np.append(costates, phi)
 
@@ -110,4 +112,4 @@ def _extremal(setting: ElementsSetting, revolutions: int) -> Root[ElementFlight]
             return bounded(SHOOTING, setting, loose, unbounded(loose, revolutions))
         except NotConverged as failure:
             reason = reason or failure
-    raise reason or NotConverged("no extremal was reached", float("inf"))
+    raise reason or NotConverged("no extremal was found", float("inf"))

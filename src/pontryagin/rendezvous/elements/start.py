@@ -131,7 +131,7 @@ def least_energy(
             return stretched(SHOOTING, setting, cold_start(scaled, share * duration, revolutions, taylor))
         except NotConverged as failure:
             reason = reason or failure
-    raise reason or NotConverged("no first extremal was found", float("inf"))
+    raise reason or NotConverged("no extremal was found from which to continue", float("inf"))
 
 
 def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -> Root[ElementFlight]:
@@ -153,7 +153,9 @@ def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -
     phi = origin + coasting_angle(target, duration)
     phi += math.pi * (round((flight.phi - phi) / math.pi) + revolutions)
     if phi <= 0:
-        raise NotConverged("the target cannot be reached in so few revolutions", 1.0)
+        raise NotConverged(
+            f"revolutions must be larger, got {revolutions}: the target would be met before the start", 1.0
+        )
 
     def family(share: float) -> ElementsSetting:
         between = here + share * (there - here)

@@ -173,12 +173,12 @@ def false_family(solution: Extremal, angles: ArrayLike) -> FalseFamily:
         raise ArgumentTypeError(f"solution must be of type Extremal, got {solution!r}", "solution")
     if not solution.problem.free:
         raise ArgumentValueError(
-            f"solution must have a free duration, as (17) asks, got a fixed one of {solution.duration:g}",
+            f"solution must have a free duration, as (17) requires, got a fixed one of {solution.duration:g}",
             "solution",
         )
     targets = np.atleast_1d(finite("angles", angles, "numbers"))
     if targets.ndim > 1:
-        raise ArgumentValueError(f"angles must be of shape (k,), got {targets.shape}", "angles")
+        raise ArgumentValueError(f"angles must be of shape (k,), got shape {targets.shape}", "angles")
     roots = {0.0: solution.root}
     for sign in (1.0, -1.0):
         nearest_first = sorted({float(angle) for angle in targets if sign * angle > 0}, key=abs)
@@ -205,7 +205,7 @@ def false_curve(solution: Extremal, first: float, last: float) -> FalseFamily:
     """
     if not first < 0 < last:
         raise ArgumentValueError(
-            f"first and last must be below and above 0, got {first} and {last}",
+            f"first must be below 0 and last above 0, got {first} and {last}",
             "last" if first < 0 else "first",
         )
     ends = false_family(solution, [first, last]).members
@@ -249,7 +249,8 @@ def _curve(
             return points, roots
     if left:
         raise NotConverged(
-            f"the curve of false meetings ends at {points[-1].parameter:.3g} rad, before {left[0]:.6g} rad",
+            f"the curve of false meetings ends at {points[-1].parameter:.3g} rad, before it reaches "
+            f"{left[0]:.6g} rad",
             abs(left[0] - points[-1].parameter),
         )
     return points, roots

@@ -72,7 +72,8 @@ def branch(extremal: Extremal, sign: int, limits: tuple[float, float], dearest: 
     scaled = problem.scaled
     if problem.peak < math.inf:
         raise ArgumentValueError(
-            f"extremal must be of a problem without a bound, got a peak of {problem.peak:g}", "extremal"
+            f"extremal must be of a problem without a bound on the thrust, got a peak of {problem.peak:g}",
+            "extremal",
         )
     points = []
     for duration, scaled_cost in _points(extremal, sign):

@@ -133,7 +133,7 @@ def direct(
         answer = opti.solve()
     except RuntimeError:
         raise NotConverged(
-            f"Ipopt: {opti.return_status()}", float(opti.stats()["iterations"]["inf_pr"][-1])
+            f"Ipopt did not converge: {opti.return_status()}", float(opti.stats()["iterations"]["inf_pr"][-1])
         ) from None
     statistics = answer.stats()
     return Direct(

@@ -62,7 +62,8 @@ class Orbit:
         }
         if self.eccentricity >= 1:
             raise ArgumentValueError(
-                f"eccentricity must be less than 1: the target moves on an ellipse, got {self.eccentricity}",
+                "eccentricity must be less than 1, as the target moves on an ellipse, "
+                f"got {self.eccentricity}",
                 "eccentricity",
             )
         for name, value in checked.items():

@@ -78,14 +78,15 @@ class Rendezvous:
         """Refuse problems with nothing to minimise, and a craft that does not start on an ellipse."""
         if self.time_weight == 0 and self.energy_weight == 0:
             raise ArgumentValueError(
-                "time_weight and energy_weight must not both be 0: nothing would be minimised", "time_weight"
+                "time_weight and energy_weight must not both be 0: nothing would be minimised then",
+                "time_weight",
             )
         if self.energy_weight == 0 and self.peak == math.inf:
             raise ArgumentValueError("peak must be finite where energy_weight is 0, got inf", "peak")
         if self.energy_weight == 0 and self.duration is not None:
             raise ArgumentValueError(
-                "duration must be left free where energy_weight is 0, "
-                f"got {self.duration:g}: every control would cost the same",
+                f"duration must be left free where energy_weight is 0, got {self.duration:g}: every control "
+                "would cost the same",
                 "duration",
             )
         craft = self.chaser
@@ -93,7 +94,7 @@ class Rendezvous:
             energy = (np.square(craft.v1) + np.square(craft.c / craft.r)) / 2 - self.gravity / craft.r
         if energy >= 0:
             raise ArgumentValueError(
-                "chaser must start on an ellipse: v1^2/2 + c^2/(2 r^2) - gravity/r must be negative, "
+                "chaser must start on an ellipse, with the energy v1^2/2 + c^2/(2 r^2) - gravity/r negative, "
                 f"got {energy:.6g}",
                 "chaser",
             )

@@ -155,6 +155,8 @@ def fly(
     flow = flow_of(scaled.eccentricity, has_switches, chosen, taylor, rough)
     pieces, last = follow(flow, whole, mode, 0.0, duration)
     if not np.isfinite(last).all():
-        raise NotConverged("the extremal leaves the domain of the equations", float("inf"))
+        raise NotConverged(
+            "the flight is not finite at its end: it left the domain of the equations", float("inf")
+        )
     end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
     return Flight(scaled, np.array(costates), duration, peak, bang, chosen, pieces, end, slopes, taylor)

@@ -117,13 +117,14 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
     given = vectors("costates", costates, 6)
     given_durations = problem.duration if durations is None else durations
     if given_durations is None:
-        raise ValueError("durations must be given where the problem leaves the duration free, got None")
+        raise ValueError("durations must be given where the duration of the problem is free, got None")
     ends_at = positive("durations", given_durations)
     try:
         shape = np.broadcast_shapes(given.shape[:-1], ends_at.shape)
     except ValueError:
         raise ValueError(
-            f"durations must be one number or an array of shape {given.shape[:-1]}, got shape {ends_at.shape}"
+            f"durations must be one number or of shape {given.shape[:-1]} like the costates, "
+            f"got shape {ends_at.shape}"
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
     times = np.broadcast_to(ends_at / scaled.time, shape).ravel()
@@ -228,7 +229,7 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     best, *others = distinct(found) or (None,)
     if best is None:
         return ()
-    lost = f"{len(starts) - len(found)} of {len(starts)} starts, from which no meeting was reached"
+    lost = f"no meeting was reached from {len(starts) - len(found)} of the {len(starts)} starts"
     log = Search(durations=[setting.duration or 0.0], given_up=[lost])
     return (replace(best, others=tuple(others), searched=log), *others)
 

@@ -61,7 +61,7 @@ def _walk(
             try:
                 root = meet(setting.replace(lead=lead), guess)
             except NotConverged as reason:
-                log.given_up.append(f"{j} revolutions more: {reason}")
+                log.given_up.append(f"extremal with {j:+d} revolutions: {reason}")
                 continue
             found.append(UnboundedExtremal(root, lead, setting.ratio))
             log.revolutions.append(j)
@@ -71,16 +71,18 @@ def _walk(
         if end:
             break
         last = point
-    way = "forwards" if sign > 0 else "backwards"
-    log.ends.append(f"{way}, to {point.parameter / TAU:+.2f}: {end or 'the curve could not be followed on'}")
+    way = "towards more revolutions" if sign > 0 else "towards fewer revolutions"
+    log.ends.append(
+        f"{way}, ended at {point.parameter / TAU:+.2f}: {end or 'the curve could not be followed further'}"
+    )
     return found
 
 
 def _end(point: Point[ReducedEquations], cost: float, best: float) -> str:
     """The reason to leave the curve at a point; empty if it is followed further."""
     if abs(point.parameter) > TAU * (REVOLUTIONS + 0.5):
-        return f"{REVOLUTIONS} revolutions were looked at"
-    return f"the last meeting cost more than {WORSE:g} times the best" if cost > WORSE * best else ""
+        return f"more than {REVOLUTIONS} revolutions are not tried"
+    return f"the last extremal costs more than {WORSE:g} times the best" if cost > WORSE * best else ""
 
 
 def _passed(last: Point[ReducedEquations] | None, point: Point[ReducedEquations]) -> list[tuple[int, Array]]:

@@ -111,13 +111,13 @@ def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
                 roots.append(bounded(SHOOTING, setting, loose.replace(lead=known.lead), known.root))
             except (NotConverged, Infeasible) as reason:
                 too_short = too_short or isinstance(reason, Infeasible)
-                log.given_up.append(f"extremal {number} of the unbounded problem: {reason}")
+                log.given_up.append(f"extremal {number} of the problem without bound: {reason}")
     if roots:
         return roots
     reasons = "; ".join(log.given_up)
     if too_short and not setting.free:
-        raise Infeasible(f"no extremal of this duration stays within the peak: {reasons}")
-    raise NotConverged(f"no extremal was reached: {reasons}", float("inf"))
+        raise Infeasible(f"no extremal of this duration keeps the thrust within the peak: {reasons}")
+    raise NotConverged(f"no extremal was found: {reasons}", float("inf"))
 
 
 def _without_bound(setting: Setting, loose: Setting, log: Search) -> list[UnboundedExtremal]:
@@ -125,12 +125,12 @@ def _without_bound(setting: Setting, loose: Setting, log: Search) -> list[Unboun
     try:
         found = sorted(through_revolutions(loose, unbounded(loose, log), log), key=lambda one: one.cost)
     except NotConverged as reason:
-        log.given_up.append(f"the unbounded problem: {reason}")
+        log.given_up.append(f"the problem without bound: {reason}")
         return []
     most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
     if most < len(found):
         log.given_up.append(
-            f"{len(found) - most} extremals of the unbounded problem were not taken to the bound: of it they "
-            "are the dearest"
+            f"the {len(found) - most} most costly extremals of the problem without bound were not continued "
+            "to the bound"
         )
     return found[:most]

@@ -64,8 +64,10 @@ def unbounded(setting: Setting, log: Search) -> Root[Flight]:
                 return (freed if setting.free else stretched)(SHOOTING, setting, fixed)
             except NotConverged as reason:
                 users = duration * setting.scaled.time
-                log.given_up.append(f"start with the duration {users:.3g}, {turns} turns: {reason}")
-    raise NotConverged("no first extremal was found", float("inf"))
+                log.given_up.append(
+                    f"start with the duration {users:.3g} and {turns} turns of the goal: {reason}"
+                )
+    raise NotConverged("no extremal was found from which to continue", float("inf"))
 
 
 def _durations(setting: Setting) -> list[float]:
@@ -116,7 +118,9 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
         costates, done, step = moved, reached, min(1.0, 1.5 * step)
         if done == 1:
             return meet(loose, costates)
-    raise NotConverged("the goal could not be led to the target", 1 - done)
+    raise NotConverged(
+        f"the goal could be moved only {100 * done:.1f} % of the way from coasting to the target", 1 - done
+    )
 
 
 def twist(relative: Array) -> float:

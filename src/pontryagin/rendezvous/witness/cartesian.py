@@ -38,7 +38,9 @@ def integrate(rates: Callable[[str], Rates], flight: Flight, start: Array, times
         grid, back = np.unique(np.append(times[inside], end), return_inverse=True)
         result = solve_ivp(along, (piece.begin, end), state, "DOP853", grid, rtol=3e-14, atol=1e-15)
         if result.status:
-            raise NotConverged(f"the Runge-Kutta integrator stopped: {result.message}", end - result.t[-1])
+            raise NotConverged(
+                f"the Runge-Kutta integrator stopped before the end: {result.message}", end - result.t[-1]
+            )
         rows[inside], state = result.y.T[back[:-1]], result.y[:, -1]
     return rows
 
