@@ -25,9 +25,9 @@ from pontryagin.averaging.exact.canonical import (
     y,
 )
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.equations import compact, heyoka_system
 from pontryagin.numerics.flow import has_heyoka
 from pontryagin.numerics.lanes import ends
+from pontryagin.numerics.symbolic import compact, heyoka_system
 
 TOLERANCE = 1e-12
 EPSILON = 0.01

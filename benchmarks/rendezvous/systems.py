@@ -14,9 +14,9 @@ import sympy as sp
 
 from pontryagin.arrays import Array
 from pontryagin.numerics import complex_step
-from pontryagin.numerics.equations import heyoka_system
 from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.rotation import conjugate, product
+from pontryagin.numerics.symbolic import heyoka_system
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form

@@ -24,6 +24,8 @@ PARTICIPLES = frozenset(
     ("asked", "searched", "turned", "misled", "told", "held", "loud", "apart", "whole", "first")
 )
 """Names of modules that do not say what is in them."""
+OF_TEXTS = ("pontryagin.report", "pontryagin.io", "pontryagin.numerics.compile")
+"""Modules whose errors are about a text or a formula; the caller knows which argument it came from."""
 EVALUATING = ("pontryagin.numerics.jit", "pontryagin.numerics.compile", "pontryagin.value")
 """Modules that compile source which they wrote themselves."""
 
@@ -116,6 +118,29 @@ def test_no_text_is_evaluated():
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") in {"eval", "exec"}
     ]
     assert not [call for call in calls if not call.startswith(EVALUATING)]
+
+
+def opening(error: ast.AST | None) -> str:
+    """The first word of the message of a plain ValueError or TypeError, or the variable that stands there."""
+    if not isinstance(error, ast.Call) or ast.unparse(error.func) not in ("ValueError", "TypeError"):
+        return ""
+    text = error.args[0] if error.args else None
+    first = text.values[0] if isinstance(text, ast.JoinedStr) else text
+    if isinstance(first, ast.FormattedValue):
+        return ast.unparse(first.value)
+    return str(first.value).partition(" ")[0] if isinstance(first, ast.Constant) else ""
+
+
+def test_an_error_about_an_argument_carries_its_name():
+    nameless = []
+    for module, tree in trees().items():
+        if module.startswith(OF_TEXTS):
+            continue
+        for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+            given = {parameter.arg for parameter in (*function.args.args, *function.args.kwonlyargs)}
+            raised = (node for node in ast.walk(function) if isinstance(node, ast.Raise))
+            nameless += [f"{module}:{node.lineno}" for node in raised if opening(node.exc) in given]
+    assert not nameless
 
 
 def test_greys_of_figures_and_recordings_are_one():

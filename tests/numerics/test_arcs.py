@@ -7,9 +7,10 @@ from numpy.testing import assert_allclose
 
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid, places, sample
-from pontryagin.numerics.equations import Kernel, Symbolic
+from pontryagin.numerics.equations import Kernel
 from pontryagin.numerics.flow import has_heyoka, integrator
 from pontryagin.numerics.lanes import Lanes
+from pontryagin.numerics.symbolic import Symbolic
 
 x, v, u = sp.symbols("x v u", real=True)
 KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]

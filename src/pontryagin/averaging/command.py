@@ -5,19 +5,11 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin.averaging import (
-    schema,
-    transcript,
-)
-from pontryagin.averaging.schema import (
-    EXAMPLES,
-    ExampleSchema,
-)
-from pontryagin.io import json_io, rows
+from pontryagin.averaging import schema, transcript
+from pontryagin.averaging.schema import EXAMPLES, ExampleSchema
+from pontryagin.io import rows
 from pontryagin.terminal import console
-
-Text = str | None
-File = Path | None
+from pontryagin.terminal.console import File, Json, Out, Text
 
 
 def solve(
@@ -34,7 +26,8 @@ def solve(
     v0: Annotated[Text, typer.Option("--v0", metavar="V", help="smooth: speed at the start.")] = None,
     v1: Annotated[Text, typer.Option("--v1", metavar="V", help="smooth: speed at the end.")] = None,
     ripple: Annotated[
-        Text, typer.Option(metavar="R", help="smooth: amplitude of the force R cos x; 0 unless given.")
+        Text,
+        typer.Option(metavar="R", help="smooth: amplitude of the force R cos x; 0 unless given."),
     ] = None,
     a0: Annotated[Text, typer.Option("--a0", metavar="A", help="rotor: energy at the start.")] = None,
     a1: Annotated[Text, typer.Option("--a1", metavar="A", help="rotor: energy at the end.")] = None,
@@ -57,7 +50,8 @@ def solve(
         ),
     ] = None,
     omega0: Annotated[
-        Text, typer.Option("--omega0", metavar="X,Y,Z", help="spin-down: angular velocity, body axes.")
+        Text,
+        typer.Option("--omega0", metavar="X,Y,Z", help="spin-down: angular velocity, body axes."),
     ] = None,
     semiaxes: Annotated[
         Text, typer.Option(metavar="X,Y,Z", help="spin-down: semiaxes of the ellipsoid of controls.")
@@ -73,7 +67,7 @@ def solve(
     phase: Annotated[
         Text, typer.Option(metavar="PSI", help="With --epsilon: phase at the start; 0 unless given.")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    json: Json = False,
     plot: Annotated[
         File, typer.Option(metavar="FILE", help="Draw slow variables and control, as .svg, .pdf or .png.")
     ] = None,
@@ -83,9 +77,7 @@ def solve(
     batch: Annotated[
         File, typer.Option(metavar="FILE", help="CSV file with one problem in each row.")
     ] = None,
-    out: Annotated[
-        str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
-    ] = "-",
+    out: Out = "-",
 ) -> None:
     """Time-optimal control of nonlinear oscillations: averaged and, with --epsilon, exact extremals.
 
@@ -139,10 +131,7 @@ def solve(
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
     report = transcript.transcript(problem, solution, small, start, exact)
-    if json:
-        typer.echo(json_io.to_json(report))
-    else:
-        console.show(chosen.title, transcript.shown(report), transcript.conclusion(report))
+    console.answer(json, chosen.title, report, transcript.conclusion(report), transcript.shown(report))
 
 
 def _chosen(example: str | None, given: schema.Given, phase: str | None) -> ExampleSchema:

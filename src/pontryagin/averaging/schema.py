@@ -7,10 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from pontryagin.io import (
-    formula,
-    rows,
-)
+from pontryagin.io import formula, rows
 from pontryagin.terminal import console
 
 VECTORS = {"omega0": ("omega_x", "omega_y", "omega_z"), "semiaxes": ("l_x", "l_y", "l_z")}

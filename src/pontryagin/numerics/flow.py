@@ -8,16 +8,18 @@ equations. Without heyoka the same right-hand sides are integrated tens of times
 import functools
 import math
 import threading
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.equations import Equations, Symbolic, Values
+from pontryagin.numerics.equations import Equations, Values
 from pontryagin.numerics.packages import installed
+from pontryagin.numerics.symbolic import Symbolic
 
 Flow = Callable[..., Array]
 
@@ -109,18 +111,22 @@ class Reached(NamedTuple):
     event: int | None
 
 
-class Integrator(Protocol):
+class Integrator(ABC):
     """Follows one system of equations, one trajectory at a time.
 
     ``whole`` holds the n states followed by the n m derivatives, row by row. ``longest`` bounds the steps.
     ``resume`` states that the arc begins where an event ended the last arc of the same integrator; that
     event then does not end the new arc at once. Both methods raise `pontryagin.NotConverged` where the
     integrator stops short.
+
+    Attributes
+    ----------
+    equations : Equations
+        The equations that are integrated.
     """
 
-    @property
-    def equations(self) -> Equations:
-        """The equations that are integrated."""
+    def __init__(self, equations: Equations, tolerance: float) -> None:
+        self.equations, self._tolerance = equations, tolerance
 
     def run(
         self,
@@ -132,6 +138,7 @@ class Integrator(Protocol):
         resume: bool = False,
     ) -> Reached:
         """Integrate the states and derivatives up to ``end``, or to an event before it."""
+        return self._follow(whole, begin, end, None, parameters, longest, resume)[1]
 
     def sample(
         self,
@@ -142,6 +149,20 @@ class Integrator(Protocol):
         resume: bool = False,
     ) -> tuple[Array, Reached]:
         """The states, (k, n), at ascending times, beginning at the first; none after an event."""
+        return self._follow(whole, times[0], times[-1], times, parameters, longest, resume)
+
+    @abstractmethod
+    def _follow(
+        self,
+        whole: Array,
+        begin: float,
+        end: float,
+        times: Array | None,
+        parameters: Values,
+        longest: float,
+        resume: bool,
+    ) -> tuple[Array, Reached]:
+        """The states at the times (without times of no use), and where the arc ended."""
 
 
 @functools.lru_cache(maxsize=64)
@@ -165,10 +186,9 @@ def integrator(
         heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this,
         since it then runs into a singularity.
     """
-    use_taylor = has_heyoka() if taylor is None else taylor
-    if use_taylor:
+    if has_heyoka() if taylor is None else taylor:
         return _Taylor(equations, tolerance, steps_per_unit)
-    return _RungeKutta(equations, tolerance)
+    return _RungeKutta(equations, max(tolerance, LEAST_DOP853))
 
 
 def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
@@ -193,79 +213,61 @@ def event_of(outcome: Any) -> int | None:
     return index if 0 <= index < 2**31 else None
 
 
-class _Taylor:
+class _Taylor(Integrator):
     def __init__(self, equations: Equations, tolerance: float, steps_per_unit: float) -> None:
-        self.equations, self._tolerance, self._per_unit = equations, tolerance, steps_per_unit
+        super().__init__(equations, tolerance)
+        self._per_unit = steps_per_unit
         self._own = threading.local()  # heyoka's object holds the trajectory that is being followed
 
-    def _begin(self, whole: Array, time: float, end: float, parameters: Values, resume: bool) -> Any:
-        backwards = end < time and self.equations.events > 0
-        compiled = self._own.__dict__
-        key = "backwards" if backwards else "forwards"
-        if key not in compiled:
-            compiled[key] = compiled_taylor(self.equations, self._tolerance, backwards=backwards)
-        taylor = compiled[key]
-        if self.equations.events and not resume:
-            taylor.reset_cooldowns()
-        taylor.time = time
-        taylor.state[:] = whole
-        taylor.pars[:] = parameters[: len(taylor.pars)]
-        return taylor
+    def _compiled(self, backwards: bool) -> Any:
+        compiled, sense = self._own.__dict__, "backwards" if backwards else "forwards"
+        if sense not in compiled:
+            compiled[sense] = compiled_taylor(self.equations, self._tolerance, backwards=backwards)
+        return compiled[sense]
 
-    def _limits(self, span: float, longest: float) -> dict[str, Any]:
-        steps = STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + span))
-        return {"max_delta_t": longest, "max_steps": steps}
-
-    def _reached(self, taylor: Any, outcome: Any, end: float) -> Reached:
-        import heyoka as hy
-
-        event = event_of(outcome)
-        if event is None and outcome != hy.taylor_outcome.time_limit:
-            raise NotConverged(
-                f"the Taylor integrator stopped before the end: {outcome}", float(end - taylor.time)
-            )
-        return Reached(float(taylor.time), taylor.state.copy(), event)
-
-    def run(
+    def _follow(
         self,
         whole: Array,
         begin: float,
         end: float,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
-    ) -> Reached:
-        taylor = self._begin(whole, begin, end, parameters, resume)
-        outcome = taylor.propagate_until(end, **self._limits(abs(end - begin), longest))[0]
-        return self._reached(taylor, outcome, end)
-
-    def sample(
-        self,
-        whole: Array,
-        times: Array,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
-    ) -> tuple[Array, Reached]:
-        taylor = self._begin(whole, times[0], times[-1], parameters, resume)
-        limits = self._limits(float(times[-1] - times[0]), longest)
-        outcome, *_, found = taylor.propagate_grid(times, **limits)
-        states = found[:, : len(self.equations.identity)]
-        return states[np.isfinite(states).all(axis=1)], self._reached(taylor, outcome, times[-1])
-
-
-class _RungeKutta:
-    def __init__(self, equations: Equations, tolerance: float) -> None:
-        self.equations, self._tolerance = equations, max(tolerance, LEAST_DOP853)
-
-    def _solve(
-        self,
-        whole: Array,
-        span: tuple[float, float],
         times: Array | None,
         parameters: Values,
         longest: float,
-    ) -> tuple[Any, Reached]:
+        resume: bool,
+    ) -> tuple[Array, Reached]:
+        import heyoka as hy
+
+        taylor = self._compiled(end < begin and self.equations.events > 0)
+        if self.equations.events and not resume:
+            taylor.reset_cooldowns()
+        taylor.time = begin
+        taylor.state[:] = whole
+        taylor.pars[:] = parameters[: len(taylor.pars)]
+        steps = STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + abs(end - begin)))
+        if times is None:
+            outcome, states = taylor.propagate_until(end, max_delta_t=longest, max_steps=steps)[0], whole
+        else:
+            outcome, *_, found = taylor.propagate_grid(times, max_delta_t=longest, max_steps=steps)
+            states = found[:, : len(self.equations.identity)]
+            states = states[np.isfinite(states).all(axis=1)]
+        event = event_of(outcome)
+        if event is None and outcome != hy.taylor_outcome.time_limit:
+            message = f"the Taylor integrator stopped before the end: {outcome}"
+            raise NotConverged(message, float(end - taylor.time))
+        return states, Reached(float(taylor.time), taylor.state.copy(), event)
+
+
+class _RungeKutta(Integrator):
+    def _follow(
+        self,
+        whole: Array,
+        begin: float,
+        end: float,
+        times: Array | None,
+        parameters: Values,
+        longest: float,
+        resume: bool,
+    ) -> tuple[Array, Reached]:
         from scipy.integrate import solve_ivp
 
         n = len(self.equations.identity)
@@ -279,8 +281,8 @@ class _RungeKutta:
         with np.errstate(all="ignore"):
             found = solve_ivp(
                 rate,
-                span,
-                whole,
+                (begin, end),
+                whole if times is None else whole[:n],
                 "DOP853",
                 times,
                 events=[self._leaving(i, n, parameters) for i in range(self.equations.events)] or None,
@@ -289,14 +291,13 @@ class _RungeKutta:
                 atol=self._tolerance / 10,
             )
         if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
-            raise NotConverged(
-                f"the Runge-Kutta integrator stopped before the end: {found.message}", span[1] - span[0]
-            )
+            message = f"the Runge-Kutta integrator stopped before the end: {found.message}"
+            raise NotConverged(message, end - begin)
         if found.status == 1:
             instants, there = found.t_events or [], found.y_events or []
             i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))
-            return found, Reached(float(instants[i][0]), there[i][0].copy(), i)
-        return found, Reached(span[1], found.y[:, -1].copy() if found.y.size else whole, None)
+            return found.y.T, Reached(float(instants[i][0]), there[i][0].copy(), i)
+        return found.y.T, Reached(end, found.y[:, -1].copy() if found.y.size else whole, None)
 
     def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:
         """Event function i for SciPy; only growth through zero ends an arc, not a zero at its beginning."""
@@ -307,26 +308,3 @@ class _RungeKutta:
         event.terminal = True  # type: ignore[attr-defined]
         event.direction = 1.0  # type: ignore[attr-defined]
         return event
-
-    def run(
-        self,
-        whole: Array,
-        begin: float,
-        end: float,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
-    ) -> Reached:
-        return self._solve(whole, (begin, end), None, parameters, longest)[1]
-
-    def sample(
-        self,
-        whole: Array,
-        times: Array,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
-    ) -> tuple[Array, Reached]:
-        alone = whole[: len(self.equations.identity)]
-        found, reached = self._solve(alone, (times[0], times[-1]), times, parameters, longest)
-        return found.y.T, reached

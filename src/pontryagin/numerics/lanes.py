@@ -17,8 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.equations import Equations, Symbolic
+from pontryagin.numerics.equations import Equations
 from pontryagin.numerics.flow import LEAST_DOP853, STEPS, TOLERANCE, compiled_taylor, event_of, has_heyoka
+from pontryagin.numerics.symbolic import Symbolic
 
 Ends = Callable[..., tuple[Array, Array]]
 

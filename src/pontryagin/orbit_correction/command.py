@@ -6,15 +6,13 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from pontryagin.io import json_io, rows
+from pontryagin.io import rows
 from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
+from pontryagin.terminal.console import File, Json, Out, Text
 
 ARGUMENTS = {"z0": "--z0", "interval": "--interval", "peak": "--peak"}
 """The command-line option for each argument of `correct` that the solver checks."""
-
-Text = str | None
-File = Path | None
 
 
 def solve(
@@ -38,7 +36,7 @@ def solve(
             metavar="ball|disc|box", help="Set of impulses: ball (as in the paper), disc, or box (a square)."
         ),
     ] = "ball",
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    json: Json = False,
     samples: Annotated[
         int, typer.Option(metavar="N", min=0, help="With --json: state and costate at N times.")
     ] = 0,
@@ -49,9 +47,7 @@ def solve(
     batch: Annotated[
         File, typer.Option(metavar="FILE", help="CSV file with one state in each row, instead of --z0.")
     ] = None,
-    out: Annotated[
-        str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
-    ] = "-",
+    out: Out = "-",
 ) -> None:
     """Bring a satellite back to its circular orbit with the fewest impulses, and prove that fewer fail.
 
@@ -81,10 +77,7 @@ def solve(
     report: dict[str, Any] = transcript.transcript(plan)
     if samples:
         report["samples"] = transcript.samples(plan, samples)
-    if json:
-        typer.echo(json_io.to_json(report))
-    else:
-        console.show(transcript.TITLES[thrust], report, transcript.conclusion(plan))
+    console.answer(json, transcript.TITLES[thrust], report, transcript.conclusion(plan))
 
 
 def _engine(interval: str, peak: str, thrust: str) -> tuple[float, float, str]:

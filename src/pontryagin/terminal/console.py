@@ -1,4 +1,4 @@
-"""What the papers' commands share: values of options, files, tables of answers, and errors about options.
+"""What the papers' commands share: options and their values, files, answers, and errors about options.
 
 Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in one line and exits with 2.
 """
@@ -8,16 +8,23 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import typer
 
 from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
-from pontryagin.io import files
+from pontryagin.io import files, json_io
 from pontryagin.io import formula as formulas
 from pontryagin.io.json_io import Report
+
+Text = str | None
+File = Path | None
+"""Types of options that may be left out."""
+Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Out = Annotated[str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")]
+"""Options that are the same in several commands."""
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
@@ -223,6 +230,14 @@ def as_text(value: Any) -> str:
         case float():
             return "none" if math.isnan(value) else f"{value + 0.0:.12g}"
     return str(value)
+
+
+def answer(as_json: bool, title: str, report: Report, conclusion: str, table: Report | None = None) -> None:
+    """Print a report as JSON, or as a table: the report itself, or another one that is made for reading."""
+    if as_json:
+        typer.echo(json_io.to_json(report))
+    else:
+        show(title, table or report, conclusion)
 
 
 def show(title: str, report: Report, conclusion: str = "") -> None:

@@ -7,8 +7,9 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
-from pontryagin.io import json_io, rows
+from pontryagin.io import rows
 from pontryagin.terminal import console
+from pontryagin.terminal.console import File, Json, Out, Text
 from pontryagin.triple_integrator import transcript
 
 ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
@@ -16,9 +17,6 @@ ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
 
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}
 """The solvers for special exponents q of the norm; `minimum_norm` solves the others."""
-
-Text = str | None
-File = Path | None
 
 without_warnings = np.errstate(all="ignore")
 """An overflow makes the certificate fail, which is reported as an error; a warning would repeat it."""
@@ -47,7 +45,7 @@ def solve(
     disturbance: Annotated[
         Text, typer.Option(metavar="F", help="Disturbing acceleration f: a number or a formula in t.")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    json: Json = False,
     samples: Annotated[
         int, typer.Option(metavar="N", min=0, help="With --json: control, state and costate at N times.")
     ] = 0,
@@ -59,9 +57,7 @@ def solve(
         File,
         typer.Option(metavar="FILE", help="CSV file with one problem in each row, instead of --x0 and --xf."),
     ] = None,
-    out: Annotated[
-        str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")
-    ] = "-",
+    out: Out = "-",
 ) -> None:
     """Steer x1' = x2, x2' = x3 + f(t), x3' = u between two states, optimally and with a proof.
 
@@ -177,10 +173,7 @@ def _print(solution: Any, json: bool, samples: int) -> None:
     report: dict[str, Any] = transcript.transcript(solution)
     if samples:
         report["samples"] = transcript.samples(solution, samples)
-    if json:
-        typer.echo(json_io.to_json(report))
-    else:
-        console.show(transcript.account(solution).title, report, transcript.conclusion(solution))
+    console.answer(json, transcript.account(solution).title, report, transcript.conclusion(solution))
 
 
 @without_warnings

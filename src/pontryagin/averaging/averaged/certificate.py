@@ -6,17 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.collocation import (
-    Problem,
-    Trajectories,
-    scales,
-)
+from pontryagin.averaging.averaged.collocation import Problem, Trajectories, scales
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError
-from pontryagin.numerics.collocation import (
-    derivative,
-    evaluate,
-)
+from pontryagin.numerics.collocation import derivative, evaluate
 from pontryagin.numerics.periodic_means import CHECKING
 
 

@@ -13,12 +13,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import fixed_ending
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    canonical,
-    epsilon,
-    y,
-)
+from pontryagin.averaging.exact.canonical import Canonical, canonical, epsilon, y
 from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics import compile as compiler
 

@@ -8,17 +8,8 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certificate import certify
-from pontryagin.averaging.averaged.collocation import (
-    CLOSE,
-    Problem,
-    Trajectories,
-    newton,
-)
-from pontryagin.averaging.averaged.guess import (
-    Guess,
-    shot,
-    straight,
-)
+from pontryagin.averaging.averaged.collocation import CLOSE, Problem, Trajectories, newton
+from pontryagin.averaging.averaged.guess import Guess, shot, straight
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged

@@ -6,15 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.averaged.collocation import (
-    Problem,
-    Trajectories,
-)
-from pontryagin.numerics.collocation import (
-    Mesh,
-    derivative,
-    evaluate,
-)
+from pontryagin.averaging.averaged.collocation import Problem, Trajectories
+from pontryagin.numerics.collocation import Mesh, derivative, evaluate
 
 GROWTHS = 40
 """Largest number of Newton steps for a costate's length; each may multiply it by eight."""

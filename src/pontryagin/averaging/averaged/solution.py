@@ -9,10 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.system.anomaly import (
-    anomaly_at,
-    phase_at,
-)
+from pontryagin.averaging.system.anomaly import anomaly_at, phase_at
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple

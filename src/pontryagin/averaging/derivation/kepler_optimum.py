@@ -10,15 +10,7 @@ import functools
 
 import sympy as sp
 
-from pontryagin.averaging.derivation.kepler import (
-    CONTROL,
-    conic,
-    e,
-    eccentric,
-    energy,
-    mean_motion,
-    momentum,
-)
+from pontryagin.averaging.derivation.kepler import CONTROL, conic, e, eccentric, energy, mean_motion, momentum
 from pontryagin.averaging.derivation.kepler_phase import mean_anomaly, true_from_eccentric
 from pontryagin.averaging.derivation.kepler_principle import (
     averaged_hamiltonian,

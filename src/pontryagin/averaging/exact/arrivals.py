@@ -15,21 +15,12 @@ import sympy as sp
 from scipy.optimize import brentq
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.arcs import switched_flow
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    y,
-)
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-)
+from pontryagin.averaging.exact.arcs import switched_flow
+from pontryagin.averaging.exact.canonical import Canonical, y
+from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    Flow,
-    flow,
-)
+from pontryagin.numerics.flow import Flow, flow
 
 SIGN = sp.Symbol("sign_p", real=True)
 FINE = 64

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import sympy as sp
 
-from pontryagin.averaging.modes import modal
+from pontryagin.averaging.exact.modes import modal
 from pontryagin.averaging.system.standard_form import StandardForm
 
 epsilon = sp.Symbol("epsilon", positive=True)

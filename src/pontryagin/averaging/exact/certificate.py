@@ -12,15 +12,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.arcs import switched_flow
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    y,
-)
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-)
+from pontryagin.averaging.exact.arcs import switched_flow
+from pontryagin.averaging.exact.canonical import Canonical, y
+from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler

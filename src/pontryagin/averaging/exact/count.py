@@ -18,11 +18,7 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solved
 from pontryagin.averaging.exact.arrivals import fixed_ending
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    canonical,
-    y,
-)
+from pontryagin.averaging.exact.canonical import Canonical, canonical, y
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import positive

@@ -10,18 +10,12 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.arcs import switched_flow
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    y,
-)
+from pontryagin.averaging.exact.arcs import switched_flow
+from pontryagin.averaging.exact.canonical import Canonical, y
 from pontryagin.averaging.exact.family import Family
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import (
-    Flow,
-    flow,
-)
+from pontryagin.numerics.flow import Flow, flow
 from pontryagin.validation import times
 from pontryagin.value import value_class
 

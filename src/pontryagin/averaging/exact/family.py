@@ -12,16 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.exact.members import (
-    FAR,
-    chord,
-    march,
-    members,
-)
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-)
+from pontryagin.averaging.exact.members import FAR, chord, march, members
+from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
 FEWEST, MOST = 8, 64

@@ -4,19 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.exact.family import (
-    VALUES,
-    Family,
-    local_range,
-)
-from pontryagin.averaging.exact.members import (
-    march,
-    members,
-)
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-)
+from pontryagin.averaging.exact.family import VALUES, Family, local_range
+from pontryagin.averaging.exact.members import march, members
+from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 
 NEAR = 0.2

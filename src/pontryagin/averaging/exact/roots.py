@@ -9,30 +9,13 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.reference import ReferenceExtremal
-from pontryagin.averaging.exact.arrivals import (
-    arrivals,
-    fixed_ending,
-)
+from pontryagin.averaging.exact.arrivals import arrivals, fixed_ending
 from pontryagin.averaging.exact.certificate import ExactCertificates
-from pontryagin.averaging.exact.extremal import (
-    Extremal,
-    Extremals,
-)
-from pontryagin.averaging.exact.family import (
-    Family,
-    family,
-)
+from pontryagin.averaging.exact.extremal import Extremal, Extremals
+from pontryagin.averaging.exact.family import Family, family
 from pontryagin.averaging.exact.members import nearby_extremal
-from pontryagin.averaging.exact.refinement import (
-    crossings,
-    turns_resolved,
-    with_members,
-)
-from pontryagin.averaging.exact.shooting import (
-    Shooting,
-    Shot,
-    shooting,
-)
+from pontryagin.averaging.exact.refinement import crossings, turns_resolved, with_members
+from pontryagin.averaging.exact.shooting import Shooting, Shot, shooting
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
 

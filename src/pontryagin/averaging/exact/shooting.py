@@ -14,13 +14,9 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.arcs import switched_ends
 from pontryagin.averaging.averaged.reference import ReferenceExtremal
-from pontryagin.averaging.exact.canonical import (
-    Canonical,
-    canonical,
-    y,
-)
+from pontryagin.averaging.exact.arcs import switched_ends
+from pontryagin.averaging.exact.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import TOLERANCE

@@ -18,14 +18,15 @@ def refusal(message: str) -> ArgumentValueError:
     return ArgumentValueError(message, "control_set")
 
 
-def require_count(name: str, values: Sequence[object], dimension: int) -> None:
-    """Raise ValueError unless there is one entry for each control."""
-    if len(values) != dimension:
+def require_positive(
+    name: str, values: Sequence[object], numbers: Numbers, dimension: int | None = None
+) -> None:
+    """Raise ValueError unless the values are positive for every problem of the stack.
+
+    With a dimension there must also be one value for each control.
+    """
+    if dimension is not None and len(values) != dimension:
         raise refusal(f"{name} must hold one number for each of {dimension} controls, got {len(values)}")
-
-
-def require_positive(name: str, values: Sequence[object], numbers: Numbers) -> None:
-    """Raise ValueError unless the values are positive for every problem of the stack."""
     for value in numeric(name, values, numbers):
         least = value.min()
         if not (np.isfinite(least) and least > 0):

@@ -7,14 +7,7 @@ from typing import Protocol, TypeAlias
 import numpy as np
 import sympy as sp
 
-from pontryagin.averaging.system.control_checks import (
-    Numbers,
-    listed,
-    numeric,
-    refusal,
-    require_count,
-    require_positive,
-)
+from pontryagin.averaging.system.control_checks import Numbers, listed, numeric, refusal, require_positive
 from pontryagin.numerics import compile as compiler
 
 Number: TypeAlias = "float | sp.Expr"
@@ -89,8 +82,16 @@ class Quadratic:
                 raise refusal(f"Quadratic: weight must be positive definite, got {values.tolist()}")
 
 
+class Bounded:
+    """A set of controls that are bounded and cost nothing."""
+
+    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
+        """Zero, whatever the control."""
+        return sp.Integer(0)
+
+
 @dataclass(frozen=True)
-class Ball:
+class Ball(Bounded):
     """|u| <= radius.
 
     Examples
@@ -110,17 +111,13 @@ class Ball:
         """Radius times s / |s|."""
         return sp.sympify(self.radius) * _unit(s)
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The radius must be positive."""
         require_positive("Ball: radius", [self.radius], numbers)
 
 
 @dataclass(frozen=True)
-class Ellipsoid:
+class Ellipsoid(Bounded):
     """sum of (u_i / l_i)^2 <= 1.
 
     Parameters
@@ -149,18 +146,13 @@ class Ellipsoid:
     def _scaled(self, s: Sequence[sp.Expr]) -> list[sp.Expr]:
         return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
-
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The semiaxes must be positive, one for each control."""
-        require_count("Ellipsoid: semiaxes", self.semiaxes, dimension)
-        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers)
+        require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers, dimension)
 
 
 @dataclass(frozen=True)
-class Box:
+class Box(Bounded):
     """|u_i| <= l_i.
 
     Parameters
@@ -179,24 +171,18 @@ class Box:
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
-        return sp.Add(
-            *(sp.sympify(l) * _of_one(sp.Abs, part) for l, part in zip(self.bounds, s, strict=True))
-        )
+        return sp.Add(*self._each(sp.Abs, s))
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """l_i sign(s_i)."""
-        return sp.Matrix(
-            [sp.sympify(l) * _of_one(sp.sign, part) for l, part in zip(self.bounds, s, strict=True)]
-        )
+        return sp.Matrix(self._each(sp.sign, s))
 
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
+    def _each(self, function: type[sp.Function], s: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.sympify(l) * _of_one(function, part) for l, part in zip(self.bounds, s, strict=True)]
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The bounds must be positive, one for each control."""
-        require_count("Box: bounds", self.bounds, dimension)
-        require_positive("Box: bounds", self.bounds, numbers)
+        require_positive("Box: bounds", self.bounds, numbers, dimension)
 
 
 @dataclass(frozen=True)
@@ -244,7 +230,7 @@ class BoundedQuadratic:
 
 
 @dataclass(frozen=True)
-class Custom:
+class Custom(Bounded):
     """Any compact convex set, given by its support function.
 
     Parameters
@@ -275,10 +261,6 @@ class Custom:
         value = self.support(free)
         at = dict(zip(free, s, strict=True))
         return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
-
-    def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
-        """Zero: the controls are bounded, and cost nothing."""
-        return sp.Integer(0)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""

@@ -13,11 +13,7 @@ from pontryagin.averaging.derivation import kepler_phase, kepler_principle
 from pontryagin.averaging.derivation import rigid_body as body
 from pontryagin.averaging.derivation import rotor as rotor_case
 from pontryagin.averaging.derivation import smooth as smooth_case
-from pontryagin.averaging.system.control_sets import (
-    Ball,
-    Ellipsoid,
-    Quadratic,
-)
+from pontryagin.averaging.system.control_sets import Ball, Ellipsoid, Quadratic
 from pontryagin.averaging.system.model import Model
 from pontryagin.averaging.system.phase_system import PhaseSystem
 

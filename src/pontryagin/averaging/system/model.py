@@ -9,19 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.system.jets import (
-    Jet,
-    Kernel,
-    evaluate,
-    jet,
-    width,
-)
-from pontryagin.numerics.periodic_means import (
-    SOLVING,
-    MeanRule,
-    find_switches,
-    mean,
-)
+from pontryagin.averaging.system.jets import Jet, Kernel, evaluate, jet, width
+from pontryagin.numerics.periodic_means import SOLVING, MeanRule, find_switches, mean
 from pontryagin.numerics.quadrature import Density
 
 BESIDE = 1e-9

@@ -186,34 +186,32 @@ def _fuel(plan: Plan, controls: Array) -> float:
 def _least_energy(factors: Array, target: Array, square: bool) -> tuple[Array, float]:
     """Controls of least energy within the unit sets, and the bound that the costate proves."""
     project = _onto_box if square else _onto_balls
-    psi = target.copy()
-    for _ in range(ITERATIONS):
+
+    def bound(psi: Array) -> tuple[float, Array, Array]:
+        """2 (b, psi) - sum of max over u in the set of (2 (G_k'psi, u) - |u|^2), the u and their slopes."""
         along = np.einsum("kij,i->kj", factors, psi)
         controls, slopes = project(along)
-        value = _energy_bound(psi, along, controls, target)
+        return float(2 * (target @ psi) - (2 * along * controls - controls**2).sum()), controls, slopes
+
+    psi = target
+    there = bound(psi)
+    for _ in range(ITERATIONS):
+        value, controls, slopes = there
         miss = target - np.einsum("kij,kj->i", factors, controls)
         if np.abs(miss).max() <= 1e-14 * max(1.0, np.abs(target).max()):
             return controls, value
         curvature = np.einsum("kij,kjl,kml->im", factors, slopes, factors)
         step = np.linalg.solve(curvature + 1e-14 * np.eye(3), miss)
-        length = 1.0
-        while length > 1e-12:
-            trial = psi + length * step
-            pushed = np.einsum("kij,i->kj", factors, trial)
-            gain = _energy_bound(trial, pushed, project(pushed)[0], target) - value
-            if gain >= -1e-13 * abs(value):
+        for halving in range(40):
+            trial = psi + step / 2**halving
+            there = bound(trial)
+            if there[0] - value >= -1e-13 * abs(value):
                 break
-            length *= 0.5
         psi = trial
     if np.abs(miss).max() > 1e-10:
         reason = f"the controls of least energy were not found in {ITERATIONS} iterations"
         raise NotConverged(reason, float(np.abs(miss).max()))
     return controls, value
-
-
-def _energy_bound(psi: Array, along: Array, controls: Array, target: Array) -> float:
-    """The bound that psi proves: 2 (b, psi) - sum of max over u in the set of (2 (G_k'psi, u) - |u|^2)."""
-    return float(2 * (target @ psi) - (2 * along * controls - controls**2).sum())
 
 
 def _onto_box(along: Array) -> tuple[Array, Array]:

@@ -56,7 +56,6 @@ def gauges_of(
 
     Targets of two components are speeds, reached by impulses that all act at one place of the orbit.
     """
-    width = factors.shape[2]
     for row in range(targets.shape[0]):
         n = counts[row]
         b, psi = targets[row], costates[row]
@@ -70,12 +69,10 @@ def gauges_of(
             segments, flat = np.empty((2 * n, 3)), np.empty(2 * n)
             for k in range(n):
                 for j in range(2):
-                    for i in range(3):
-                        segments[2 * k + j, i] = factors[k, i, j]
+                    segments[2 * k + j] = factors[k, :, j]
             found = zonotope_gauge(segments, b, psi, flat)
             for k in range(n):
-                for j in range(width):
-                    controls[row, k, j] = flat[2 * k + j]
+                controls[row, k] = flat[2 * k : 2 * k + 2]
         results[row, 0], results[row, 1] = found
 
 
@@ -105,8 +102,7 @@ def misses_of(
                     following[i] += transitions[parity, i, j] * current[j]
                 for j in range(inputs.shape[2]):
                     following[i] += inputs[parity, i, j] * controls[row, k, j]
-            for i in range(3):
-                current[i] = following[i]
+            current[:] = following
         left = 0.0
         for i in range(3):
             left = max(left, fabs(current[i]))
@@ -256,12 +252,8 @@ class Thrust:
         run = compiled(gauges_of, SIGNATURE, len(targets) * most > COMPILE_FROM)
         run(THRUSTS.index(self.name), factors, gram_factors, counts, targets, costates, controls, results)
         scale = size / self.peak * longest
-        return Gauges(
-            results[:, 0] * scale,
-            results[:, 1] * scale,
-            costates / reach,
-            controls * scale[:, None, None],
-        )
+        lower, upper = results.T * scale
+        return Gauges(lower, upper, costates / reach, controls * scale[:, None, None])
 
     def _gauges_of_speeds(self, z0: Array, counts: NDArray[np.int64]) -> Gauges:
         """The gauges where all impulses act at one place of the orbit and change only the speeds."""

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.rotation import conjugate, product
 from pontryagin.rendezvous import kernels
@@ -72,10 +73,10 @@ class Elements:
         object.__setattr__(self, "phi", np.broadcast_to(phi, shape))
         object.__setattr__(self, "gravity", gravity)
         if np.any(self.Q == 0):
-            raise ValueError("A and B must not both be zero, got 0, 0, 0, 0 for each")
+            raise ArgumentValueError("A and B must not both be zero, got 0, 0, 0, 0 for each", "A")
         if np.any(off := np.abs(self.relation) > RELATED * self.Q):
             worst = float(np.broadcast_to(self.relation, off.shape)[off].flat[0])
-            raise ValueError(f"A and B must satisfy scal(A~ o i1 o B) = 0, got {worst:.6g}")
+            raise ArgumentValueError(f"A and B must satisfy scal(A~ o i1 o B) = 0, got {worst:.6g}", "B")
 
     @classmethod
     def from_state(cls, position: ArrayLike, velocity: ArrayLike, gravity: float = 1.0) -> "Elements":
@@ -97,12 +98,13 @@ class Elements:
         scale = _gravity(gravity)
         r = np.linalg.norm(R, axis=-1)
         if np.any(r == 0):
-            raise ValueError("position must not be the centre of attraction, got 0, 0, 0")
+            raise ArgumentValueError("position must not be the centre of attraction, got 0, 0, 0", "position")
         energy = np.sum(V**2, axis=-1) / 2 - scale / r
         if np.any(energy >= 0):
-            raise ValueError(
+            raise ArgumentValueError(
                 "velocity must leave the energy V^2/2 - gravity/r negative, as the elements A and B exist on "
-                f"ellipses only, got {float(np.max(energy)):.6g}"
+                f"ellipses only, got {float(np.max(energy)):.6g}",
+                "velocity",
             )
         both = _oscillation(R, V / np.sqrt(scale))
         return cls(both[..., :4], both[..., 4:], np.zeros(r.shape), scale)
@@ -153,7 +155,9 @@ class Elements:
 def _gravity(value: ArrayLike) -> float:
     gravity = positive("gravity", value)
     if gravity.ndim:
-        raise ValueError(f"gravity must be one number, got an array of shape {gravity.shape}")
+        raise ArgumentValueError(
+            f"gravity must be one number, got an array of shape {gravity.shape}", "gravity"
+        )
     return float(gravity)
 
 

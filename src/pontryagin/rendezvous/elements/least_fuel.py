@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.rendezvous.elements.conditions import ElementsSetting
 from pontryagin.rendezvous.elements.flight import ElementFlight, switching
 from pontryagin.rendezvous.elements.law import Law
@@ -83,11 +83,14 @@ def least_fuel(problem: Rendezvous, revolutions: int = 0) -> ElementsExtremal:
     require_solvable(problem)
     integer("revolutions", revolutions)
     if problem.energy_weight == 0:
-        raise ValueError("energy_weight must be greater than 0, got 0: only time would have a cost")
+        raise ArgumentValueError(
+            "energy_weight must be greater than 0, got 0: only time would have a cost", "energy_weight"
+        )
     if problem.peak == math.inf:
-        raise ValueError(
+        raise ArgumentValueError(
             "peak must be finite, got inf: without a bound impulses approach the least integral of |p|, but "
-            "no thrust attains it"
+            "no thrust attains it",
+            "peak",
         )
     scaled = problem.scaled
     law = Law("fuel", scaled.ratio * scaled.acceleration, scaled.peak)

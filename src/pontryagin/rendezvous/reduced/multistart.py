@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.numerics.newton_stack import Evaluated, newton_stack
 from pontryagin.numerics.rotation import product
@@ -117,14 +117,17 @@ def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None 
     given = vectors("costates", costates, 6)
     given_durations = problem.duration if durations is None else durations
     if given_durations is None:
-        raise ValueError("durations must be given where the duration of the problem is free, got None")
+        raise ArgumentValueError(
+            "durations must be given where the duration of the problem is free, got None", "durations"
+        )
     ends_at = positive("durations", given_durations)
     try:
         shape = np.broadcast_shapes(given.shape[:-1], ends_at.shape)
     except ValueError:
-        raise ValueError(
+        raise ArgumentValueError(
             f"durations must be one number or of shape {given.shape[:-1]} like the costates, "
-            f"got shape {ends_at.shape}"
+            f"got shape {ends_at.shape}",
+            "durations",
         ) from None
     inside = _directed(np.broadcast_to(given / scaled.costate_units, (*shape, 6)).reshape(-1, 6))
     times = np.broadcast_to(ends_at / scaled.time, shape).ravel()
@@ -213,10 +216,12 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     """
     require_rendezvous(problem)
     if problem.duration is None:
-        raise ValueError("problem must have a fixed duration, got one whose duration is free")
+        raise ArgumentValueError(
+            "problem must have a fixed duration, got one whose duration is free", "problem"
+        )
     starts = vectors("costates", costates, 6)
     if starts.ndim != 2:
-        raise ValueError(f"costates must be an array (k, 6), got shape {starts.shape}")
+        raise ArgumentValueError(f"costates must be an array (k, 6), got shape {starts.shape}", "costates")
     scaled = problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
     ends, sizes = newton_from_all(setting, _directed(starts / scaled.costate_units))

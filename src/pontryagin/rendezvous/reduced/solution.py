@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import ArgumentTypeError
 from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.certificate import (
@@ -144,7 +145,7 @@ def require_extremal(name: str, given: object) -> None:
         If it is not; the message names the argument.
     """
     if not isinstance(given, Extremal):
-        raise TypeError(f"{name} must be an Extremal, as solve returns, got {given!r}")
+        raise ArgumentTypeError(f"{name} must be an Extremal, as solve returns, got {given!r}", name)
 
 
 def distinct(found: Iterable[Extremal]) -> list[Extremal]:

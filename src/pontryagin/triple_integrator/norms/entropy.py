@@ -7,6 +7,7 @@ is the control of greatest entropy - (integral of |u| log |u|) with these moment
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.triple_integrator.norms.newton import minimise
+from pontryagin.triple_integrator.norms.newton import CHUNK, minimise
 from pontryagin.triple_integrator.norms.quadratic_programme import Profile, QuadraticProgramme, certify
 from pontryagin.triple_integrator.norms.quadrature import (
     Quadratic,
@@ -33,9 +34,6 @@ CONVERGED = 1e-10
 
 BOUNDARY = 4e-15
 """For c3 = 1, a distance of the moments to the boundary of the moment cone below this is rounding."""
-
-CHUNK = 64
-"""How many problems are solved at once; their quadrature nodes then fit into a processor's cache."""
 
 
 @value_class
@@ -61,7 +59,7 @@ class EntropySolution(QuadraticProgramme):
     exponent: Quadratic
     certificate: Certificate
 
-    @property
+    @cached_property
     def multipliers(self) -> Array:
         """l0 = (0, 0, 1/c3): the dual function is constant, (..., 3); zeros where c = 0."""
         c = self.maneuver.moments
@@ -88,12 +86,8 @@ class EntropySolution(QuadraticProgramme):
         return np.where(still, 0.0, -mean - np.log(np.where(still, 1.0, self.peak * T / total)))
 
     @property
-    def _quadratic(self) -> Quadratic:
-        return self.exponent
-
-    @property
-    def _profile(self) -> Profile:
-        return np.exp
+    def _law(self) -> tuple[Quadratic, Profile]:
+        return self.exponent, np.exp
 
 
 def maximum_entropy(maneuver: Maneuver) -> EntropySolution:

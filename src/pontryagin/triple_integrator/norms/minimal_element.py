@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.triple_integrator.norms.newton import minimise
+from pontryagin.triple_integrator.norms.newton import CHUNK, minimise
 from pontryagin.triple_integrator.norms.quadrature import (
     Quadratic,
     basis_at,
@@ -22,9 +22,6 @@ from pontryagin.triple_integrator.norms.quadrature import (
     orthonormal,
     second_moments,
 )
-
-CHUNK = 64
-"""How many problems are solved at once; their quadrature nodes then fit into a processor's cache."""
 
 STEEP = 30.0
 """Where p - 1 or q - 1 exceeds this, the problem with a third of that number is solved first and gives the

@@ -12,6 +12,9 @@ Derivatives = Callable[[Quadratic, NDArray[np.intp]], tuple[Array, Array, Array]
 """A function from quadratics (n) and the indices of their problems (n,) to a scale (n,), the gradient (n, 3)
 and the Hessian (n, 3, 3) in the orthonormal basis."""
 
+CHUNK = 64
+"""How many problems a caller solves at once; their quadrature nodes then fit into a processor's cache."""
+
 SMALL = 1e-10
 """An iteration that stops improving with a residual below this is limited by rounding and ends."""
 

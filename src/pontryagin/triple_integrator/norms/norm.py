@@ -67,12 +67,8 @@ class NormSolution(QuadraticProgramme):
         return breakpoints(m.tf[..., None] - m.duration[..., None] * self.shape.zeros)
 
     @property
-    def _quadratic(self) -> Quadratic:
-        return self.shape
-
-    @property
-    def _profile(self) -> Profile:
-        return partial(signed_power, power=1 / (self.q - 1))
+    def _law(self) -> tuple[Quadratic, Profile]:
+        return self.shape, partial(signed_power, power=1 / (self.q - 1))
 
 
 def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:

@@ -1,7 +1,7 @@
 """Controls u = function of a quadratic in the time to go, with certificates by quadrature."""
 
+from abc import abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,36 +20,36 @@ Profile = Callable[[Array], Array]
 
 
 class QuadraticProgramme(Programme):
-    """A control u = peak * profile(h(s/T)) of a quadratic h in the time to go s as a share of T."""
+    """A control u = peak * profile(h(s/T)) of a quadratic h in the time to go s as a share of T.
 
-    if TYPE_CHECKING:
+    Attributes
+    ----------
+    peak : (...) array
+        The factor of the profile, whose largest modulus is 1.
+    """
 
-        @property
-        def peak(self) -> Array:
-            """The factor of the profile, whose largest modulus is 1, (...)."""
-            raise NotImplementedError
+    peak: Array
+
+    @property
+    @abstractmethod
+    def _law(self) -> tuple[Quadratic, Profile]:
+        """The quadratic, and the profile."""
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
-        return self.peak[..., None] * self._profile(self._quadratic(self._to_go(t)))
+        quadratic, profile = self._law
+        return self.peak[..., None] * profile(quadratic(self._to_go(t)))
 
     def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3), by quadrature that is exact to rounding."""
         T = self.maneuver.duration[..., None]
+        quadratic, profile = self._law
 
         def control(problem: NDArray[np.intp], h: Array) -> Array:
-            return self.peak.reshape(-1)[problem, None] * self._profile(h)
+            return self.peak.reshape(-1)[problem, None] * profile(h)
 
-        forced = moments_beyond(self._quadratic, self._to_go(t), control)
+        forced = moments_beyond(quadratic, self._to_go(t), control)
         return self.maneuver.drift(t) + forced * np.stack([T**3, T**2, T], axis=-1)
-
-    @property
-    def _quadratic(self) -> Quadratic:
-        raise NotImplementedError
-
-    @property
-    def _profile(self) -> Profile:
-        raise NotImplementedError
 
     def _to_go(self, t: ArrayLike) -> Array:
         m = self.maneuver

@@ -1,5 +1,6 @@
 """The base class of all solutions: a control with norm, state and costate at any times, and a certificate."""
 
+from abc import ABC, abstractmethod
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -15,29 +16,30 @@ from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import times
 
 
-class Programme:
+class Programme(ABC):
     """The control that solves a problem, or a stack (...) of them, with the motion it causes.
 
-    A subclass is a frozen dataclass that holds `maneuver`, `certificate` and the numbers that define its
-    control, and implements `control` and `state`.
+    A subclass is a frozen dataclass that also holds the numbers that define its control.
+
+    Attributes
+    ----------
+    certificate : Certificate
+        Residual of the moment equalities (1.11), primal value and dual value, each (...).
     """
 
-    if TYPE_CHECKING:  # Declared for the type checker; subclasses have them as fields or properties.
+    certificate: Certificate
+
+    if TYPE_CHECKING:  # At run time a property here would hide the fields that some subclasses have.
 
         @property
+        @abstractmethod
         def maneuver(self) -> Maneuver:
             """The problem that is solved."""
-            raise NotImplementedError
 
         @property
-        def certificate(self) -> Certificate:
-            """Residual of the moment equalities (1.11), primal value and dual value, each (...)."""
-            raise NotImplementedError
-
-        @property
+        @abstractmethod
         def multipliers(self) -> Array:
             """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
-            raise NotImplementedError
 
     @property
     def norm(self) -> Array:
@@ -49,13 +51,13 @@ class Programme:
         """Times within one manoeuvre at which the control is not smooth, (j,)."""
         return breakpoints(np.empty((*self.maneuver.shape, 0)))
 
+    @abstractmethod
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
-        raise NotImplementedError
 
     def costate(self, t: ArrayLike) -> Array:
         """psi = Phi(tf, t)' l0 at the times t, (k,) -> (..., k, 3): it solves (1.15) and attains (1.17)."""

@@ -5,8 +5,8 @@ import pytest
 import sympy as sp
 from numpy.testing import assert_allclose
 
-from pontryagin.averaging.arcs import switched_ends, switched_flow
-from pontryagin.averaging.modes import modal
+from pontryagin.averaging.exact.arcs import switched_ends, switched_flow
+from pontryagin.averaging.exact.modes import modal
 from pontryagin.numerics.flow import has_heyoka
 
 x, v, p, q, t = sp.symbols("x v p q t", real=True)

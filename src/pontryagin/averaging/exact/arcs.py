@@ -11,11 +11,11 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.modes import Modes
+from pontryagin.averaging.exact.modes import Modes
 from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid
-from pontryagin.numerics.equations import Symbolic
 from pontryagin.numerics.flow import STEPS, Flow, Integrator, integrator
 from pontryagin.numerics.lanes import Ends, stacked
+from pontryagin.numerics.symbolic import Symbolic
 
 Signs = tuple[float, ...]
 
