@@ -9,7 +9,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from pontryagin import ledger
 from pontryagin.display import plotting
-from pontryagin.display.plotting import INK, WIDTH, styled
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.errors import ArgumentValueError
 from pontryagin.ledger import Entry
 from pontryagin.ledger.verdict import TABLE
@@ -139,8 +139,7 @@ def verdict_tiles() -> Figure:
         for start in range(0, len(group), across)
     ]
     height = len(lines) + gap * (len(grouped) - 1)
-    figure = Figure(figsize=(WIDTH, 0.5 + 0.165 * height), layout="constrained")
-    ax = figure.subplots()
+    figure, ax = subplots(height=0.5 + 0.165 * height)
     for line, (offset, name, group) in enumerate(lines):
         row = line + offset
         ax.text(-0.6, row + 0.5, name, ha="right", va="center", color=INK)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pontryagin.ledger.verdict import Unsupported, Verdict, kind
 
 if TYPE_CHECKING:
-    from pontryagin.ledger.evidence import Evidence
+    from pontryagin.ledger.evidence import Evidence, Steps
 
 
 @dataclass(frozen=True)
@@ -144,5 +144,30 @@ class Page(list[Entry]):
             entry = Entry(self.paper, label, statement, verdict, remark, build)
             self.append(entry)
             return entry
+
+        return append
+
+    def proof(
+        self, label: str, statement: str, *, remark: str = "", display: str = ""
+    ) -> "Callable[[Callable[[], Steps]], Entry]":
+        """Decorate the steps of a proof: the verdict is "holds", the evidence a `Proof` of these steps.
+
+        Examples
+        --------
+        >>> claim = Page("A paper")
+        >>> @claim.proof("after (1)", "the area of a square grows with its side")
+        ... def growth():
+        ...     yield "3² > 2²", 3**2 > 2**2
+        >>> growth.proof()
+        ['3² > 2²']
+        """
+
+        def append(argument: "Callable[[], Steps]") -> Entry:
+            def build() -> "Evidence":
+                from pontryagin.ledger.evidence import Proof
+
+                return Proof(argument, display=display)
+
+            return self(label, statement, verdict="holds", remark=remark)(build)
 
         return append

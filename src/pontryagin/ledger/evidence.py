@@ -1,7 +1,7 @@
 """Kinds of evidence: what SymPy has to confirm before an entry of the ledger earns its verdict.
 
 A printed formula is a mapping from left-hand sides (LaTeX) to SymPy expressions or matrices, transcribed as
-it stands. Its derivation is a function that returns the same left-hand sides without using the printed form.
+it stands. Its derivation is a function that returns the right-hand sides without using the printed form.
 A claim in words is decided by steps: pairs of a sentence and whether it is true.
 """
 
@@ -14,6 +14,10 @@ import sympy as sp
 from pontryagin.ledger.verdict import Unsupported, Verdict
 
 Sides = Mapping[str, Any]
+
+RightSides = Any
+"""The right-hand side of the one printed equation, those of several in the printed order, or `Sides`."""
+
 Steps = Iterator[tuple[str, bool]]
 
 
@@ -89,16 +93,19 @@ class Equality(Evidence):
     """Printed and derived right-hand sides are equal: `holds`."""
 
     printed: Sides
-    derived: Callable[[], Sides]
+    derived: Callable[[], RightSides]
     display: str = field(default="", kw_only=True)
 
     def derivation(self) -> Sides:
-        """The derived right-hand sides."""
-        return self.derived()
+        """The derived right-hand sides, by the left-hand ones."""
+        found = self.derived()
+        if isinstance(found, Mapping):
+            return found
+        return dict(zip(self.printed, [found] if len(self.printed) == 1 else found, strict=True))
 
     def differences(self) -> dict[str, Any]:
         """Printed minus derived, for the left-hand sides where it does not simplify to zero."""
-        derived = self.derived()
+        derived = self.derivation()
         if list(derived) != list(self.printed):
             raise Unsupported(f"the printed sides are {list(self.printed)}, the derived ones {list(derived)}")
         differences = {left: self.printed[left] - derived[left] for left in derived}

@@ -12,7 +12,6 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Evidence,
-    Proof,
     Steps,
     vanishes,
 )
@@ -23,23 +22,20 @@ R = sp.Rational
 n = sp.Symbol("n", integer=True, positive=True)
 
 
-@claim(
+@claim.proof(
     "after (2.16): Hamiltonian",
     "(2.11) is a Hamiltonian system, along which ωκ + (ηf0) is constant",
-    verdict="holds",
+    display=r"\omega(\xi)\kappa + (\eta f_0) = \mathrm{const}",
 )
-def averaged_hamiltonian() -> Evidence:
-    def argument() -> Steps:
-        H = averaged.averaged_hamiltonian()
-        forward, backward = averaged.rates()
-        own = [H.diff(y) for y in averaged.eta] + [-H.diff(x) for x in averaged.xi]
-        yield (
-            "its rates are the derivatives of ωκ + h0",
-            vanishes(sp.Matrix([*forward, *backward]) - sp.Matrix(own)),
-        )
-        yield "along which that is constant", averaged.along(H, (forward, backward)) == 0
-
-    return Proof(argument, display=r"\omega(\xi)\kappa + (\eta f_0) = \mathrm{const}")
+def averaged_hamiltonian() -> Steps:
+    H = averaged.averaged_hamiltonian()
+    forward, backward = averaged.rates()
+    own = [H.diff(y) for y in averaged.eta] + [-H.diff(x) for x in averaged.xi]
+    yield (
+        "its rates are the derivatives of ωκ + h0",
+        vanishes(sp.Matrix([*forward, *backward]) - sp.Matrix(own)),
+    )
+    yield "along which that is constant", averaged.along(H, (forward, backward)) == 0
 
 
 @claim(
@@ -76,103 +72,83 @@ def optimal_kappa() -> Evidence:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("after (2.16): (ηf0)", "at the optimum (ηf0) = 0 along the whole motion", verdict="holds")
-def zero_level() -> Evidence:
-    def argument() -> Steps:
-        yield "h0 = −ωκ along a member", vanishes(averaged.h0 + averaged.omega * averaged.integral())
-        rate = averaged.along(averaged.h0, tuple(part.subs(kappa, 0) for part in averaged.rates()))
-        yield "and constant at κ = 0", rate == 0
+@claim.proof(
+    "after (2.16): (ηf0)",
+    "at the optimum (ηf0) = 0 along the whole motion",
+    display=r"(\eta f_0(\xi, \eta)) = 0",
+)
+def zero_level() -> Steps:
+    yield "h0 = −ωκ along a member", vanishes(averaged.h0 + averaged.omega * averaged.integral())
+    rate = averaged.along(averaged.h0, tuple(part.subs(kappa, 0) for part in averaged.rates()))
+    yield "and constant at κ = 0", rate == 0
 
-    return Proof(argument, display=r"(\eta f_0(\xi, \eta)) = 0")
 
-
-@claim(
+@claim.proof(
     "after (2.16): order",
     "(2.10) lowers the order by one; in all, the order 2n + 2 is lowered by three",
-    verdict="holds",
     remark="q is removed by H* = 0, ψ by averaging, and one more variable by (ηf0) = 0.",
 )
-def order() -> Evidence:
-    def argument() -> Steps:
-        sizes = averaged.order(n)
-        listed = list(sizes.values())
-        yield "2n + 2, 2n + 1, 2n, 2n − 1", listed == [2 * n + 2, 2 * n + 1, 2 * n, 2 * n - 1]
-        costate = sp.solve(smooth.v * kappa + smooth.averaged_hamiltonian(), smooth.eta)
-        yield (
-            "smooth example: (2.10) gives η as a function of v",
-            len(costate) == 2 and not any(root.has(smooth.eta) for root in costate),
-        )
-
-    return Proof(argument)
+def order() -> Steps:
+    sizes = averaged.order(n)
+    listed = list(sizes.values())
+    yield "2n + 2, 2n + 1, 2n, 2n − 1", listed == [2 * n + 2, 2 * n + 1, 2 * n, 2 * n - 1]
+    costate = sp.solve(smooth.v * kappa + smooth.averaged_hamiltonian(), smooth.eta)
+    yield (
+        "smooth example: (2.10) gives η as a function of v",
+        len(costate) == 2 and not any(root.has(smooth.eta) for root in costate),
+    )
 
 
-@claim(
+@claim.proof(
     "after (2.16): quadrature",
     "with one degree of freedom a quadrature and an equation for τ1(0) are left",
-    verdict="holds",
     remark="One degree of freedom means one slow variable and the cost, on which no rate depends.",
 )
-def quadrature() -> Evidence:
-    def argument() -> Steps:
-        yield "the cost's costate is constant", averaged.cyclic_costate() == 0
-        force = smooth.averaged_hamiltonian().diff(smooth.eta)
-        rate = force.subs(smooth.eta, ripple.costate()).subs({kappa: 0, ripple.rise: 1})
-        T = sp.integrate(1 / rate, (smooth.v, smooth.v0, smooth.v1))
-        yield (
-            "smooth example: τ1(0) = ∫dv/f0 = (v1 − v0)/√k",
-            vanishes(
-                T
-                - ripple.duration().subs(
-                    {ripple.A0: sp.sqrt(smooth.k), ripple.A1: sp.sqrt(smooth.k), ripple.rise: 1}
-                )
-            ),
-        )
-
-    return Proof(argument)
+def quadrature() -> Steps:
+    yield "the cost's costate is constant", averaged.cyclic_costate() == 0
+    force = smooth.averaged_hamiltonian().diff(smooth.eta)
+    rate = force.subs(smooth.eta, ripple.costate()).subs({kappa: 0, ripple.rise: 1})
+    T = sp.integrate(1 / rate, (smooth.v, smooth.v0, smooth.v1))
+    yield (
+        "smooth example: τ1(0) = ∫dv/f0 = (v1 − v0)/√k",
+        vanishes(
+            T
+            - ripple.duration().subs(
+                {ripple.A0: sp.sqrt(smooth.k), ripple.A1: sp.sqrt(smooth.k), ripple.rise: 1}
+            )
+        ),
+    )
 
 
-@claim(
-    "after (2.16): slow time",
-    "the slow variables are found apart from the phase, in slow time",
-    verdict="holds",
-)
-def apart_from_the_phase() -> Evidence:
-    def argument() -> Steps:
-        forward, backward = averaged.rates()
-        yield (
-            "their rates contain neither ψ nor ε",
-            not any(part.has(averaged.psi, principle.epsilon) for part in (*forward, *backward)),
-        )
-
-    return Proof(argument)
+@claim.proof("after (2.16): slow time", "the slow variables are found apart from the phase, in slow time")
+def apart_from_the_phase() -> Steps:
+    forward, backward = averaged.rates()
+    yield (
+        "their rates contain neither ψ nor ε",
+        not any(part.has(averaged.psi, principle.epsilon) for part in (*forward, *backward)),
+    )
 
 
-@claim(
+@claim.proof(
     "(2.17)",
     "u = u0*(a, ψ, η*), with ψ the phase of the actual motion, is the first approximation, and J* = J0(0)",
-    verdict="holds",
     remark="The control needs the true phase ψ. The phase of (2.5) is off by O(1) and cannot replace it "
     "where u0* depends on it.",
+    display=r"u = u_0^*(a, \psi, \eta^*),\quad J^* = J_0(0),\quad \xi^* = \xi(\tau, \tau_1(0), 0),\quad "
+    r"\eta^* = \eta(\tau, \tau_1(0), 0)",
 )
-def first_approximation() -> Evidence:
-    def argument() -> Steps:
-        for eps in worked.EPSILONS:
-            speed, phase = flown(eps)
-            off = abs(speed - 2)
-            yield (
-                f"rippled example, ε = {eps}: u = 1 for the slow time 1 costs J0 = 2 and ends at v = 2 "
-                f"within "
-                f"{off / eps:.2f}ε",
-                off < eps,
-            )
-            work = speed**2 / 2 - R(1, 2) - eps * (phase + np.sin(phase) / 2)
-            yield "v²/2 − ε(x + sin(x)/2) is kept", abs(work) < 1e-8
-
-    return Proof(
-        argument,
-        display=r"u = u_0^*(a, \psi, \eta^*),\quad J^* = J_0(0),\quad \xi^* = \xi(\tau, \tau_1(0), 0),\quad "
-        r"\eta^* = \eta(\tau, \tau_1(0), 0)",
-    )
+def first_approximation() -> Steps:
+    for eps in worked.EPSILONS:
+        speed, phase = flown(eps)
+        off = abs(speed - 2)
+        yield (
+            f"rippled example, ε = {eps}: u = 1 for the slow time 1 costs J0 = 2 and ends at v = 2 "
+            f"within "
+            f"{off / eps:.2f}ε",
+            off < eps,
+        )
+        work = speed**2 / 2 - R(1, 2) - eps * (phase + np.sin(phase) / 2)
+        yield "v²/2 − ε(x + sin(x)/2) is kept", abs(work) < 1e-8
 
 
 def flown(eps: float) -> tuple[float, float]:

@@ -13,7 +13,6 @@ from pontryagin.ledger.evidence import (
     Consequence,
     Evidence,
     Misprint,
-    Proof,
     Steps,
     vanishes,
 )
@@ -64,21 +63,17 @@ def averaged_system() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (2.3): mean",
     "f0 is the mean of f0* over ψ at fixed ξ and η",
-    verdict="holds",
     remark="The mean of the costate's rate is then a derivative of (ηf0), as averaging at fixed ψ and "
     "differentiation commute. With another anomaly x the mean has to include the weight dψ/dx before "
     "it is differentiated.",
 )
-def mean_rates() -> Evidence:
-    def argument() -> Steps:
-        for variable, rest in zip((*xi, *eta), averaged.mean_and_derivative_commute(), strict=True):
-            yield f"∂⟨h*⟩/∂{variable} = ⟨∂h*/∂{variable}⟩", rest == 0
-        yield "h* is of degree one in η: (η∂h0/∂η) = h0", averaged.homogeneity() == 0
-
-    return Proof(argument)
+def mean_rates() -> Steps:
+    for variable, rest in zip((*xi, *eta), averaged.mean_and_derivative_commute(), strict=True):
+        yield f"∂⟨h*⟩/∂{variable} = ⟨∂h*/∂{variable}⟩", rest == 0
+    yield "h* is of degree one in η: (η∂h0/∂η) = h0", averaged.homogeneity() == 0
 
 
 @claim(
@@ -101,7 +96,7 @@ def end_conditions() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: averaged.end_costates()[1]},
+        lambda: averaged.end_costates()[1],
         defect={key: g.diff(xi[1])},
         consequence=shown,
         display=r"\xi(0) = a_0,\quad M_0(\xi)_{\tau_1} = 0,\quad \eta(\tau_1) = -(\alpha M_0')_{\tau_1}",
@@ -169,25 +164,23 @@ def phase_costate() -> Evidence:
 
     return Misprint(
         {key: first / principle.omega},
-        lambda: {key: principle.phase_costate()[0]},
+        lambda: principle.phase_costate()[0],
         defect={key: 2 * first / principle.omega},
         consequence=shown,
         display=r"q = \varepsilon\omega^{-1}(\xi)(\eta f_0^*(\xi, \psi, \eta)) + O(\varepsilon^2)",
     )
 
 
-@claim("(2.5): ψ", "ψ = (1/ε)∫ω(ξ)dτ + O(1)", verdict="holds")
-def phase() -> Evidence:
-    def argument() -> Steps:
-        for eps in worked.EPSILONS:
-            scan, off = worked.in_window(eps), worked.deviations(eps)["phase"]
-            yield (
-                f"rippled example, ε = {eps}: ψ(t1) of all members within {off:.2f} of it, out of "
-                f"{scan.phase.max():.0f}",
-                off < 0.3,
-            )
-
-    return Proof(
-        argument,
-        display=r"\psi = \frac{1}{\varepsilon}\int_0^{\tau} \omega(\xi(\tau', \tau_1))d\tau' + O(1)",
-    )
+@claim.proof(
+    "(2.5): ψ",
+    "ψ = (1/ε)∫ω(ξ)dτ + O(1)",
+    display=r"\psi = \frac{1}{\varepsilon}\int_0^{\tau} \omega(\xi(\tau', \tau_1))d\tau' + O(1)",
+)
+def phase() -> Steps:
+    for eps in worked.EPSILONS:
+        scan, off = worked.in_window(eps), worked.deviations(eps)["phase"]
+        yield (
+            f"rippled example, ε = {eps}: ψ(t1) of all members within {off:.2f} of it, out of "
+            f"{scan.phase.max():.0f}",
+            off < 0.3,
+        )

@@ -12,7 +12,6 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Evidence,
-    Proof,
     Steps,
     vanishes,
 )
@@ -30,73 +29,62 @@ CHIRP = sp.sin(t + x * sp.sqrt(t))
 """S(t, x) of the counterexample to the sharper estimate: X = ∂S/∂t."""
 
 
-@claim(
+@claim.proof(
     "end of section 2: discontinuous controls",
     "the approach can be used where u* jumps, with a number of jumps of the order of 1/ε",
-    verdict="holds",
     remark="Shown on the example a' = εu cos ψ, ψ' = 1, |u| ≤ 1, least time.",
 )
-def jumping_controls() -> Evidence:
-    def argument() -> Steps:
-        mean = sp.integrate(sp.cos(phi), (phi, -sp.pi / 2, sp.pi / 2)) / sp.pi
-        yield "u* = sign(p cos ψ), h* = |p cos ψ| − 1, and ⟨|cos ψ|⟩ = 2/π", mean == 2 / sp.pi
-        lead = sp.sin(phi) - mean * phi
-        top = sp.acos(mean)
-        yield "∫|cos ψ|dψ leads 2ψ/π most at cos ψ = 2/π", vanishes(lead.diff(phi).subs(phi, top))
-        worst = float(lead.subs(phi, top))
-        for eps in (0.1, 0.01, 0.001):
-            half, rest = divmod(1 / eps, np.pi)
-            passed = 2 * half + (np.sin(rest) if rest <= np.pi / 2 else 2 - np.sin(rest))
-            off, jumps = abs(eps * passed - 2 / np.pi), int((1 / eps + np.pi / 2) // np.pi)
-            yield (
-                f"ε = {eps}: {jumps} jumps in the slow time 1, and a is off by {off / eps:.3f}ε",
-                (off <= worst * eps and abs(jumps * eps - 1 / np.pi) < eps),
-            )
-
-    return Proof(argument)
+def jumping_controls() -> Steps:
+    mean = sp.integrate(sp.cos(phi), (phi, -sp.pi / 2, sp.pi / 2)) / sp.pi
+    yield "u* = sign(p cos ψ), h* = |p cos ψ| − 1, and ⟨|cos ψ|⟩ = 2/π", mean == 2 / sp.pi
+    lead = sp.sin(phi) - mean * phi
+    top = sp.acos(mean)
+    yield "∫|cos ψ|dψ leads 2ψ/π most at cos ψ = 2/π", vanishes(lead.diff(phi).subs(phi, top))
+    worst = float(lead.subs(phi, top))
+    for eps in (0.1, 0.01, 0.001):
+        half, rest = divmod(1 / eps, np.pi)
+        passed = 2 * half + (np.sin(rest) if rest <= np.pi / 2 else 2 - np.sin(rest))
+        off, jumps = abs(eps * passed - 2 / np.pi), int((1 / eps + np.pi / 2) // np.pi)
+        yield (
+            f"ε = {eps}: {jumps} jumps in the slow time 1, and a is off by {off / eps:.3f}ε",
+            (off <= worst * eps and abs(jumps * eps - 1 / np.pi) < eps),
+        )
 
 
-@claim(
+@claim.proof(
     "end of section 2: small q",
     "a costate q of the order ε changes control and cost by the order of ε",
-    verdict="holds",
     remark="Where the control jumps, the instants of the jumps move, by the order of ε in the phase.",
 )
-def small_phase_costate() -> Evidence:
-    def argument() -> Steps:
-        yield "q enters h as qF", principle.small_part().coeff(principle.q) == principle.F
-        switching = p * sp.cos(psi) + q * sp.sin(psi)
-        moved = sp.pi / 2 + sp.atan(q / p)
-        yield (
-            "a' = εu cos ψ, ψ' = 1 + εu sin ψ: the switch at π/2 moves by atan(q/p), of the order of q",
-            vanishes(switching.subs(psi, moved)) and vanishes(sp.atan(q / p).diff(q).subs(q, 0) - 1 / p),
-        )
-        turned = sp.sqrt(p**2 + q**2)
-        yield "and ⟨h*⟩ = (2/π)√(p² + q²) − 1 by the order of q²", turned.diff(q).subs(q, 0) == 0
-
-    return Proof(argument)
+def small_phase_costate() -> Steps:
+    yield "q enters h as qF", principle.small_part().coeff(principle.q) == principle.F
+    switching = p * sp.cos(psi) + q * sp.sin(psi)
+    moved = sp.pi / 2 + sp.atan(q / p)
+    yield (
+        "a' = εu cos ψ, ψ' = 1 + εu sin ψ: the switch at π/2 moves by atan(q/p), of the order of q",
+        vanishes(switching.subs(psi, moved)) and vanishes(sp.atan(q / p).diff(q).subs(q, 0) - 1 / p),
+    )
+    turned = sp.sqrt(p**2 + q**2)
+    yield "and ⟨h*⟩ = (2/π)√(p² + q²) − 1 by the order of q²", turned.diff(q).subs(q, 0) == 0
 
 
-@claim(
+@claim.proof(
     "end of section 2: division",
     "ψ and t correspond one to one, and division by ψ' gives a standard system",
-    verdict="holds",
+    display=r"\dot x = \varepsilon X(t, x) + O(\varepsilon^2)",
 )
-def division() -> Evidence:
-    def argument() -> Steps:
-        bound, floor = sp.symbols("C omega_0", positive=True)
-        slowest = (floor - epsilon * bound).subs(epsilon, floor / (2 * bound))
-        yield "ψ' ≥ ω0 − εC, which is ω0/2 for ε = ω0/(2C): ψ rises with t", vanishes(slowest - floor / 2)
-        small = principle.epsilon
-        rate = principle.rates()[0] / principle.rates()[2]
-        yield "da/dψ vanishes at ε = 0", rate.subs(small, 0) == 0
-        first = rate.diff(small).subs(small, 0).doit()
-        yield (
-            "and its part of the order ε is f/ω",
-            vanishes(first - principle.f[0].subs(small, 0) / principle.omega),
-        )
-
-    return Proof(argument, display=r"\dot x = \varepsilon X(t, x) + O(\varepsilon^2)")
+def division() -> Steps:
+    bound, floor = sp.symbols("C omega_0", positive=True)
+    slowest = (floor - epsilon * bound).subs(epsilon, floor / (2 * bound))
+    yield "ψ' ≥ ω0 − εC, which is ω0/2 for ε = ω0/(2C): ψ rises with t", vanishes(slowest - floor / 2)
+    small = principle.epsilon
+    rate = principle.rates()[0] / principle.rates()[2]
+    yield "da/dψ vanishes at ε = 0", rate.subs(small, 0) == 0
+    first = rate.diff(small).subs(small, 0).doit()
+    yield (
+        "and its part of the order ε is f/ω",
+        vanishes(first - principle.f[0].subs(small, 0) / principle.omega),
+    )
 
 
 def near_identity() -> sp.Expr:
@@ -175,20 +163,13 @@ def averaging_theorem() -> Evidence:
     )
 
 
-@claim(
-    "end of section 2: no order",
-    "the theorem does not show that |x − ξ| is of the order ε",
-    verdict="holds",
-)
-def no_order() -> Evidence:
-    def argument() -> Steps:
-        moved = sp.integrate(1 / sp.sqrt(1 + t), (t, 0, T))
-        yield "X = (1 + t)^(−1/2) has X0 = 0", sp.limit(moved / T, T, sp.oo) == 0
-        off = epsilon * moved.subs(T, 1 / epsilon)
-        yield "x − ξ = 2ε(√(1 + 1/ε) − 1) at t = 1/ε tends to 0", sp.limit(off, epsilon, 0, "+") == 0
-        yield "as 2√ε", sp.limit(off / sp.sqrt(epsilon), epsilon, 0, "+") == 2
-
-    return Proof(argument)
+@claim.proof("end of section 2: no order", "the theorem does not show that |x − ξ| is of the order ε")
+def no_order() -> Steps:
+    moved = sp.integrate(1 / sp.sqrt(1 + t), (t, 0, T))
+    yield "X = (1 + t)^(−1/2) has X0 = 0", sp.limit(moved / T, T, sp.oo) == 0
+    off = epsilon * moved.subs(T, 1 / epsilon)
+    yield "x − ξ = 2ε(√(1 + 1/ε) − 1) at t = 1/ε tends to 0", sp.limit(off, epsilon, 0, "+") == 0
+    yield "as 2√ε", sp.limit(off / sp.sqrt(epsilon), epsilon, 0, "+") == 2
 
 
 @claim(
@@ -247,26 +228,19 @@ def drifted(small: float) -> float:
     return float(2 - end.y[0, -1])
 
 
-@claim(
+@claim.proof(
     "end of section 2: higher approximations",
     "canonical averaging gives further approximations in powers of ε",
-    verdict="holds",
 )
-def higher_approximations() -> Evidence:
-    def argument() -> Steps:
-        h = ripple.maximum().subs(smooth.x, correction.x)
-        k1, k2 = correction.anomaly_hamiltonian(h, sp.S.Zero, smooth.v)
-        left = correction.transformed(k1, k2, [smooth.v], [smooth.eta])
-        yield (
-            "rippled example: a canonical change of variables removes the phase up to ε²",
-            vanishes(sp.simplify(left)),
-        )
-        first = float(smooth_example(worked.START, worked.END, ripple=worked.RIPPLE).correction())
-        for eps in worked.EPSILONS:
-            off = abs(worked.roots(eps).cost[worked.best(eps)] - 2 - eps * first)
-            yield (
-                f"ε = {eps}: J* is J0 + εJ1 with J1 = {first:.3f} within {off / eps**2:.1f}ε²",
-                off < 3 * eps**2,
-            )
-
-    return Proof(argument)
+def higher_approximations() -> Steps:
+    h = ripple.maximum().subs(smooth.x, correction.x)
+    k1, k2 = correction.anomaly_hamiltonian(h, sp.S.Zero, smooth.v)
+    left = correction.transformed(k1, k2, [smooth.v], [smooth.eta])
+    yield (
+        "rippled example: a canonical change of variables removes the phase up to ε²",
+        vanishes(sp.simplify(left)),
+    )
+    first = float(smooth_example(worked.START, worked.END, ripple=worked.RIPPLE).correction())
+    for eps in worked.EPSILONS:
+        off = abs(worked.roots(eps).cost[worked.best(eps)] - 2 - eps * first)
+        yield f"ε = {eps}: J* is J0 + εJ1 with J1 = {first:.3f} within {off / eps**2:.1f}ε²", off < 3 * eps**2

@@ -13,7 +13,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -38,16 +38,15 @@ def smooth_instance(expression: sp.Expr) -> sp.Expr:
     verdict="holds",
 )
 def slow_rate() -> Evidence:
-    key = r"\dot a_1/\varepsilon"
     held = principle.leading(principle.u_star)
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         small = {q: epsilon * sp.Symbol("q_1"), u: principle.u_star}
         rate = (principle.rates()[0] / epsilon).subs(u, principle.u_star).subs(q, small[q])
-        return {key: rate.subs(epsilon, 0)}
+        return rate.subs(epsilon, 0)
 
     return Equality(
-        {key: f[0].subs(u, held).subs(epsilon, 0)},
+        {r"\dot a_1/\varepsilon": f[0].subs(u, held).subs(epsilon, 0)},
         derived,
         display=r"\dot a = \varepsilon f_0^*(a, \psi, p) + \varepsilon^2 f_1,\quad \dot\psi = \omega(a) + "
         r"\varepsilon F",
@@ -75,7 +74,7 @@ def costate_rate() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: principle.standard_costate_rates()[0]},
+        lambda: principle.standard_costate_rates()[0],
         defect={key: -2 * omega.diff(a[0]) / omega * first},
         consequence=shown,
         display=r"\dot p = -\varepsilon \omega'(a)\omega^{-1}(pf_0^*) - \varepsilon \partial "
@@ -86,28 +85,24 @@ def costate_rate() -> Evidence:
 
 @claim("after (2.1): q", "q = −εω⁻¹(pf0*) + O(ε²)", verdict="holds")
 def phase_costate() -> Evidence:
-    key = r"q/\varepsilon"
     return Equality(
-        {key: -first / omega},
-        lambda: {key: principle.phase_costate()[0]},
+        {r"q/\varepsilon": -first / omega},
+        lambda: principle.phase_costate()[0],
         display=r"q = -\varepsilon \omega^{-1}(pf_0^*) + \varepsilon^2 Q_1",
     )
 
 
-@claim("after (2.1): remainders", "f1, P1 and Q1 are bounded, and may be dropped", verdict="holds")
-def remainders() -> Evidence:
-    def argument() -> Steps:
-        second = principle.phase_costate()[1]
-        numerator, denominator = sp.fraction(sp.together(second))
-        yield (
-            "Q1 → (h*∂h*/∂q − ω∂h*/∂ε)/ω²: ω ≥ ω0 alone divides",
-            vanishes(denominator / omega**2 - 1) and not numerator.has(1 / omega),
-        )
-        for eps in worked.EPSILONS:
-            off = worked.deviations(eps)["costate"]
-            yield f"rippled example, ε = {eps}: without them p(t1) is off by {off / eps:.2f}ε", off < eps
-
-    return Proof(argument)
+@claim.proof("after (2.1): remainders", "f1, P1 and Q1 are bounded, and may be dropped")
+def remainders() -> Steps:
+    second = principle.phase_costate()[1]
+    numerator, denominator = sp.fraction(sp.together(second))
+    yield (
+        "Q1 → (h*∂h*/∂q − ω∂h*/∂ε)/ω²: ω ≥ ω0 alone divides",
+        vanishes(denominator / omega**2 - 1) and not numerator.has(1 / omega),
+    )
+    for eps in worked.EPSILONS:
+        off = worked.deviations(eps)["costate"]
+        yield f"rippled example, ε = {eps}: without them p(t1) is off by {off / eps:.2f}ε", off < eps
 
 
 @claim(
@@ -152,20 +147,19 @@ def one_solution_for_each_end() -> Evidence:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("(2.2)", "h* = (pf*) = 0 at t1 selects the extremals", verdict="holds")
-def condition() -> Evidence:
-    def argument() -> Steps:
-        level = omega * q + epsilon * principle.h_star
-        yield (
-            "on H* = 0 with q(t1) = 0: h* = 0",
-            vanishes(level.subs(q, 0) - epsilon * principle.h_star.subs(q, 0)),
-        )
-        at_zero = sp.solve(level.subs(principle.h_star, 0), q)
-        yield "and with h* = 0, as ω > 0: q(t1) = 0", at_zero == [0]
-        h = principle.small_part().subs(q, 0)
-        yield "h at q = 0 is (pf)", vanishes(h - sp.Matrix(p).dot(f))
-
-    return Proof(argument, display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0")
+@claim.proof(
+    "(2.2)", "h* = (pf*) = 0 at t1 selects the extremals", display=r"h^*|_{t_1} \equiv (pf^*)_{t_1} = 0"
+)
+def condition() -> Steps:
+    level = omega * q + epsilon * principle.h_star
+    yield (
+        "on H* = 0 with q(t1) = 0: h* = 0",
+        vanishes(level.subs(q, 0) - epsilon * principle.h_star.subs(q, 0)),
+    )
+    at_zero = sp.solve(level.subs(principle.h_star, 0), q)
+    yield "and with h* = 0, as ω > 0: q(t1) = 0", at_zero == [0]
+    h = principle.small_part().subs(q, 0)
+    yield "h at q = 0 is (pf)", vanishes(h - sp.Matrix(p).dot(f))
 
 
 @claim(

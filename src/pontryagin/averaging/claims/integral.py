@@ -32,50 +32,41 @@ def integral() -> Evidence:
     def argument() -> Steps:
         yield "its rate along (2.3) is 0", averaged.along(averaged.integral(), averaged.standard_rates()) == 0
 
-    key = r"\kappa"
     return Proof(
         argument,
-        Equality({key: -h0 / omega}, lambda: {key: averaged.integral()}),
+        Equality({r"\kappa": -h0 / omega}, averaged.integral),
         display=r"\kappa = -(\eta f_0(\xi, \eta))\omega^{-1}(\xi)",
     )
 
 
-@claim(
+@claim.proof(
     "after (2.10): identity",
     "∂(ηf0)/∂η = f0, which makes dκ/dτ = 0",
-    verdict="holds",
     remark="f0 itself depends on η; the identity is that of the envelope, or Euler's for functions of degree "
     "one.",
+    display=r"\partial(\eta f_0)/\partial\eta = f_0",
 )
-def envelope() -> Evidence:
-    def argument() -> Steps:
-        product = sum(y * h0.diff(y) for y in eta)
-        for i, y in enumerate(eta):
-            rest = averaged.homogeneous(product.diff(y) - h0.diff(y))
-            yield f"∂(ηf0)/∂η{i + 1} − f0 = (η∂f0/∂η{i + 1}) = 0", rest == 0
-
-    return Proof(argument, display=r"\partial(\eta f_0)/\partial\eta = f_0")
+def envelope() -> Steps:
+    product = sum(y * h0.diff(y) for y in eta)
+    for i, y in enumerate(eta):
+        rest = averaged.homogeneous(product.diff(y) - h0.diff(y))
+        yield f"∂(ηf0)/∂η{i + 1} − f0 = (η∂f0/∂η{i + 1}) = 0", rest == 0
 
 
-@claim(
-    "after (2.10): mean of q",
-    "the mean of q is εκ, constant up to O(ε²) over times of the order of 1/ε",
-    verdict="holds",
+@claim.proof(
+    "after (2.10): mean of q", "the mean of q is εκ, constant up to O(ε²) over times of the order of 1/ε"
 )
-def mean_of_q() -> Evidence:
-    def argument() -> Steps:
-        for eps in worked.EPSILONS:
-            means = turn_means(eps)
-            spread = float(np.ptp(means))
-            member = float(worked.kappa_of(worked.optimum(eps)["tau"][-1]))
-            off = float(np.abs(means - member).max())
-            yield (
-                f"rippled example, ε = {eps}: over {means.size} turns the mean of q/ε stays within "
-                f"{spread / eps:.2f}ε, and is κ up to {off / eps:.2f}ε",
-                spread < eps and off < 1.5 * eps,
-            )
-
-    return Proof(argument)
+def mean_of_q() -> Steps:
+    for eps in worked.EPSILONS:
+        means = turn_means(eps)
+        spread = float(np.ptp(means))
+        member = float(worked.kappa_of(worked.optimum(eps)["tau"][-1]))
+        off = float(np.abs(means - member).max())
+        yield (
+            f"rippled example, ε = {eps}: over {means.size} turns the mean of q/ε stays within "
+            f"{spread / eps:.2f}ε, and is κ up to {off / eps:.2f}ε",
+            spread < eps and off < 1.5 * eps,
+        )
 
 
 def turn_means(eps: float) -> Array:
@@ -100,24 +91,20 @@ def with_kappa() -> Evidence:
     )
 
 
-@claim("after (2.10): equivalent", "(2.3) is equivalent to (2.11) with (2.12)", verdict="holds")
-def equivalent() -> Evidence:
-    def argument() -> Steps:
-        backward = averaged.rates()[1].subs(kappa, averaged.integral())
-        yield "(2.11) with κ from (2.10) is (2.3)", vanishes(backward - averaged.standard_rates()[1])
-        level = averaged.averaged_hamiltonian()
-        yield "ωκ + (ηf0) is constant along (2.11)", averaged.along(level, averaged.rates()) == 0
-        yield (
-            "so (2.12), its value 0 at the end, is (2.10) all along",
-            vanishes(sp.solve(level, kappa)[0] - averaged.integral()),
-        )
-
-    return Proof(argument)
+@claim.proof("after (2.10): equivalent", "(2.3) is equivalent to (2.11) with (2.12)")
+def equivalent() -> Steps:
+    backward = averaged.rates()[1].subs(kappa, averaged.integral())
+    yield "(2.11) with κ from (2.10) is (2.3)", vanishes(backward - averaged.standard_rates()[1])
+    level = averaged.averaged_hamiltonian()
+    yield "ωκ + (ηf0) is constant along (2.11)", averaged.along(level, averaged.rates()) == 0
+    yield (
+        "so (2.12), its value 0 at the end, is (2.10) all along",
+        vanishes(sp.solve(level, kappa)[0] - averaged.integral()),
+    )
 
 
 @claim("(2.12)", "the condition ωκ + (ηf0) = 0 at τ1 relates κ to τ1", verdict="holds")
 def end_level() -> Evidence:
-    key = r"\tau_1(\kappa)"
     rising = {ripple.rise: 1}
 
     def argument() -> Steps:
@@ -138,7 +125,7 @@ def end_level() -> Evidence:
     closed = 2 * (smooth.v1 - smooth.v0) / (ripple.A0 + ripple.A1)
     return Proof(
         argument,
-        Equality({key: closed}, lambda: {key: ripple.duration().subs(rising)}),
+        Equality({r"\tau_1(\kappa)": closed}, lambda: ripple.duration().subs(rising)),
         display=r"[\omega(\xi)\kappa + (\eta f_0(\xi, \eta))]_{\tau_1} = 0",
     )
 

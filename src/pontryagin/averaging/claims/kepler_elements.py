@@ -25,7 +25,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -43,43 +43,38 @@ PLACE = {u_radial: 1, u_transverse: 0, epsilon: 1, momentum: 1, e: R(1, 2), anom
 """A radial push of size 1 at the anomaly 60° of the orbit K = 1, e = 1/2."""
 
 
-@claim(
+@claim.proof(
     "before (3.6): type (1.1)",
     "(3.4) and (3.5) take (3.3) to a system of the form (1.1)",
-    verdict="holds",
     remark="This holds for 0 < e < 1. The slow variables are E, K and γ, the phase is ψ; the rates of γ and "
     "ψ grow as 1/e near the circle.",
 )
-def standard_form() -> Evidence:
-    def argument() -> Steps:
-        rates = kepler.element_rates()
-        slow = [rates[key] / epsilon for key in (energy, momentum, gamma)]
-        yield (
-            "the rates of E, K, γ are ε times functions free of ε",
-            not any(sp.cancel(rate).has(epsilon) for rate in slow),
-        )
-        turned = [vanishes(rate - rate.subs(anomaly, anomaly + 2 * sp.pi)) for rate in slow]
-        yield "of period 2π in x, and so in ψ", all(turned)
-        yield (
-            "dψ/dx > 0: x is a function of ψ",
-            vanishes(kepler.weight() * (1 + e * cos) ** 2 - sp.sqrt(1 - e**2) ** 3),
-        )
-        still = kepler_phase.mean_anomaly_rate().subs({pericentre_rate: 0, eccentricity_rate: 0})
-        yield "ψ' is ω(E) > 0 up to ε", still.free_symbols == {energy} and still.is_positive is True
-
-    return Proof(argument)
+def standard_form() -> Steps:
+    rates = kepler.element_rates()
+    slow = [rates[key] / epsilon for key in (energy, momentum, gamma)]
+    yield (
+        "the rates of E, K, γ are ε times functions free of ε",
+        not any(sp.cancel(rate).has(epsilon) for rate in slow),
+    )
+    turned = [vanishes(rate - rate.subs(anomaly, anomaly + 2 * sp.pi)) for rate in slow]
+    yield "of period 2π in x, and so in ψ", all(turned)
+    yield (
+        "dψ/dx > 0: x is a function of ψ",
+        vanishes(kepler.weight() * (1 + e * cos) ** 2 - sp.sqrt(1 - e**2) ** 3),
+    )
+    still = kepler_phase.mean_anomaly_rate().subs({pericentre_rate: 0, eccentricity_rate: 0})
+    yield "ψ' is ω(E) > 0 up to ε", still.free_symbols == {energy} and still.is_positive is True
 
 
 @claim("(3.6): E and K", "how thrust changes energy and angular momentum", verdict="holds")
 def energy_and_momentum() -> Evidence:
-    keys = (r"\dot E", r"\dot K")
-
-    def derived() -> dict[str, sp.Expr]:
-        rates = map(kepler.along_the_motion, (kepler.energy_of_state(), kepler.momentum_of_state()))
-        return dict(zip(keys, rates, strict=True))
-
-    printed = (epsilon * (v_radial * u_radial + v_transverse * u_transverse), epsilon * r * u_transverse)
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    printed = {
+        r"\dot E": epsilon * (v_radial * u_radial + v_transverse * u_transverse),
+        r"\dot K": epsilon * r * u_transverse,
+    }
+    return Equality(
+        printed, lambda: map(kepler.along_the_motion, (kepler.energy_of_state(), kepler.momentum_of_state()))
+    )
 
 
 def radius_rate(pericentre: sp.Expr) -> sp.Expr:
@@ -112,7 +107,7 @@ def pericentre() -> Evidence:
 
     return Misprint(
         {key: PRINTED_PERICENTRE},
-        lambda: {key: kepler.element_rates()[gamma]},
+        lambda: kepler.element_rates()[gamma],
         defect={key: 2 * epsilon * sp.sqrt(p) * u_radial * cos / e},
         consequence=consequence,
         display=r"\dot\gamma = \varepsilon e^{-1} p^{1/2} [u_r\cos x + (2 + e\cos x)(1 + e\cos x)^{-1} "
@@ -128,62 +123,53 @@ def pericentre() -> Evidence:
     "x)^(−2).",
 )
 def phase_rate() -> Evidence:
-    key = r"\dot\psi"
     first = (1 + e) * (1 + e * cos) ** -1 * sin * (sp.sqrt(1 - e) * (1 + e) ** R(-1, 2)).diff(e)
     second = (e * sp.sqrt(1 - e**2) * (1 + e * cos) ** -1).diff(e) * sin
     braces = (first - second).subs(sp.sqrt(1 - e), sp.sqrt(1 - e**2) / sp.sqrt(1 + e))
     turn = (1 - e**2) ** R(3, 2) * (1 + e * cos) ** -2 * pericentre_rate
     return Equality(
-        {key: 2 * sp.pi / PRINTED_PERIOD - turn + sp.simplify(braces) * eccentricity_rate},
-        lambda: {key: kepler_phase.mean_anomaly_rate()},
+        {r"\dot\psi": 2 * sp.pi / PRINTED_PERIOD - turn + sp.simplify(braces) * eccentricity_rate},
+        kepler_phase.mean_anomaly_rate,
         display=r"\dot\psi = 2\pi T^{-1} - (1 - e^2)^{3/2}(1 + e\cos x)^{-2}\dot\gamma + \{(1 + e)(1 + e\cos "
         r"x)^{-1}\sin x\, \partial[(1 - e)^{1/2}(1 + e)^{-1/2}]/\partial e - \partial[e(1 - e^2)^{1/2}(1 + "
         r"e\cos x)^{-1}]/\partial e\, \sin x\}\dot e",
     )
 
 
-@claim(
+@claim.proof(
     "after (3.6): initial data",
     "the initial values of (3.6) follow from (3.3)–(3.5)",
-    verdict="holds",
     remark="e cos x = r v_φ² − 1 and e sin x = r v_φ v_r give e and x; then γ = φ − x, and ψ follows from "
     "(3.5). This needs e > 0.",
 )
-def initial_data() -> Evidence:
-    def argument() -> Steps:
-        state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]
-        on_orbit = [kepler.on_the_orbit(part) for part in state]
-        yield (
-            "r v_φ² − 1 = e cos x, r v_φ v_r = e sin x",
-            all(vanishes(part - e * value) for part, value in zip(on_orbit, (cos, sin), strict=True)),
-        )
-        K, E = r * v_transverse, kepler.energy_of_state()
-        yield "and e² = 1 + 2EK² is the same e", vanishes(sum(part**2 for part in state) - (1 + 2 * E * K**2))
-        example = {r: 1, phi: R(1, 3), v_radial: R(1, 2), v_transverse: 1}
-        values = [part.subs(example) for part in state]
-        yield (
-            "r = 1, v_r = 1/2, v_φ = 1: e cos x = 0, e sin x = 1/2; e = 1/2, x = π/2",
-            values == [0, R(1, 2)],
-        )
-
-    return Proof(argument)
+def initial_data() -> Steps:
+    state = [r * v_transverse**2 - 1, r * v_transverse * v_radial]
+    on_orbit = [kepler.on_the_orbit(part) for part in state]
+    yield (
+        "r v_φ² − 1 = e cos x, r v_φ v_r = e sin x",
+        all(vanishes(part - e * value) for part, value in zip(on_orbit, (cos, sin), strict=True)),
+    )
+    K, E = r * v_transverse, kepler.energy_of_state()
+    yield "and e² = 1 + 2EK² is the same e", vanishes(sum(part**2 for part in state) - (1 + 2 * E * K**2))
+    example = {r: 1, phi: R(1, 3), v_radial: R(1, 2), v_transverse: 1}
+    values = [part.subs(example) for part in state]
+    yield "r = 1, v_r = 1/2, v_φ = 1: e cos x = 0, e sin x = 1/2; e = 1/2, x = π/2", values == [0, R(1, 2)]
 
 
 @claim("after (3.6): e and p", "how thrust changes eccentricity and focal parameter", verdict="holds")
 def eccentricity_and_parameter() -> Evidence:
-    keys = (r"\dot e", r"\dot p")
     bracket = (e * (1 + cos**2) + 2 * cos) * (1 + e * cos) ** -1
-    printed = (
-        epsilon * sp.sqrt(p) * (u_radial * sin + u_transverse * bracket),
-        2 * epsilon * sp.sqrt(p) ** 3 * u_transverse * (1 + e * cos) ** -1,
-    )
+    printed = {
+        r"\dot e": epsilon * sp.sqrt(p) * (u_radial * sin + u_transverse * bracket),
+        r"\dot p": 2 * epsilon * sp.sqrt(p) ** 3 * u_transverse * (1 + e * cos) ** -1,
+    }
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rates = kepler.element_rates()
-        return dict(zip(keys, (rates[e], p.diff(momentum) * rates[momentum]), strict=True))
+        return rates[e], p.diff(momentum) * rates[momentum]
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
+        printed,
         derived,
         display=r"\dot e = \varepsilon p^{1/2}\{u_r\sin x + u_\varphi[e(1 + \cos^2 x) + 2\cos x](1 + e\cos "
         r"x)^{-1}\},\quad \dot p = 2\varepsilon p^{3/2} u_\varphi (1 + e\cos x)^{-1}",

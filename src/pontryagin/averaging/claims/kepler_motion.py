@@ -46,35 +46,28 @@ CIRCLE = {energy: -R(1, 2), momentum: 1}
     "(3.3)", "controlled motion in the plane of a gravitating centre, in polar coordinates", verdict="holds"
 )
 def equations_of_motion() -> Evidence:
-    keys = (r"\dot r", r"\dot\varphi", r"\dot v_r", r"\dot v_\varphi")
-    printed = (
-        v_radial,
-        v_transverse * r**-1,
-        v_transverse**2 * r**-1 - r**-2 + epsilon * u_radial,
-        -v_radial * v_transverse * r**-1 + epsilon * u_transverse,
+    printed = {
+        r"\dot r": v_radial,
+        r"\dot\varphi": v_transverse * r**-1,
+        r"\dot v_r": v_transverse**2 * r**-1 - r**-2 + epsilon * u_radial,
+        r"\dot v_\varphi": -v_radial * v_transverse * r**-1 + epsilon * u_transverse,
+    }
+    return Equality(printed, kepler.equations_of_motion)
+
+
+@claim.proof("after (3.3): ε = 0", "for ε = 0 the system is integrable")
+def integrable() -> Steps:
+    coast = [kepler.along_the_motion(part).subs(COAST) for part in kepler.laplace()]
+    yield "both components of Laplace's vector are constant without thrust", all(map(vanishes, coast))
+    kept = sp.Matrix([kepler.energy_of_state(), kepler.momentum_of_state(), *kepler.laplace()])
+    point = {r: 1, phi: 0, v_radial: R(1, 5), v_transverse: R(6, 5)}
+    rank = kept.jacobian(kepler.STATE).subs(point).rank()
+    yield "with E and K three of the four constants are independent: the orbit is known", rank == 3
+    slope = kepler.ellipse_radius() / sp.sqrt(-2 * energy)
+    yield (
+        "time along it is the quadrature of (3.4)",
+        vanishes(kepler.time_of_flight().diff(eccentric) - slope),
     )
-    return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, kepler.equations_of_motion(), strict=True)),
-    )
-
-
-@claim("after (3.3): ε = 0", "for ε = 0 the system is integrable", verdict="holds")
-def integrable() -> Evidence:
-    def argument() -> Steps:
-        coast = [kepler.along_the_motion(part).subs(COAST) for part in kepler.laplace()]
-        yield "both components of Laplace's vector are constant without thrust", all(map(vanishes, coast))
-        kept = sp.Matrix([kepler.energy_of_state(), kepler.momentum_of_state(), *kepler.laplace()])
-        point = {r: 1, phi: 0, v_radial: R(1, 5), v_transverse: R(6, 5)}
-        rank = kept.jacobian(kepler.STATE).subs(point).rank()
-        yield "with E and K three of the four constants are independent: the orbit is known", rank == 3
-        slope = kepler.ellipse_radius() / sp.sqrt(-2 * energy)
-        yield (
-            "time along it is the quadrature of (3.4)",
-            vanishes(kepler.time_of_flight().diff(eccentric) - slope),
-        )
-
-    return Proof(argument)
 
 
 @claim("(3.4): E and K", "the energy and the angular momentum as integrals", verdict="holds")
@@ -95,7 +88,7 @@ def integrals() -> Evidence:
 def conic() -> Evidence:
     return Equality(
         {"r": p * (1 + e * sp.cos(anomaly)) ** -1},
-        lambda: {"r": kepler.conic()[r]},
+        lambda: kepler.conic()[r],
         display=r"r = p(1 + e\cos x)^{-1}",
     )
 
@@ -104,7 +97,7 @@ def conic() -> Evidence:
 def radius_in_the_eccentric_anomaly() -> Evidence:
     return Equality(
         {"r": R(1, 2) * sp.Abs(energy) ** -1 * (1 - e * sp.cos(eccentric))},
-        lambda: {"r": kepler.ellipse_radius()},
+        kepler.ellipse_radius,
         display=r"r = \tfrac12 |E|^{-1}(1 - e\cos\xi)",
     )
 
@@ -113,14 +106,14 @@ def radius_in_the_eccentric_anomaly() -> Evidence:
 def kepler_equation() -> Evidence:
     return Equality(
         {r"t + \delta": PRINTED_TIME},
-        lambda: {r"t + \delta": kepler.time_of_flight()},
+        kepler.time_of_flight,
         display=r"t + \delta = (2|E|)^{-3/2}(\xi - e\sin\xi)",
     )
 
 
 @claim("after (3.4): p", "the focal parameter is K²", verdict="holds")
 def focal_parameter() -> Evidence:
-    return Equality({"p": momentum**2}, lambda: {"p": parameter()})
+    return Equality({"p": momentum**2}, parameter)
 
 
 @claim(
@@ -146,78 +139,69 @@ def eccentricity() -> Evidence:
         yield "e = (1 + 2EK²)^(1/2) = 0", PRINTED_ECCENTRICITY.subs(CIRCLE) == 0
         yield "and Laplace's vector vanishes", kepler.laplace().subs(at).is_zero_matrix
 
-    formula = Equality({"e": PRINTED_ECCENTRICITY}, lambda: {"e": kepler.eccentricity()})
+    formula = Equality({"e": PRINTED_ECCENTRICITY}, kepler.eccentricity)
     return Conditional(
         argument, formula, counterexample=counterexample, display=r"0 < e = (1 + 2EK^2)^{1/2} < 1"
     )
 
 
-@claim("after (3.4): γ, δ", "x = φ − γ; γ and δ are arbitrary constants", verdict="holds")
-def arbitrary_constants() -> Evidence:
-    def argument() -> Steps:
-        rates = kepler.equations_of_motion()
-        yield "the equations hold neither φ nor t: an orbit may be turned and delayed", not rates.has(phi, t)
-        along = kepler.laplace().applyfunc(kepler.on_the_orbit)
-        straight = sp.Matrix([e * sp.cos(gamma), e * sp.sin(gamma)])
-        yield (
-            "with φ = γ + x Laplace's vector has the direction γ, and is constant",
-            vanishes((along - straight).applyfunc(sp.expand_trig)),
-        )
+@claim.proof(
+    "after (3.4): γ, δ", "x = φ − γ; γ and δ are arbitrary constants", display=r"x = \varphi - \gamma"
+)
+def arbitrary_constants() -> Steps:
+    rates = kepler.equations_of_motion()
+    yield "the equations hold neither φ nor t: an orbit may be turned and delayed", not rates.has(phi, t)
+    along = kepler.laplace().applyfunc(kepler.on_the_orbit)
+    straight = sp.Matrix([e * sp.cos(gamma), e * sp.sin(gamma)])
+    yield (
+        "with φ = γ + x Laplace's vector has the direction γ, and is constant",
+        vanishes((along - straight).applyfunc(sp.expand_trig)),
+    )
 
-    return Proof(argument, display=r"x = \varphi - \gamma")
 
-
-@claim(
+@claim.proof(
     "after (3.4): period",
     "the motion is bounded and periodic, and its period depends on the energy only",
-    verdict="holds",
     remark="This holds for E < 0.",
 )
-def bounded_and_periodic() -> Evidence:
-    def argument() -> Steps:
-        radius = kepler.ellipse_radius()
-        ends = [radius.subs(eccentric, angle) for angle in (0, sp.pi)]
-        yield (
-            "r stays between (1 − e)/(2|E|) and (1 + e)/(2|E|)",
-            [vanishes(end - (1 + sign * e) / (-2 * energy)) for end, sign in zip(ends, (-1, 1), strict=True)]
-            == [True, True],
-        )
-        slope = kepler.time_of_flight().diff(eccentric)
-        yield "time grows with ξ: dt/dξ = r/(2|E|)^(1/2)", vanishes(slope - radius / sp.sqrt(-2 * energy))
-        lap = kepler.time_of_flight().subs(eccentric, eccentric + 2 * sp.pi) - kepler.time_of_flight()
-        yield "a turn in ξ takes T(E), whatever e", sp.simplify(lap).free_symbols == {energy}
-
-    return Proof(argument)
+def bounded_and_periodic() -> Steps:
+    radius = kepler.ellipse_radius()
+    ends = [radius.subs(eccentric, angle) for angle in (0, sp.pi)]
+    yield (
+        "r stays between (1 − e)/(2|E|) and (1 + e)/(2|E|)",
+        [vanishes(end - (1 + sign * e) / (-2 * energy)) for end, sign in zip(ends, (-1, 1), strict=True)]
+        == [True, True],
+    )
+    slope = kepler.time_of_flight().diff(eccentric)
+    yield "time grows with ξ: dt/dξ = r/(2|E|)^(1/2)", vanishes(slope - radius / sp.sqrt(-2 * energy))
+    lap = kepler.time_of_flight().subs(eccentric, eccentric + 2 * sp.pi) - kepler.time_of_flight()
+    yield "a turn in ξ takes T(E), whatever e", sp.simplify(lap).free_symbols == {energy}
 
 
 @claim("after (3.4): T(E)", "the period", verdict="holds")
 def period() -> Evidence:
     return Equality(
         {"T(E)": PRINTED_PERIOD},
-        lambda: {"T(E)": kepler.period()},
+        kepler.period,
         display=r"T(E) = 2\pi(2|E|)^{-3/2}",
     )
 
 
-@claim("before (3.5): 2π", "φ grows by 2π in a period", verdict="holds")
-def full_turn() -> Evidence:
-    def argument() -> Steps:
-        psi = kepler_phase.mean_of_true()
-        yield "ψ(x) has the slope dψ/dx of (3.5)", vanishes(psi.diff(anomaly) - kepler.weight())
-        yield (
-            "ψ(x + 2π) = ψ(x) + 2π: the bracket of (3.5) has the mean 0",
-            vanishes(psi.subs(anomaly, anomaly + 2 * sp.pi) - psi - 2 * sp.pi),
-        )
-        yield "and ψ grows by 2π in T", vanishes(kepler.mean_motion() * kepler.period() - 2 * sp.pi)
-
-    return Proof(argument)
+@claim.proof("before (3.5): 2π", "φ grows by 2π in a period")
+def full_turn() -> Steps:
+    psi = kepler_phase.mean_of_true()
+    yield "ψ(x) has the slope dψ/dx of (3.5)", vanishes(psi.diff(anomaly) - kepler.weight())
+    yield (
+        "ψ(x + 2π) = ψ(x) + 2π: the bracket of (3.5) has the mean 0",
+        vanishes(psi.subs(anomaly, anomaly + 2 * sp.pi) - psi - 2 * sp.pi),
+    )
+    yield "and ψ grows by 2π in T", vanishes(kepler.mean_motion() * kepler.period() - 2 * sp.pi)
 
 
 @claim("(3.5)", "the true anomaly in terms of the mean anomaly ψ", verdict="holds")
 def true_and_mean_anomaly() -> Evidence:
-    keys = (r"d(x - \psi)/dx", r"\psi")
     bracket = (1 - e**2) ** R(3, 2) / (1 + e * sp.cos(anomaly)) ** 2 - 1
-    printed = (-bracket, 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME)
+    printed = {r"d(x - \psi)/dx": -bracket, r"\psi": 2 * sp.pi / PRINTED_PERIOD * PRINTED_TIME}
 
     def argument() -> Steps:
         psi = kepler_phase.mean_of_true()
@@ -227,12 +211,9 @@ def true_and_mean_anomaly() -> Evidence:
         )
         yield "and t + δ with them", kepler.time_of_flight().subs(eccentric, 0) == 0
 
-    def derived() -> dict[str, sp.Expr]:
-        return dict(zip(keys, (1 - kepler.weight(), kepler_phase.mean_anomaly()), strict=True))
-
     return Proof(
         argument,
-        Equality(dict(zip(keys, printed, strict=True)), derived),
+        Equality(printed, lambda: (1 - kepler.weight(), kepler_phase.mean_anomaly())),
         display=r"x = \psi - \int_0^x \left[\frac{(1 - e^2)^{3/2}}{(1 + e\cos y)^2} - 1\right] dy,\quad "
         r"\psi = \frac{2\pi}{T}(t + \delta)",
     )

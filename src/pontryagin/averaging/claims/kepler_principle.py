@@ -35,7 +35,6 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
     Steps,
     vanishes,
 )
@@ -101,18 +100,15 @@ def problem() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (3.7): p_γ",
     "the angle does not enter the right-hand sides, so its costate vanishes identically",
-    verdict="holds",
+    display=r"\dot p_\gamma = -\partial H/\partial\gamma = 0,\quad p_\gamma(t_1) = 0",
 )
-def costate_of_the_pericentre() -> Evidence:
-    def argument() -> Steps:
-        H = principle.hamiltonian()
-        yield "H holds neither γ nor φ: p_γ is constant", not H.has(gamma, phi)
-        yield "with M = E − E1 and no γ in the cost it ends at 0", (energy - energy1).diff(gamma) == 0
-
-    return Proof(argument, display=r"\dot p_\gamma = -\partial H/\partial\gamma = 0,\quad p_\gamma(t_1) = 0")
+def costate_of_the_pericentre() -> Steps:
+    H = principle.hamiltonian()
+    yield "H holds neither γ nor φ: p_γ is constant", not H.has(gamma, phi)
+    yield "with M = E − E1 and no γ in the cost it ends at 0", (energy - energy1).diff(gamma) == 0
 
 
 def phase_influence() -> sp.Matrix:
@@ -121,40 +117,36 @@ def phase_influence() -> sp.Matrix:
     return sp.Matrix([sp.expand(rate).coeff(u) for u in kepler.CONTROL])
 
 
-@claim(
+@claim.proof(
     "before (3.8): p_ψ",
     "p_ψ = O(ε) over times of order 1/ε, and the controls follow from E and K alone",
-    verdict="holds",
     remark="True for 0 < e < 1: H = 0 gives it over any time; p_ψ' = O(ε) alone would leave O(1).",
+    display=r"p_\psi = O(\varepsilon),\quad t_1 \sim \varepsilon^{-1}",
 )
-def costate_of_the_phase() -> Evidence:
-    def argument() -> Steps:
-        H = principle.hamiltonian().subs(costate_pericentre, 0)
-        yield "H is affine in p_ψ", vanishes(H.diff(costate_phase, 2))
-        rest, rate = H.subs(costate_phase, 0), H.diff(costate_phase)
-        yield "without it H is εh, h free of ε", not sp.expand(rest / epsilon).has(epsilon)
-        yield (
-            "its coefficient is ω + O(ε), so H = 0 gives p_ψ = −εh/(ω + O(ε))",
-            vanishes(rate.subs(epsilon, 0) - kepler.mean_motion()),
-        )
-        best = sp.solve([H.diff(u) for u in kepler.CONTROL], list(kepler.CONTROL), dict=True)[0]
-        control = sp.Matrix([best[u] for u in kepler.CONTROL])
-        first = sp.Matrix([principle.maximiser()[u] for u in kepler.CONTROL]).subs(kepler.conic())
-        yield (
-            "the best u is (3.8) and ½ p_ψ times the coefficients of u in ψ'/ε",
-            vanishes(control - first - costate_phase * phase_influence() / 2),
-        )
-
-    return Proof(argument, display=r"p_\psi = O(\varepsilon),\quad t_1 \sim \varepsilon^{-1}")
+def costate_of_the_phase() -> Steps:
+    H = principle.hamiltonian().subs(costate_pericentre, 0)
+    yield "H is affine in p_ψ", vanishes(H.diff(costate_phase, 2))
+    rest, rate = H.subs(costate_phase, 0), H.diff(costate_phase)
+    yield "without it H is εh, h free of ε", not sp.expand(rest / epsilon).has(epsilon)
+    yield (
+        "its coefficient is ω + O(ε), so H = 0 gives p_ψ = −εh/(ω + O(ε))",
+        vanishes(rate.subs(epsilon, 0) - kepler.mean_motion()),
+    )
+    best = sp.solve([H.diff(u) for u in kepler.CONTROL], list(kepler.CONTROL), dict=True)[0]
+    control = sp.Matrix([best[u] for u in kepler.CONTROL])
+    first = sp.Matrix([principle.maximiser()[u] for u in kepler.CONTROL]).subs(kepler.conic())
+    yield (
+        "the best u is (3.8) and ½ p_ψ times the coefficients of u in ψ'/ε",
+        vanishes(control - first - costate_phase * phase_influence() / 2),
+    )
 
 
 @claim("(3.8)", "the optimal control of the first approximation", verdict="holds")
 def optimal_control() -> Evidence:
-    keys = ("u_r^*", r"u_\varphi^*")
-    printed = (p_E * v_radial / 2, (p_E * v_transverse + p_K * r) / 2)
+    printed = {"u_r^*": p_E * v_radial / 2, r"u_\varphi^*": (p_E * v_transverse + p_K * r) / 2}
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, (principle.maximiser()[u] for u in kepler.CONTROL), strict=True)),
+        printed,
+        lambda: [principle.maximiser()[u] for u in kepler.CONTROL],
         display=r"u_r^* = \tfrac12 p_E v_r,\quad u_\varphi^* = \tfrac12(p_E v_\varphi + p_K r)",
     )
 
@@ -165,7 +157,7 @@ def average_weight() -> Evidence:
     printed = 2 * sp.pi * period**-1 * sp.sqrt(parameter()) ** 3 * (1 + e * sp.cos(anomaly)) ** -2
     return Equality(
         {r"d\psi/dx": kepler.in_slow_variables(printed)},
-        lambda: {r"d\psi/dx": kepler.in_slow_variables(kepler.weight())},
+        lambda: kepler.in_slow_variables(kepler.weight()),
         display=r"d\psi = 2\pi T^{-1} p^{3/2}(1 + e\cos x)^{-2} dx",
     )
 
@@ -197,7 +189,7 @@ def momentum_costate_rate() -> Evidence:
 
     return Misprint(
         {key: printed},
-        lambda: {key: principle.averaged_rates()[p_K]},
+        lambda: principle.averaged_rates()[p_K],
         defect={key: -p_E * p_K / 2},
         consequence=consequence,
         display=r"\frac{dp_K}{d\tau} = -\left(\frac{p_K}{4}\frac{\partial\langle r^2\rangle}{\partial K} + "
@@ -205,25 +197,19 @@ def momentum_costate_rate() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (3.8): p_K ≡ 0",
     "the costate of K vanishes identically in the first approximation",
-    verdict="holds",
     remark="True for every κ, with the right and with the printed equation.",
+    display=r"p_K \equiv 0",
 )
-def costate_of_the_momentum() -> Evidence:
-    def argument() -> Steps:
-        rate = principle.averaged_rates()[p_K]
-        yield (
-            "dp_K/dτ is a polynomial in p_K over p_K: the rate has the factor p_K",
-            vanishes(rate.subs(p_K, 0)) and sp.Poly(rate, p_K).degree() == 2,
-        )
-        yield "the phase does not enter it: ω does not depend on K", not rate.has(kappa)
-        yield "the target leaves K free: p_K(τ1) = 0", (energy - energy1).diff(momentum) == 0
-        rest = sp.fraction(sp.together(rate / p_K))[1]
-        yield (
-            "the other factor is finite for E < 0, so p_K = 0 alone ends there",
-            rest.free_symbols == {energy},
-        )
-
-    return Proof(argument, display=r"p_K \equiv 0")
+def costate_of_the_momentum() -> Steps:
+    rate = principle.averaged_rates()[p_K]
+    yield (
+        "dp_K/dτ is a polynomial in p_K over p_K: the rate has the factor p_K",
+        vanishes(rate.subs(p_K, 0)) and sp.Poly(rate, p_K).degree() == 2,
+    )
+    yield "the phase does not enter it: ω does not depend on K", not rate.has(kappa)
+    yield "the target leaves K free: p_K(τ1) = 0", (energy - energy1).diff(momentum) == 0
+    rest = sp.fraction(sp.together(rate / p_K))[1]
+    yield "the other factor is finite for E < 0, so p_K = 0 alone ends there", rest.free_symbols == {energy}

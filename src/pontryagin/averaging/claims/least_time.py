@@ -13,6 +13,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Slip,
     Steps,
     vanishes,
@@ -91,10 +92,10 @@ def mean_of_the_force() -> Evidence:
 def least_time_without_mean_force() -> Evidence:
     keys = (r"u_0\tau\,\mathrm{sign}(a_1 - a_0)", r"\langle x'\rangle")
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rate = rotor.averaged_rate(force=sp.S.Zero, control=sense * u0)
         integrand = sp.cancel(sense * u0 / rate).subs(a, y)
-        return dict(zip(keys, (sp.Integral(integrand, (y, a0, xi)), rotor.mean(v)), strict=True))
+        return sp.Integral(integrand, (y, a0, xi)), rotor.mean(v)
 
     def argument() -> Steps:
         eta = sp.Symbol("eta", real=True, nonzero=True)
@@ -148,11 +149,11 @@ def square_root_of_the_energy() -> Evidence:
         sp.Abs(sp.sqrt(a1) - sp.sqrt(a0)) / rate,
     )
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         speed = sp.Symbol("C", real=True)
         line = sp.sqrt(a0) + sp.integrate(speed, (tau, 0, tau))
         met = sp.solve(line.subs(tau, end) - sp.sqrt(a1), speed)[0]
-        return dict(zip(keys, (line.subs(speed, met), sp.Abs(met) * end / rate), strict=True))
+        return line.subs(speed, met), sp.Abs(met) * end / rate
 
     def argument() -> Steps:
         uneven = (UNEVEN**2, sp.S.Zero)
@@ -205,7 +206,7 @@ def least_time_with_mean_force() -> Evidence:
 
     return Misprint(
         {key: u0 * OMEGA * sense + BY_PHASE},
-        lambda: {key: named(rotor.averaged_rate(control=u0 * sense))},
+        lambda: named(rotor.averaged_rate(control=u0 * sense)),
         defect={key: BY_PHASE - OMEGA * BY_ANGLE},
         consequence=consequence,
         display=r"d\xi/d\tau = u_0\omega(\xi)\,\mathrm{sign}(a_1 - a_0) + \langle f(\xi)\rangle,\quad "
@@ -213,31 +214,25 @@ def least_time_with_mean_force() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "example 1: existence",
     "this problem does not always have a solution",
-    verdict="holds",
     remark="There is a solution exactly where u₀ + s f̄(ξ) > 0 for all ξ from a₀ to a₁, with f̄ the mean of "
     "f over the angle and s = sign(a₁ − a₀).",
 )
-def no_solution_against_a_strong_force() -> Evidence:
-    def argument() -> Steps:
-        best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))
-        yield (
-            "f = −1, u₀ = ½, m = 1, V = 0: at full thrust dξ/dτ = −√(2ξ)/2 < 0",
-            vanishes(best + sp.sqrt(2 * a) / 2) and best.is_negative,
-        )
-        exact = rotor.rate_by_angle(force=-sp.S.One, control=R(1, 2)) / epsilon
-        yield "so does the exact energy: da/dx = −ε/2 at best; no a₁ > a₀ is reached", exact == -R(1, 2)
-        printed = sp.sqrt(2 * a) / 2 - 1
-        yield "where the printed equation lets ξ rise: by √16/2 − 1 = 1 at ξ = 8", printed.subs(a, 8) == 1
-        speeding = sp.factor(
-            rotor.averaged_rate(**FREE, force=-v / 3, control=sp.S.One).subs(a, v**2 / 2) / v
-        )
-        yield "friction f = −v/3, u₀ = 1: dv/dτ = 1 − v/3", vanishes(speeding - (1 - v / 3))
-        turned = speeding.subs(v, 3 + mu)
-        yield "negative above v = 3: no v₁ > 3 is reached from below", turned.is_negative
-        rate = named(rotor.averaged_rate(control=u0 * sense))
-        yield "in general dξ/dτ = ω(u₀s + f̄)", vanishes(rate - OMEGA * (u0 * sense + BY_ANGLE))
-
-    return Proof(argument)
+def no_solution_against_a_strong_force() -> Steps:
+    best = rotor.averaged_rate(**FREE, force=-sp.S.One, control=R(1, 2))
+    yield (
+        "f = −1, u₀ = ½, m = 1, V = 0: at full thrust dξ/dτ = −√(2ξ)/2 < 0",
+        vanishes(best + sp.sqrt(2 * a) / 2) and best.is_negative,
+    )
+    exact = rotor.rate_by_angle(force=-sp.S.One, control=R(1, 2)) / epsilon
+    yield "so does the exact energy: da/dx = −ε/2 at best; no a₁ > a₀ is reached", exact == -R(1, 2)
+    printed = sp.sqrt(2 * a) / 2 - 1
+    yield "where the printed equation lets ξ rise: by √16/2 − 1 = 1 at ξ = 8", printed.subs(a, 8) == 1
+    speeding = sp.factor(rotor.averaged_rate(**FREE, force=-v / 3, control=sp.S.One).subs(a, v**2 / 2) / v)
+    yield "friction f = −v/3, u₀ = 1: dv/dτ = 1 − v/3", vanishes(speeding - (1 - v / 3))
+    turned = speeding.subs(v, 3 + mu)
+    yield "negative above v = 3: no v₁ > 3 is reached from below", turned.is_negative
+    rate = named(rotor.averaged_rate(control=u0 * sense))
+    yield "in general dξ/dτ = ω(u₀s + f̄)", vanishes(rate - OMEGA * (u0 * sense + BY_ANGLE))

@@ -11,14 +11,13 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
+    RightSides,
     Steps,
     vanishes,
 )
 
 claim = Page("Akulenko 1977")
 
-R = sp.Rational
 M, a = principle.M, principle.a
 
 
@@ -85,11 +84,10 @@ def one_control() -> Evidence:
 
 @claim("(1.6): p'", "rate of the slow variables' costate", verdict="holds")
 def costate_rate() -> Evidence:
-    key = r"\dot p_1"
     h = p[0] * f[0] + p[1] * f[1] + q * F
     return Equality(
-        {key: -omega.diff(a[0]) * q - epsilon * h.diff(a[0])},
-        lambda: {key: principle.costate_rates()[0]},
+        {r"\dot p_1": -omega.diff(a[0]) * q - epsilon * h.diff(a[0])},
+        lambda: principle.costate_rates()[0],
         display=r"\dot p = -\frac{\partial H}{\partial a}\Bigr|_{u^*} = -\omega' q - \varepsilon "
         r"\frac{\partial h}{\partial a}\Bigr|_{u^*}",
     )
@@ -114,7 +112,7 @@ def transversality() -> Evidence:
 
     return Misprint(
         {key: -(alpha * M).diff(a[1])},
-        lambda: {key: principle.end_conditions()[0][1]},
+        lambda: principle.end_conditions()[0][1],
         defect={key: g.diff(a[1])},
         consequence=shown,
         display=r"p(t_1) = -\frac{\partial}{\partial a}(\alpha M)_{t_1}",
@@ -133,65 +131,56 @@ def phase_costate() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "(1.6): u*",
     "the derivatives of H may be taken with u held fixed, or after u* is inserted",
-    verdict="holds",
+    display=r"\frac{\partial H}{\partial a}\Bigr|_{u^*}",
 )
-def envelope() -> Evidence:
-    def argument() -> Steps:
-        for variable, rest in zip((*a, psi, *p, q), principle.envelope(), strict=True):
-            yield f"dh(u*)/d{variable} = ∂h/∂{variable} + (∂h/∂u)(∂u*/∂{variable})", rest == 0
-        h = sp.Matrix([[smooth.eta, -1]]).dot(smooth.slow_rates())
-        yield "smooth example: ∂h/∂u = 0 at u*", vanishes(h.diff(smooth.u).subs(smooth.u, smooth.maximiser()))
-        s = sp.Matrix(sp.symbols("s1 s2", real=True))
-        best = s / s.norm()
-        yield "unit ball, u* = s/|s| on its boundary: s·∂u*/∂s = 0", vanishes(best.jacobian(s).T * s)
-
-    return Proof(argument, display=r"\frac{\partial H}{\partial a}\Bigr|_{u^*}")
+def envelope() -> Steps:
+    for variable, rest in zip((*a, psi, *p, q), principle.envelope(), strict=True):
+        yield f"dh(u*)/d{variable} = ∂h/∂{variable} + (∂h/∂u)(∂u*/∂{variable})", rest == 0
+    h = sp.Matrix([[smooth.eta, -1]]).dot(smooth.slow_rates())
+    yield "smooth example: ∂h/∂u = 0 at u*", vanishes(h.diff(smooth.u).subs(smooth.u, smooth.maximiser()))
+    s = sp.Matrix(sp.symbols("s1 s2", real=True))
+    best = s / s.norm()
+    yield "unit ball, u* = s/|s| on its boundary: s·∂u*/∂s = 0", vanishes(best.jacobian(s).T * s)
 
 
 @claim("(1.7)", "since the end time is free, H* = εh* = 0 at t1", verdict="holds")
 def free_end() -> Evidence:
-    key = "H^*|_{t_1}"
     h = p[0] * f[0] + p[1] * f[1]
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         ends, level = principle.end_conditions()
-        return {key: sp.expand(level.subs(q, ends[2]))}
+        return sp.expand(level.subs(q, ends[2]))
 
     return Equality(
-        {key: epsilon * h},
+        {"H^*|_{t_1}": epsilon * h},
         derived,
         display=r"H^*|_{t_1} = \varepsilon h(a, \psi, p, 0, u^*, \varepsilon)|_{t_1} = 0",
     )
 
 
-@claim("(1.8)", "H* = ωq + εh* = 0 along the whole motion", verdict="holds")
-def conserved() -> Evidence:
-    def argument() -> Steps:
-        H = omega * q + epsilon * h_star
-        yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0
-        yield "h* alone is not constant", principle.along(h_star) != 0
+@claim.proof(
+    "(1.8)", "H* = ωq + εh* = 0 along the whole motion", display=r"H^* = \omega q + \varepsilon h^* = 0"
+)
+def conserved() -> Steps:
+    H = omega * q + epsilon * h_star
+    yield "the rate of H* along its canonical equations is 0", principle.along(H) == 0
+    yield "h* alone is not constant", principle.along(h_star) != 0
 
-    return Proof(argument, display=r"H^* = \omega q + \varepsilon h^* = 0")
 
-
-@claim(
+@claim.proof(
     "after (1.8): standard form",
     "H* = 0 turns the canonical equations, with their term −ω'q, into a standard system",
-    verdict="holds",
 )
-def reducible() -> Evidence:
-    def argument() -> Steps:
-        first, second = principle.phase_costate()
-        yield (
-            "q = εq1 + ε²q2 + ... from H* = 0, with ω alone in denominators: q is small",
-            not (first.has(q, epsilon) or second.has(q, epsilon)),
-        )
-        size = sp.simplify(first * omega + principle.leading_h())
-        yield "q1 = −h*/ω at q = 0, ε = 0", size == 0
-        rate = -omega.diff(a[0]) * (epsilon * first)
-        yield "so −ω'q is of the order ε, as a' is", sp.simplify(rate / epsilon).has(epsilon) is False
-
-    return Proof(argument)
+def reducible() -> Steps:
+    first, second = principle.phase_costate()
+    yield (
+        "q = εq1 + ε²q2 + ... from H* = 0, with ω alone in denominators: q is small",
+        not (first.has(q, epsilon) or second.has(q, epsilon)),
+    )
+    size = sp.simplify(first * omega + principle.leading_h())
+    yield "q1 = −h*/ω at q = 0, ε = 0", size == 0
+    rate = -omega.diff(a[0]) * (epsilon * first)
+    yield "so −ω'q is of the order ε, as a' is", sp.simplify(rate / epsilon).has(epsilon) is False

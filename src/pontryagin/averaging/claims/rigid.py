@@ -9,6 +9,7 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Evidence,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -22,15 +23,14 @@ wx, wy, wz = w
 
 @claim("(3.10)", "Euler's equations of a symmetric body under small torques", verdict="holds")
 def equations_of_the_body() -> Evidence:
-    keys = (r"\dot\omega_x", r"\dot\omega_y", r"\dot\omega_z")
-    printed = (
-        epsilon * ux - (d - 1) * wy * wz,
-        epsilon * uy - (1 - d) * wx * wz,
-        epsilon * uz,
-    )
+    printed = {
+        r"\dot\omega_x": epsilon * ux - (d - 1) * wy * wz,
+        r"\dot\omega_y": epsilon * uy - (1 - d) * wx * wz,
+        r"\dot\omega_z": epsilon * uz,
+    }
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, rigid_body.symmetric_rates(), strict=True)),
+        printed,
+        rigid_body.symmetric_rates,
         display=r"\dot\omega_x + (d - 1)\omega_y\omega_z = \varepsilon u_x,\quad \dot\omega_y + (1 - "
         r"d)\omega_x\omega_z = \varepsilon u_y,\quad \dot\omega_z = \varepsilon u_z,\quad d = I_zI_x^{-1} "
         r"\ne 1",
@@ -44,23 +44,22 @@ def equations_of_the_body() -> Evidence:
     remark="The gyroscopic terms cancel in a', and with their signs they leave ψ' = +(d − 1)c.",
 )
 def polar_variables() -> Evidence:
-    keys = (r"\dot a", r"\dot c", r"\dot\psi", "a_0", "c_0")
     start = sp.sqrt(wx**2 + wy**2)
-    printed = (
-        epsilon * (ux * sp.cos(psi) + uy * sp.sin(psi)),
-        epsilon * uz,
-        (d - 1) * c + epsilon / a * (uy * sp.cos(psi) - ux * sp.sin(psi)),
-        start,
-        wz,
-    )
+    printed = {
+        r"\dot a": epsilon * (ux * sp.cos(psi) + uy * sp.sin(psi)),
+        r"\dot c": epsilon * uz,
+        r"\dot\psi": (d - 1) * c + epsilon / a * (uy * sp.cos(psi) - ux * sp.sin(psi)),
+        "a_0": start,
+        "c_0": wz,
+    }
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rates = rigid_body.polar_rates()
         square = sp.simplify(rigid_body.POLAR[wx] ** 2 + rigid_body.POLAR[wy] ** 2)
         radius = a * sp.sqrt((wx**2 + wy**2) / square)
-        return dict(zip(keys, (*rates, radius, wz), strict=True))
+        return *rates, radius, wz
 
-    return Equality(dict(zip(keys, printed, strict=True)), derived)
+    return Equality(printed, derived)
 
 
 @claim(

@@ -12,6 +12,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -38,29 +39,26 @@ def exact_rates(control: sp.Matrix) -> sp.Matrix:
     return rigid_body.slow_rates().subs(dict(zip(u, control, strict=True))).applyfunc(sp.simplify)
 
 
-@claim(
+@claim.proof(
     "example 3: thrusters",
     "fixed engines bound the moment about z; two vernier engines on the z axis bound the other two by a "
     "circle",
-    verdict="holds",
     remark="The bound is a circle of u because I_x = I_y.",
+    display=r"u_x^2 + u_y^2 \le l^2,\quad |u_z| \le h",
 )
-def thrusters() -> Evidence:
-    def argument() -> Steps:
-        arm, thrust = sp.symbols("L f", positive=True)
-        heading = sp.Symbol("theta", real=True)
-        force = thrust * sp.Matrix([sp.cos(heading), sp.sin(heading), 0])
-        place = sp.Matrix([0, 0, arm])
-        moment = place.cross(force) + (-place).cross(-force)
-        yield "the pair's forces cancel, its moments add", force + (-force) == sp.zeros(3, 1)
-        yield "no moment about z", moment[2] == 0
-        size = sp.simplify(moment[0] ** 2 + moment[1] ** 2)
-        yield "M_x² + M_y² = (2Lf)² whatever its direction", vanishes(size - (2 * arm * thrust) ** 2)
-        inertia = rigid_body.moments
-        scaled = sum((moment[i] / inertia[i]) ** 2 for i in (0, 1)).subs(rigid_body.SYMMETRIC)
-        yield "and u_x² + u_y² = (2Lf/I_x)²", vanishes(scaled - (2 * arm * thrust / inertia[0]) ** 2)
-
-    return Proof(argument, display=r"u_x^2 + u_y^2 \le l^2,\quad |u_z| \le h")
+def thrusters() -> Steps:
+    arm, thrust = sp.symbols("L f", positive=True)
+    heading = sp.Symbol("theta", real=True)
+    force = thrust * sp.Matrix([sp.cos(heading), sp.sin(heading), 0])
+    place = sp.Matrix([0, 0, arm])
+    moment = place.cross(force) + (-place).cross(-force)
+    yield "the pair's forces cancel, its moments add", force + (-force) == sp.zeros(3, 1)
+    yield "no moment about z", moment[2] == 0
+    size = sp.simplify(moment[0] ** 2 + moment[1] ** 2)
+    yield "M_x² + M_y² = (2Lf)² whatever its direction", vanishes(size - (2 * arm * thrust) ** 2)
+    inertia = rigid_body.moments
+    scaled = sum((moment[i] / inertia[i]) ** 2 for i in (0, 1)).subs(rigid_body.SYMMETRIC)
+    yield "and u_x² + u_y² = (2Lf/I_x)²", vanishes(scaled - (2 * arm * thrust / inertia[0]) ** 2)
 
 
 @claim(
@@ -83,7 +81,7 @@ def controls_on_the_cylinder() -> Evidence:
 
     return Misprint(
         dict(zip(keys, printed, strict=True)),
-        lambda: dict(zip(keys, without_phase_costate(), strict=True)),
+        without_phase_costate,
         defect={
             "u_x": (1 - l) * sp.cos(psi) * SIGN_P,
             "u_y": (1 - l) * sp.sin(psi) * SIGN_P,
@@ -195,13 +193,11 @@ def jumps_of_the_signs() -> Evidence:
     remark="This is exact for every ε: a' = εl sign p, c' = εh sign q without averaging.",
 )
 def integrals_of_the_signs() -> Evidence:
-    keys = (r"\int_0^{\tau_1}\mathrm{sign}\,p\,d\tau", r"\int_0^{\tau_1}\mathrm{sign}\,q\,d\tau")
-
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rates = exact_rates(without_phase_costate())
         P, Q = sp.symbols("P Q")
         sums = [(a0 + P * rates[0] / SIGN_P - a1, P), (c0 + Q * rates[1] / SIGN_Q - c1, Q)]
-        return dict(zip(keys, (sp.solve(*pair)[0] for pair in sums), strict=True))
+        return [sp.solve(*pair)[0] for pair in sums]
 
     def argument() -> Steps:
         rates = exact_rates(without_phase_costate())
@@ -210,70 +206,63 @@ def integrals_of_the_signs() -> Evidence:
         F = rigid_body.phase_rate().subs(dict(zip(u, without_phase_costate(), strict=True)))
         yield "and the control does not touch the phase: F = 0", vanishes(F)
 
-    printed = ((a1 - a0) / l, (c1 - c0) / h)
-    return Proof(argument, Equality(dict(zip(keys, printed, strict=True)), derived))
+    printed = {
+        r"\int_0^{\tau_1}\mathrm{sign}\,p\,d\tau": (a1 - a0) / l,
+        r"\int_0^{\tau_1}\mathrm{sign}\,q\,d\tau": (c1 - c0) / h,
+    }
+    return Proof(argument, Equality(printed, derived))
 
 
-@claim(
+@claim.proof(
     "example 3: τ1 on the cylinder",
     "τ₁ is the larger of |a₁ − a₀|/l and |ω_z1 − ω_z0|/h",
-    verdict="holds",
     remark="This is the exact minimum for every ε, also where ω_z changes its sign on the way: the frequency "
     "vanishes there and averaging would fail, but nothing is averaged.",
+    display=r"\tau_1 = \max\{|a_1 - a_0|l^{-1}, |\omega_{z1} - \omega_{z0}|h^{-1}\}",
 )
-def duration_on_the_cylinder() -> Evidence:
-    def argument() -> Steps:
-        slow = rigid_body.slow_rates()
-        across = u[0] * sp.cos(psi) + u[1] * sp.sin(psi)
-        aside = u[1] * sp.cos(psi) - u[0] * sp.sin(psi)
-        yield "a'/ε = u_x cos ψ + u_y sin ψ", vanishes(slow[0] - across)
-        yield "(a'/ε)² = u_x² + u_y² − a square ≤ l²", vanishes(across**2 + aside**2 - u[0] ** 2 - u[1] ** 2)
-        yield "c'/ε = u_z, at most h: no control is faster than the larger of the two", slow[1] == u[2]
-        share = sp.Symbol("sigma", real=True)
-        radial = sp.Matrix([share * l * sp.cos(psi), share * l * sp.sin(psi), u[2]])
-        inside = sp.simplify(radial[0] ** 2 + radial[1] ** 2 - share**2 * l**2)
-        yield "σl(cos ψ, sin ψ), |σ| ≤ 1, is allowed", inside == 0
-        arrival = a0 + sp.integrate(exact_rates(radial)[0], (tau, 0, T)).subs(share, (a1 - a0) / (l * T))
-        yield "and with σ = (a₁ − a₀)/(lτ₁) brings a to a₁ at τ₁", vanishes(arrival - a1)
-        yield "whatever ω_z does meanwhile", not exact_rates(radial).has(c)
-
-    return Proof(
-        argument,
-        display=r"\tau_1 = \max\{|a_1 - a_0|l^{-1}, |\omega_{z1} - \omega_{z0}|h^{-1}\}",
-    )
+def duration_on_the_cylinder() -> Steps:
+    slow = rigid_body.slow_rates()
+    across = u[0] * sp.cos(psi) + u[1] * sp.sin(psi)
+    aside = u[1] * sp.cos(psi) - u[0] * sp.sin(psi)
+    yield "a'/ε = u_x cos ψ + u_y sin ψ", vanishes(slow[0] - across)
+    yield "(a'/ε)² = u_x² + u_y² − a square ≤ l²", vanishes(across**2 + aside**2 - u[0] ** 2 - u[1] ** 2)
+    yield "c'/ε = u_z, at most h: no control is faster than the larger of the two", slow[1] == u[2]
+    share = sp.Symbol("sigma", real=True)
+    radial = sp.Matrix([share * l * sp.cos(psi), share * l * sp.sin(psi), u[2]])
+    inside = sp.simplify(radial[0] ** 2 + radial[1] ** 2 - share**2 * l**2)
+    yield "σl(cos ψ, sin ψ), |σ| ≤ 1, is allowed", inside == 0
+    arrival = a0 + sp.integrate(exact_rates(radial)[0], (tau, 0, T)).subs(share, (a1 - a0) / (l * T))
+    yield "and with σ = (a₁ − a₀)/(lτ₁) brings a to a₁ at τ₁", vanishes(arrival - a1)
+    yield "whatever ω_z does meanwhile", not exact_rates(radial).has(c)
 
 
-@claim(
+@claim.proof(
     "end of section 3",
     "some other problems of an asymmetric body, for example with viscous friction, can be solved in "
     "the same way",
-    verdict="holds",
     remark="Shown on one problem: any body with friction, torques in a ball, brought to rest. The length G "
     "of the angular momentum obeys a closed equation; the solution is exact for every ε.",
 )
-def other_problems() -> Evidence:
-    def argument() -> Steps:
-        inertia = sp.diag(*rigid_body.moments)
-        momentum = inertia * rigid_body.w
-        G, friction, start = sp.symbols("G chi G_0", positive=True)
-        torque = sp.Matrix(sp.symbols("M_x M_y M_z", real=True))
-        applied = torque - friction * momentum
-        rates = rigid_body.euler_rates().subs(dict(zip(u, inertia.inv() * applied, strict=True)))
-        growth = sp.expand(sp.simplify(momentum.dot(inertia * rates)))
-        power = sp.expand(epsilon * (momentum.dot(torque) - friction * momentum.dot(momentum)))
-        yield "I_x ≠ I_y ≠ I_z: GG' = ε(K·M − χG²), K = Iω", vanishes(growth - power)
-        yield (
-            "without torque and friction G is constant",
-            power.subs({friction: 0}).subs(dict.fromkeys(torque, 0)) == 0,
-        )
-        K = sp.Matrix(sp.symbols("K_x K_y K_z", real=True))
-        size = sp.sqrt(K.dot(K))
-        along = sp.simplify(K.dot(-K / size) / size)
-        yield "M = −K/G of the ball |M| ≤ 1 gives G' = −ε(1 + χG)", along == -1
-        area = K.cross(torque)
-        slack = K.dot(K) * torque.dot(torque) - K.dot(torque) ** 2
-        yield "and no other less: (K·M)² ≤ G²M²", vanishes(slack - area.dot(area))
-        left = sp.integrate(1 / (1 + friction * G), (G, 0, start))
-        yield "at rest after τ₁ = ln(1 + χG₀)/χ", vanishes(left - sp.log(1 + friction * start) / friction)
-
-    return Proof(argument)
+def other_problems() -> Steps:
+    inertia = sp.diag(*rigid_body.moments)
+    momentum = inertia * rigid_body.w
+    G, friction, start = sp.symbols("G chi G_0", positive=True)
+    torque = sp.Matrix(sp.symbols("M_x M_y M_z", real=True))
+    applied = torque - friction * momentum
+    rates = rigid_body.euler_rates().subs(dict(zip(u, inertia.inv() * applied, strict=True)))
+    growth = sp.expand(sp.simplify(momentum.dot(inertia * rates)))
+    power = sp.expand(epsilon * (momentum.dot(torque) - friction * momentum.dot(momentum)))
+    yield "I_x ≠ I_y ≠ I_z: GG' = ε(K·M − χG²), K = Iω", vanishes(growth - power)
+    yield (
+        "without torque and friction G is constant",
+        power.subs({friction: 0}).subs(dict.fromkeys(torque, 0)) == 0,
+    )
+    K = sp.Matrix(sp.symbols("K_x K_y K_z", real=True))
+    size = sp.sqrt(K.dot(K))
+    along = sp.simplify(K.dot(-K / size) / size)
+    yield "M = −K/G of the ball |M| ≤ 1 gives G' = −ε(1 + χG)", along == -1
+    area = K.cross(torque)
+    slack = K.dot(K) * torque.dot(torque) - K.dot(torque) ** 2
+    yield "and no other less: (K·M)² ≤ G²M²", vanishes(slack - area.dot(area))
+    left = sp.integrate(1 / (1 + friction * G), (G, 0, start))
+    yield "at rest after τ₁ = ln(1 + χG₀)/χ", vanishes(left - sp.log(1 + friction * start) / friction)

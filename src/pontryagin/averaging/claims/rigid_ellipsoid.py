@@ -27,6 +27,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -37,7 +38,7 @@ R = sp.Rational
 a0, c0 = sp.symbols("a_0 c_0", positive=True)
 R_mean = sp.Symbol(r"\langle{R}\rangle", positive=True)
 tau = sp.Symbol("tau", real=True)
-ux, uy, uz = u
+uz = u[2]
 wx, wy, wz = w
 k = 1 - ly**2 / lx**2
 r = sp.sqrt(lx**2 * wx**2 + ly**2 * wy**2)
@@ -59,71 +60,59 @@ def of_modulus(modulus: sp.Expr) -> sp.Expr:
     "l_y = 1, ω_x = ω_y the sum of squares is 2/5. a, ⟨R⟩ and τ₁ below belong to the right control.",
 )
 def synthesis() -> Evidence:
-    keys = ("u_x", "u_y", "u_z")
     numbers = {lx: 2, ly: 1, semiaxes[2]: 1, wx: 1, wy: 1}
-
-    def consequence() -> Consequence:
-        return Consequence(
+    return Misprint(
+        dict(zip(("u_x", "u_y", "u_z"), BRAKING, strict=True)),
+        rigid_body.braking,
+        defect={"u_x": lx * (lx - 1) * wx / r, "u_y": ly * (ly - 1) * wy / r},
+        consequence=lambda: Consequence(
             "u_x²/l_x² + u_y²/l_y² + u_z²/l_z² for l_x = 2, l_y = 1, ω_x = ω_y = 1, on the ellipsoid",
             rigid_body.in_ellipsoid(BRAKING).subs(numbers),
             rigid_body.in_ellipsoid(rigid_body.braking()).subs(numbers),
-        )
-
-    return Misprint(
-        dict(zip(keys, BRAKING, strict=True)),
-        lambda: dict(zip(keys, rigid_body.braking(), strict=True)),
-        defect={"u_x": lx * (lx - 1) * wx / r, "u_y": ly * (ly - 1) * wy / r},
-        consequence=consequence,
+        ),
         display=r"u_x = -l_x\omega_xr^{-1},\quad u_y = -l_y\omega_yr^{-1},\quad u_z \equiv 0;\quad r = "
         r"(l_x^2\omega_x^2 + l_y^2\omega_y^2)^{1/2}",
     )
 
 
-@claim(
+@claim.proof(
     "example 3: set of controls",
     "the synthesis keeps to the ellipsoid, and no control in it lowers a faster",
-    verdict="holds",
     remark="This holds for the corrected synthesis, with l_x² and l_y².",
 )
-def synthesis_is_optimal() -> Evidence:
-    def argument() -> Steps:
-        control = rigid_body.braking()
-        yield "it lies on the ellipsoid", vanishes(rigid_body.in_ellipsoid(control) - 1)
-        rate = rigid_body.slow_rates()[0].subs(dict(zip(u, control, strict=True))).subs(rigid_body.POLAR)
-        yield "a' = −εR, R = √(l_x²cos²ψ + l_y²sin²ψ)", vanishes(rate + rigid_body.deceleration())
-        s = sp.Matrix(sp.symbols("s_x s_y s_z", real=True))
-        ball = sp.Matrix(sp.symbols("n_x n_y n_z", real=True))
-        reached = s.dot(sp.diag(*semiaxes) * ball)
-        gap = rigid_body.ellipsoid_support(s) ** 2 * ball.dot(ball) - reached**2
-        area = (sp.diag(*semiaxes) * s).cross(ball)
-        yield "(s·u)² ≤ R² on the ellipsoid: Lagrange's identity", vanishes(gap - area.dot(area))
-
-    return Proof(argument)
+def synthesis_is_optimal() -> Steps:
+    control = rigid_body.braking()
+    yield "it lies on the ellipsoid", vanishes(rigid_body.in_ellipsoid(control) - 1)
+    rate = rigid_body.slow_rates()[0].subs(dict(zip(u, control, strict=True))).subs(rigid_body.POLAR)
+    yield "a' = −εR, R = √(l_x²cos²ψ + l_y²sin²ψ)", vanishes(rate + rigid_body.deceleration())
+    s = sp.Matrix(sp.symbols("s_x s_y s_z", real=True))
+    ball = sp.Matrix(sp.symbols("n_x n_y n_z", real=True))
+    reached = s.dot(sp.diag(*semiaxes) * ball)
+    gap = rigid_body.ellipsoid_support(s) ** 2 * ball.dot(ball) - reached**2
+    area = (sp.diag(*semiaxes) * s).cross(ball)
+    yield "(s·u)² ≤ R² on the ellipsoid: Lagrange's identity", vanishes(gap - area.dot(area))
 
 
-@claim(
+@claim.proof(
     "example 3: u_z",
     "u_z ≡ 0: the axial rate is not changed",
-    verdict="holds",
     remark="True in the first approximation. In the exact problem the costate of c changes by O(ε) unless "
     "l_x = l_y, and so does u_z.",
+    display=r"u_z \equiv 0",
 )
-def axial_control() -> Evidence:
-    def argument() -> Steps:
-        s = rigid_body.switching().subs(p_psi, 0)
-        h_star = rigid_body.ellipsoid_support(s)
-        yield "h* does not contain c", not h_star.has(c)
-        rate = -(sp.Symbol("kappa") * rigid_body.anomaly_rate()).diff(c)
-        yield "dη_c/dτ = −(d − 1)κ = 0 at κ = 0", rate.subs(sp.Symbol("kappa"), 0) == 0
-        held = rigid_body.ellipsoid_maximiser(s).subs(p_c, 0)[2]
-        yield "η_c = 0 at the end, c being free there, hence always; then u_z = 0", held == 0
-        whole = rigid_body.ellipsoid_support(rigid_body.switching())
-        turning = whole.diff(psi)
-        yield "exactly: ψ drops out of H for l_x = l_y", vanishes(sp.simplify(turning.subs(ly, lx)))
-        numbers = {lx: 2, ly: 1, semiaxes[2]: 1, p_a: -1, p_c: 0, p_psi: 0, psi: sp.pi / 4, a: 1}
-        yield "and not for l_x = 2, l_y = 1", turning.subs(numbers) != 0
-
-    return Proof(argument, display=r"u_z \equiv 0")
+def axial_control() -> Steps:
+    s = rigid_body.switching().subs(p_psi, 0)
+    h_star = rigid_body.ellipsoid_support(s)
+    yield "h* does not contain c", not h_star.has(c)
+    rate = -(sp.Symbol("kappa") * rigid_body.anomaly_rate()).diff(c)
+    yield "dη_c/dτ = −(d − 1)κ = 0 at κ = 0", rate.subs(sp.Symbol("kappa"), 0) == 0
+    held = rigid_body.ellipsoid_maximiser(s).subs(p_c, 0)[2]
+    yield "η_c = 0 at the end, c being free there, hence always; then u_z = 0", held == 0
+    whole = rigid_body.ellipsoid_support(rigid_body.switching())
+    turning = whole.diff(psi)
+    yield "exactly: ψ drops out of H for l_x = l_y", vanishes(sp.simplify(turning.subs(ly, lx)))
+    numbers = {lx: 2, ly: 1, semiaxes[2]: 1, p_a: -1, p_c: 0, p_psi: 0, psi: sp.pi / 4, a: 1}
+    yield "and not for l_x = 2, l_y = 1", turning.subs(numbers) != 0
 
 
 @claim(
@@ -135,18 +124,16 @@ def axial_control() -> Evidence:
     "does not cover, does no harm.",
 )
 def solution() -> Evidence:
-    keys = (r"a(\tau)", r"c(\tau)", r"\tau_1")
-    printed = (a0 - R_mean * tau, c0, a0 / R_mean)
+    slowing, duration = a0 - R_mean * tau, a0 / R_mean
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         rate, axial = -R_mean, rigid_body.slow_rates()[1].subs(uz, 0)
         slow = a0 + sp.integrate(rate, (tau, 0, tau))
-        values = (slow, c0 + sp.integrate(axial, (tau, 0, tau)), sp.solve(slow, tau)[0])
-        return dict(zip(keys, values, strict=True))
+        return (slow, c0 + sp.integrate(axial, (tau, 0, tau)), sp.solve(slow, tau)[0])
 
     def argument() -> Steps:
-        yield "a(0) = a₀", printed[0].subs(tau, 0) == a0
-        yield "a(τ₁) = 0", vanishes(printed[0].subs(tau, printed[2]))
+        yield "a(0) = a₀", slowing.subs(tau, 0) == a0
+        yield "a(τ₁) = 0", vanishes(slowing.subs(tau, duration))
         angle, heading = sp.symbols("theta chi", real=True)
         seen = rigid_body.with_free_motion(rigid_body.symmetric_rates(), angle) / epsilon
         yield "in turning axes only the control is left", not sp.simplify(seen).has(wx, wy, wz)
@@ -159,7 +146,7 @@ def solution() -> Evidence:
             vanishes(sp.simplify(reach - square.subs(psi, angle + heading))),
         )
 
-    return Proof(argument, Equality(dict(zip(keys, printed, strict=True)), derived))
+    return Proof(argument, Equality({r"a(\tau)": slowing, r"c(\tau)": c0, r"\tau_1": duration}, derived))
 
 
 @claim(
@@ -171,12 +158,8 @@ def solution() -> Evidence:
     "0.7710; with √k taken for the parameter it would be 0.7203.",
 )
 def mean_deceleration() -> Evidence:
-    keys = (r"\langle R\rangle,\ 0 \le k < 1", r"\langle R\rangle,\ k < 0")
-
-    def derived() -> dict[str, sp.Expr]:
-        return dict(
-            zip(keys, (rigid_body.mean_deceleration(), rigid_body.mean_deceleration_turned()), strict=True)
-        )
+    def derived() -> tuple[sp.Expr, sp.Expr]:
+        return rigid_body.mean_deceleration(), rigid_body.mean_deceleration_turned()
 
     def argument() -> Steps:
         inside = sp.Symbol("psi_1", real=True)
@@ -187,7 +170,7 @@ def mean_deceleration() -> Evidence:
         yield "E of SymPy is the integral of √(1 − k sin²ψ)", vanishes(same - quarter.function)
         yield "a ball, l_x = l_y = l: ⟨R⟩ = l", vanishes(first.subs(ly, lx) - lx)
         yield "l_y → 0: ⟨R⟩ = 2l_x/π", vanishes(first.subs(ly, 0) - 2 * lx / sp.pi)
-        branches = [form.subs({lx: 1, ly: 2}).evalf(20) for form in derived().values()]
+        branches = [form.subs({lx: 1, ly: 2}).evalf(20) for form in derived()]
         yield (
             "both branches agree where both are real: l_x = 1, l_y = 2",
             abs(branches[0] - branches[1]) < 1e-15,
@@ -198,13 +181,13 @@ def mean_deceleration() -> Evidence:
         yield "l_x = 1, l_y = ½: 0.7710", abs(modulus - R(7710, 10000)) < R(1, 20000)
         yield "with √k for the parameter 0.7203", abs(parameter - R(7203, 10000)) < R(1, 20000)
 
-    printed = (
-        2 * lx / sp.pi * of_modulus(sp.sqrt(k)),
-        2 * lx / sp.pi * sp.sqrt(1 - k) * of_modulus(sp.sqrt(k / (k - 1))),
-    )
+    printed = {
+        r"\langle R\rangle,\ 0 \le k < 1": 2 * lx / sp.pi * of_modulus(sp.sqrt(k)),
+        r"\langle R\rangle,\ k < 0": 2 * lx / sp.pi * sp.sqrt(1 - k) * of_modulus(sp.sqrt(k / (k - 1))),
+    }
     return Proof(
         argument,
-        Equality(dict(zip(keys, printed, strict=True)), derived),
+        Equality(printed, derived),
         display=r"\langle R\rangle = 2\frac{l_x}{\pi}\begin{cases} E(\sqrt k), & 0 \le k < 1,\quad k = 1 - "
         r"l_y^2l_x^{-2} \\ \sqrt{1 - k}\,E(\sqrt{k/(k - 1)}), & 0 > k > -\infty \end{cases}",
     )

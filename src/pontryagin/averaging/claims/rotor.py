@@ -27,34 +27,30 @@ TURN = 2 * sp.pi / sp.Integral(1 / SPEED, (x, 0, 2 * sp.pi))
 @claim("(3.1)", "a rotor with mass m(x) and potential V(x) under the forces εu and εf", verdict="holds")
 def equation_of_the_rotor() -> Evidence:
     printed = MASS * rotor.second + MASS.diff(x) * v**2 / 2 + POTENTIAL.diff(x)
-    key = r"\varepsilon u + \varepsilon f"
     return Equality(
-        {key: printed},
-        lambda: {key: rotor.equation_of_motion()},
+        {r"\varepsilon u + \varepsilon f": printed},
+        rotor.equation_of_motion,
         display=r"m(x)x'' + \tfrac12 m'x'^2 + V'(x) = \varepsilon u + \varepsilon f(x, x')",
     )
 
 
-@claim(
+@claim.proof(
     "(3.1): bounds",
     "with x₁' < x' < x₂' the frequency stays between x₁' and x₂', away from 0",
-    verdict="holds",
     remark="ω is the harmonic mean of x' over the angle. x' > 0 at the start is not enough: the bounds need "
     "a > max V along the whole motion, so that a0 and a1 must both lie above V₂.",
+    display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty",
 )
-def frequency_is_bounded() -> Evidence:
-    def argument() -> Steps:
-        for bound in (slow, fast):
-            turn = 2 * sp.pi / rotor.over_a_turn(1 / bound)
-            yield f"a constant x' = {bound} has the frequency {bound}", vanishes(turn - bound)
-        whole = sp.Symbol("I", positive=True)
-        yield "2π/∮dx/x' falls as 1/x' grows", (2 * sp.pi / whole).diff(whole).is_negative
-        yield (
-            "x' vanishes where a = V: with a below max V the rotor swings back",
-            rotor.speed().subs(a, POTENTIAL) == 0,
-        )
-
-    return Proof(argument, display=r"\infty > x_2' > x' > x_1' > 0,\quad \infty > V_2 > V > V_1 > -\infty")
+def frequency_is_bounded() -> Steps:
+    for bound in (slow, fast):
+        turn = 2 * sp.pi / rotor.over_a_turn(1 / bound)
+        yield f"a constant x' = {bound} has the frequency {bound}", vanishes(turn - bound)
+    whole = sp.Symbol("I", positive=True)
+    yield "2π/∮dx/x' falls as 1/x' grows", (2 * sp.pi / whole).diff(whole).is_negative
+    yield (
+        "x' vanishes where a = V: with a below max V the rotor swings back",
+        rotor.speed().subs(a, POTENTIAL) == 0,
+    )
 
 
 @claim("after (3.1): integration", "at ε = 0 the energy a is constant, and t + γ = ∫dx/x'", verdict="holds")
@@ -82,11 +78,6 @@ def unperturbed_motion() -> Evidence:
     verdict="holds",
 )
 def standard_form() -> Evidence:
-    keys = (r"\dot a/\varepsilon", "x'(a, x)", r"\omega(a)")
-
-    def derived() -> dict[str, sp.Expr]:
-        return dict(zip(keys, (rotor.slow_rate(), rotor.speed(), rotor.frequency()), strict=True))
-
     def argument() -> Steps:
         yield (
             "psi' = ω at ε = 0: dpsi/dx times x'",
@@ -98,10 +89,14 @@ def standard_form() -> Evidence:
         share = rotor.phase_rate() / rotor.slow_rate()
         yield "F = a'/ε times dpsi/da at a fixed x, periodic in x therefore", not share.has(u, FORCE)
 
-    printed = (SPEED * (u + FORCE.subs(v, SPEED)), SPEED, TURN)
+    printed = {
+        r"\dot a/\varepsilon": SPEED * (u + FORCE.subs(v, SPEED)),
+        "x'(a, x)": SPEED,
+        r"\omega(a)": TURN,
+    }
     return Proof(
         argument,
-        Equality(dict(zip(keys, printed, strict=True)), derived),
+        Equality(printed, lambda: (rotor.slow_rate(), rotor.speed(), rotor.frequency())),
         display=r"\dot a = \varepsilon x'(u + f),\quad x' = (2/m)^{1/2}(a - V)^{1/2},\quad "
         r"\dot\psi = \omega(a) + O(\varepsilon),\quad \omega(a) = 2\pi \Big/ \oint dx/x'",
     )
@@ -109,5 +104,4 @@ def standard_form() -> Evidence:
 
 @claim("after (3.1): averaging", "averages over ψ are taken over x: dψ = ω(a)dx/x'", verdict="holds")
 def averaging_over_the_angle() -> Evidence:
-    key = r"d\psi/dx"
-    return Equality({key: TURN / SPEED}, lambda: {key: rotor.phase_weight()})
+    return Equality({r"d\psi/dx": TURN / SPEED}, rotor.phase_weight)

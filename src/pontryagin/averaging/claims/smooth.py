@@ -12,6 +12,7 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -35,11 +36,9 @@ COST = 2 * k * T - kappa**2 * T**3 / 24 - kappa * T * gap / 2 - kappa * v1 * T
     verdict="holds",
 )
 def system_of_the_smooth_example() -> Evidence:
-    keys = (r"\dot x", r"\ddot x/\varepsilon", r"db/d\tau")
-    printed = dict(zip(keys, (v, u, k + u**2), strict=True))
     return Equality(
-        printed,
-        lambda: dict(zip(keys, (smooth.anomaly_rate(), *smooth.slow_rates()), strict=True)),
+        {r"\dot x": v, r"\ddot x/\varepsilon": u, r"db/d\tau": k + u**2},
+        lambda: (smooth.anomaly_rate(), *smooth.slow_rates()),
         display=r"m(x) \equiv 1,\quad V = \mathrm{const},\quad \dot x(\tau_1) = v_1,\quad J = "
         r"b(\tau_1),\quad db/d\tau = k + u^2",
     )
@@ -47,7 +46,7 @@ def system_of_the_smooth_example() -> Evidence:
 
 @claim("before (3.2): u*", "the optimal control is half the costate of x'", verdict="holds")
 def control_of_the_smooth_example() -> Evidence:
-    return Equality({"u^*": eta / 2}, lambda: {"u^*": smooth.maximiser()}, display=r"u^* = \tfrac12 p")
+    return Equality({"u^*": eta / 2}, smooth.maximiser, display=r"u^* = \tfrac12 p")
 
 
 @claim(
@@ -59,21 +58,16 @@ def control_of_the_smooth_example() -> Evidence:
     "come from the right sign: none of them is affected.",
 )
 def averaged_solution() -> Evidence:
-    keys = (r"\xi", r"\eta")
     numbers = {v1: 1, gap: 1, T: 1, kappa: 1, tau: 0}
-
-    def consequence() -> Consequence:
-        return Consequence(
+    return Misprint(
+        {r"\xi": XI, r"\eta": ETA},
+        smooth.averaged_solution,
+        defect={r"\xi": kappa * (tau - T) ** 2 / 2},
+        consequence=lambda: Consequence(
             "ξ(0) for v0 = 2, v1 = 1, τ₁ = 1, κ = 1",
             XI.subs(numbers),
             smooth.averaged_solution()[0].subs(numbers),
-        )
-
-    return Misprint(
-        dict(zip(keys, (XI, ETA), strict=True)),
-        lambda: dict(zip(keys, smooth.averaged_solution(), strict=True)),
-        defect={keys[0]: kappa * (tau - T) ** 2 / 2},
-        consequence=consequence,
+        ),
         display=r"\xi = (\kappa/4)(\tau - \tau_1)^2 - (\tau - \tau_1)\tau_1^{-1}(\Delta v + "
         r"\kappa\tau_1^2/4) + v_1,\quad \eta = -\kappa(\tau - \tau_1) - 2\tau_1^{-1}(\Delta v + "
         r"\kappa\tau_1^2/4),\quad \Delta v \equiv v_0 - v_1",
@@ -111,7 +105,7 @@ def cost_of_duration_and_kappa() -> Evidence:
 
     return Conditional(
         argument,
-        Equality({"J_0": COST}, lambda: {"J_0": cost_on_the_condition()}),
+        Equality({"J_0": COST}, cost_on_the_condition),
         counterexample=counterexample,
         display=r"J_0(\tau_1, \kappa) = 2k\tau_1 - \kappa^2\tau_1^3/24 - \kappa\tau_1\Delta v/2 - \kappa v_1"
         r"\tau_1",
@@ -120,10 +114,9 @@ def cost_of_duration_and_kappa() -> Evidence:
 
 @claim("after J0: condition", "the condition that corresponds to (2.12) and gives τ₁(κ)", verdict="holds")
 def condition_for_the_duration() -> Evidence:
-    key = r"\tau_1^2\,[\omega\kappa + h_0]_{\tau_1}"
     return Equality(
-        {key: (v1 * kappa - k) * T**2 + (gap + kappa * T**2 / 4) ** 2},
-        lambda: {key: T**2 * smooth.transversality()},
+        {r"\tau_1^2\,[\omega\kappa + h_0]_{\tau_1}": (v1 * kappa - k) * T**2 + (gap + kappa * T**2 / 4) ** 2},
+        lambda: T**2 * smooth.transversality(),
         display=r"(v_1\kappa - k)\tau_1^2 + (\Delta v + \kappa\tau_1^2/4)^2 = 0",
     )
 
@@ -147,10 +140,9 @@ def first_derivative() -> Evidence:
 
 @claim("after J0: dτ1/dκ", "the derivative of τ₁ with respect to κ at κ = 0", verdict="holds")
 def derivative_of_the_duration() -> Evidence:
-    key = r"d\tau_1/d\kappa|_{\kappa = 0}"
     return Equality(
-        {key: T / (2 * k) * (v1 + gap / 2)},
-        lambda: {key: smooth.optimal_slope()},
+        {r"d\tau_1/d\kappa|_{\kappa = 0}": T / (2 * k) * (v1 + gap / 2)},
+        smooth.optimal_slope,
         display=r"\frac{d\tau_1}{d\kappa}\Big|_{\kappa = 0} = \frac{\tau_1(0)}{2k}\left(v_1 + \frac{\Delta "
         r"v}{2}\right)",
     )
@@ -164,7 +156,6 @@ def derivative_of_the_duration() -> Evidence:
     "from the right sign.",
 )
 def second_derivative() -> Evidence:
-    key = r"d^2J_0/d\kappa^2|_{\kappa = 0}"
     printed = T**3 / 24 + T / (2 * k) * (v1 + gap / 2) ** 2
 
     def argument() -> Steps:
@@ -182,11 +173,11 @@ def second_derivative() -> Evidence:
             vanishes(wrong - 5 * T**3 / 24) and vanishes(right - T**3 / 24),
         )
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         by_kappa = smooth.turned().diff(kappa) + smooth.turned().diff(T) * slope
-        return {key: by_kappa.subs(kappa, 0).subs(slope, smooth.optimal_slope())}
+        return by_kappa.subs(kappa, 0).subs(slope, smooth.optimal_slope())
 
-    return Proof(argument, Equality({key: printed}, derived))
+    return Proof(argument, Equality({r"d^2J_0/d\kappa^2|_{\kappa = 0}": printed}, derived))
 
 
 @claim(
@@ -201,12 +192,11 @@ def solution() -> Evidence:
     length = sp.Abs(gap) / sp.sqrt(k)
     printed = (-gap / length, 2 * sp.sqrt(k) * sp.Abs(gap), length, v0 - gap / length * tau)
 
-    def derived() -> dict[str, sp.Expr]:
+    def derived() -> RightSides:
         end = {kappa: 0, T: smooth.duration()}
         speed, costate = smooth.averaged_solution()
         control = smooth.maximiser().subs(eta, costate).subs(end)
-        values = (control, smooth.cost().subs(end), smooth.duration(), speed.subs(end).subs(v1, v0 - gap))
-        return dict(zip(keys, values, strict=True))
+        return (control, smooth.cost().subs(end), smooth.duration(), speed.subs(end).subs(v1, v0 - gap))
 
     def argument() -> Steps:
         at = smooth.transversality().subs({kappa: 0, T: length})

@@ -11,7 +11,6 @@ from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
     Evidence,
-    Proof,
     Steps,
     vanishes,
 )
@@ -21,28 +20,22 @@ claim = Page("Akulenko 1977")
 R = sp.Rational
 
 
-@claim(
+@claim.proof(
     "(2.6)",
     "with (2.5) inserted, (2.2) does not determine τ1 as closely as needed, since the phase is known "
     "to O(1) only",
-    verdict="holds",
+    display=r"h^*(\xi + O(\varepsilon), \frac{1}{\varepsilon}\int_0^{\tau_1}\omega d\tau + O(1), \eta + "
+    r"O(\varepsilon), O(\varepsilon), \varepsilon) = 0",
 )
-def approximate_condition() -> Evidence:
-    def argument() -> Steps:
-        for eps in worked.EPSILONS:
-            off = worked.deviations(eps)["phase"]
-            yield f"rippled example, ε = {eps}: the phase at the end is off by up to {off:.2f}", off > 0.1
-            levels = worked.roots(eps).level + swing_off(eps)
-            yield (
-                f"at the exact roots (2.6) leaves up to {np.abs(levels).max():.2f} of h*",
-                (np.abs(levels).max() > 0.05),
-            )
-
-    return Proof(
-        argument,
-        display=r"h^*(\xi + O(\varepsilon), \frac{1}{\varepsilon}\int_0^{\tau_1}\omega d\tau + O(1), \eta + "
-        r"O(\varepsilon), O(\varepsilon), \varepsilon) = 0",
-    )
+def approximate_condition() -> Steps:
+    for eps in worked.EPSILONS:
+        off = worked.deviations(eps)["phase"]
+        yield f"rippled example, ε = {eps}: the phase at the end is off by up to {off:.2f}", off > 0.1
+        levels = worked.roots(eps).level + swing_off(eps)
+        yield (
+            f"at the exact roots (2.6) leaves up to {np.abs(levels).max():.2f} of h*",
+            (np.abs(levels).max() > 0.05),
+        )
 
 
 def approximate_level(member: np.ndarray, eps: float) -> np.ndarray:
@@ -104,24 +97,24 @@ def neighbourhood() -> Evidence:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("(2.7)", "the roots lie around the root of ⟨h*⟩ = 0", verdict="holds")
-def mean_condition() -> Evidence:
-    def argument() -> Steps:
-        level = averaged.averaged_hamiltonian()
-        yield "h0 = −ωκ at the end, so (2.7) is κ = 0", sp.solve(level.subs(h0, 0), kappa) == [0]
-        T = ripple.of_kappa(ripple.duration()).subs({ripple.rise: 1, smooth.kappa: 0})
-        yield "smooth example: τ1* = (v1 − v0)/√k", vanishes(T - (smooth.v1 - smooth.v0) / sp.sqrt(smooth.k))
-        low, high = worked.window()
-        yield f"rippled: the window from κ = {low:.3f} to {high:.3f} has κ = 0 inside", low < 0 < high
-
-    return Proof(argument, display=r"\langle h_0(\xi(\tau_1, \tau_1), \eta(\tau_1, \tau_1)) \rangle = 0")
+@claim.proof(
+    "(2.7)",
+    "the roots lie around the root of ⟨h*⟩ = 0",
+    display=r"\langle h_0(\xi(\tau_1, \tau_1), \eta(\tau_1, \tau_1)) \rangle = 0",
+)
+def mean_condition() -> Steps:
+    level = averaged.averaged_hamiltonian()
+    yield "h0 = −ωκ at the end, so (2.7) is κ = 0", sp.solve(level.subs(h0, 0), kappa) == [0]
+    T = ripple.of_kappa(ripple.duration()).subs({ripple.rise: 1, smooth.kappa: 0})
+    yield "smooth example: τ1* = (v1 − v0)/√k", vanishes(T - (smooth.v1 - smooth.v0) / sp.sqrt(smooth.k))
+    low, high = worked.window()
+    yield f"rippled: the window from κ = {low:.3f} to {high:.3f} has κ = 0 inside", low < 0 < high
 
 
 @claim(
     "(2.8)", "the phase at the end changes with τ1: derivative of ∫ω dτ with respect to τ1", verdict="holds"
 )
 def phase_runs() -> Evidence:
-    key = r"\frac{d}{d\tau_1}\int_0^{\tau_1}\omega d\tau"
     end, time = sp.symbols("tau_1 tau", positive=True)
     w, path = sp.Function("omega"), sp.Function("xi")(time, end)
     named = sp.Symbol("omega'")
@@ -131,34 +124,31 @@ def phase_runs() -> Evidence:
         return w(path).subs(time, end) + sp.Integral(slope * path.diff(end), (time, 0, end))
 
     return Equality(
-        {key: printed()},
-        lambda: {key: sp.Integral(w(path), (time, 0, end)).diff(end)},
+        {r"\frac{d}{d\tau_1}\int_0^{\tau_1}\omega d\tau": printed()},
+        lambda: sp.Integral(w(path), (time, 0, end)).diff(end),
         display=rf"\omega(\xi(\tau_1^*, \tau_1^*)) + \int_0^{{\tau_1^*}} {named}(\xi(\tau, \tau_1^*))"
         r"\frac{\partial \xi(\tau, \tau_1^*)}{\partial \tau_1^*}d\tau \ne 0",
     )
 
 
-@claim(
+@claim.proof(
     "(2.9)",
     "to the first order τ1 may be taken from an interval, and the optimal τ1 is the one for which "
     "J0(τ1) is least",
-    verdict="holds",
     remark="True where h* takes both signs over a turn. The exact optimal τ1 differs by O(ε), with a factor "
     "that jumps from one ε to another as the best root changes.",
+    display=r"J_0 = g_0(\xi(\tau_1, \tau_1)) \to \min_{\tau_1}",
 )
-def interval() -> Evidence:
-    def argument() -> Steps:
-        ends = worked.averaged(ripple.duration(), np.array(worked.window()))
-        for eps in worked.EPSILONS:
-            found = worked.roots(eps)
-            gaps = np.diff(np.sort(np.concatenate([found.duration, ends])))
-            yield (
-                f"rippled example, ε = {eps}: the roots fill the interval from {ends[0]:.3f} to "
-                f"{ends[1]:.3f} "
-                f"with gaps of at most {gaps.max() / eps:.1f}ε",
-                gaps.max() < 6 * eps,
-            )
-            off = abs(found.duration[worked.best(eps)] - 1)
-            yield f"the best has τ1 = 1 within {off / eps:.2f}ε", off < 2.5 * eps
-
-    return Proof(argument, display=r"J_0 = g_0(\xi(\tau_1, \tau_1)) \to \min_{\tau_1}")
+def interval() -> Steps:
+    ends = worked.averaged(ripple.duration(), np.array(worked.window()))
+    for eps in worked.EPSILONS:
+        found = worked.roots(eps)
+        gaps = np.diff(np.sort(np.concatenate([found.duration, ends])))
+        yield (
+            f"rippled example, ε = {eps}: the roots fill the interval from {ends[0]:.3f} to "
+            f"{ends[1]:.3f} "
+            f"with gaps of at most {gaps.max() / eps:.1f}ε",
+            gaps.max() < 6 * eps,
+        )
+        off = abs(found.duration[worked.best(eps)] - 1)
+        yield f"the best has τ1 = 1 within {off / eps:.2f}ε", off < 2.5 * eps

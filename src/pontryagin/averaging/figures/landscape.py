@@ -4,20 +4,18 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solve_averaged
 from pontryagin.averaging.exact.extremal import Extremals
-from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
+from pontryagin.averaging.figures.families import draw_costs
+from pontryagin.averaging.figures.labels import END_TIME
 from pontryagin.display.plotting import (
     styled,
     subplots,
 )
 from pontryagin.errors import Infeasible, NotConverged
-
-PER_TURN = 60
 
 
 @styled
@@ -34,33 +32,17 @@ def landscape(solution: AveragedSolution, epsilons: Sequence[float]) -> Figure:
     figure, axes = subplots(len(epsilons), sharex=True, height=1.0 + 1.7 * len(epsilons))
     for ax, epsilon in zip(np.atleast_1d(axes), epsilons, strict=True):
         found = solution.exact(epsilon)
-        tau, cost = curve(found)
-        ax.plot(tau, cost, color=EXACT, linewidth=1.1, label="$J$, exact")
         low, high = (kappa_at(found, end) for end in (0, -1))
-        mean = averaged_family(solution, low, high)
-        ax.plot(*mean, color=MEAN, label="$J_0$, averaged")
-        for kind, style in KINDS.items():
-            chosen = [one for one in found if one.kind == kind]
-            at, values = [one.duration for one in chosen], [one.cost for one in chosen]
-            ax.plot(at, values, label=f"{kind[:-2]}a", **style)
+        draw_costs(ax, found, averaged_family(solution, low, high))
         best, worst = min(one.cost for one in found), max(one.cost for one in found)
         margin = 0.1 * (worst - best)
         ends = [one.duration for one in found]
         reach = 0.08 * (max(ends) - min(ends))
         ax.set(ylim=(best - margin, worst + margin), xlim=(min(ends) - reach, max(ends) + reach))
-        ax.set(ylabel="cost $J$")
         ax.set_title(rf"$\varepsilon = {epsilon:g}$", loc="left")
     ax.set_xlabel(END_TIME)
     figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return figure
-
-
-def curve(found: Extremals) -> tuple[Array, Array]:
-    """End time and cost along the exact family, sampled finely."""
-    family = found.traced
-    theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
-    tau, cost = (CubicSpline(family.theta, column)(theta) for column in (family.duration, family.cost))
-    return tau, cost
 
 
 def kappa_at(found: Extremals, end: int) -> float:

@@ -9,13 +9,13 @@ from functools import lru_cache
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.interpolate import CubicSpline
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.averaged.solve import solve_averaged
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.averaging.examples.smooth import smooth_example
+from pontryagin.averaging.figures.families import draw_costs, sampled
 from pontryagin.averaging.figures.labels import END_TIME, EXACT, KINDS, MEAN
 from pontryagin.display.plotting import (
     INK,
@@ -24,7 +24,6 @@ from pontryagin.display.plotting import (
 )
 
 V0, V1, K, RIPPLE = 1.0, 2.0, 1.0, 0.5
-PER_TURN = 60
 
 
 @styled
@@ -41,9 +40,11 @@ def end_condition(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25
     figure, axes = subplots(len(epsilons), sharex=True, height=4.4)
     for ax, epsilon in zip(axes, epsilons, strict=True):
         found = _extremals(epsilon)
-        tau, h, mean, _ = _family(found)
-        ax.plot(tau, h, color=EXACT, linewidth=1.1, label=r"$h^*$ at the end")
-        ax.plot(tau, mean, color=MEAN, label=r"its mean $\langle h^*\rangle$ over the phase")
+        tau, y, multiplier = sampled(
+            found, found.traced.duration, found.traced.y, found.traced.unknowns[:, -1]
+        )
+        ax.plot(tau, -V1 * y, color=EXACT, linewidth=1.1, label=r"$h^*$ at the end")
+        ax.plot(tau, multiplier**2 / 4 - K, color=MEAN, label=r"its mean $\langle h^*\rangle$ over the phase")
         ax.axhline(0.0, color=INK, linewidth=0.8)
         for kind, style in KINDS.items():
             at = [one.duration for one in found if one.kind == kind]
@@ -60,18 +61,11 @@ def end_condition(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25
 def cost_over_end(epsilons: Sequence[float] = (0.04, 0.01), around: float = 0.25) -> Figure:
     """Figure 2: the cost of the exact and of the averaged family against the end time; the roots marked."""
     figure, axes = subplots(len(epsilons), sharex=True, height=4.4)
-    tau0, cost0 = averaged_family()
+    averaged = averaged_family()
     for ax, epsilon in zip(axes, epsilons, strict=True):
-        found = _extremals(epsilon)
-        tau, _, _, cost = _family(found)
-        ax.plot(tau, cost, color=EXACT, linewidth=1.1, label="$J$, exact")
-        ax.plot(tau0, cost0, color=MEAN, label="$J_0$, averaged")
-        for kind, style in KINDS.items():
-            chosen = [one for one in found if one.kind == kind]
-            at, values = [one.duration for one in chosen], [one.cost for one in chosen]
-            ax.plot(at, values, label=f"{kind[:-2]}a", **style)
+        draw_costs(ax, _extremals(epsilon), averaged)
         centre, base = float(_averaged().duration), float(_averaged().cost)
-        ax.set(xlim=(centre - around, centre + around), ylim=(base - 0.06, base + 0.16), ylabel="cost $J$")
+        ax.set(xlim=(centre - around, centre + around), ylim=(base - 0.06, base + 0.16))
         ax.set_title(rf"$\varepsilon = {epsilon:g}$", loc="left")
     ax.set_xlabel(END_TIME)
     figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4)
@@ -93,15 +87,3 @@ def _averaged() -> AveragedSolution:
 @lru_cache
 def _extremals(epsilon: float) -> Extremals:
     return _averaged().exact(epsilon)
-
-
-def _family(found: Extremals) -> tuple[Array, Array, Array, Array]:
-    """tau_1, h*, its mean and J, sampled finely along the family."""
-    family = found.traced
-    theta = np.arange(family.theta[0], family.theta[-1], 2 * np.pi / PER_TURN)
-    tau, y, cost, multiplier = (
-        CubicSpline(family.theta, values)(theta)
-        for values in (family.duration, family.y, family.cost, family.unknowns[:, -1])
-    )
-    mean = -K + multiplier**2 / 4
-    return tau, -V1 * y, mean, cost

@@ -18,65 +18,56 @@ def optimal(system: ExactSystem) -> tuple[list[sp.Matrix], list[sp.Matrix]]:
     return system.fly(system.boundary_state(), controls), controls
 
 
-@claim(
+@claim.proof(
     "Theorem 1, i)",
     "an optimal trajectory that starts on the boundary has every x*(k) on the boundary of X(N_min − k, k)",
-    verdict="holds",
+    display=r"x^*(k) \in \partial X(N_{\min} - k, k),\quad k = \overline{0, N_{\min}}",
 )
-def trajectory_on_the_boundaries() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, _ = optimal(system)
-            yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
-            for k, state in enumerate(states[:-1]):
-                left = system.steps - k
-                p = -system.costates[k]
-                yield (
-                    f"x*({k}) is the support point of X({left}, {k}) for −ψ({k})",
-                    vanishes(state - system.point(p, left, k)),
-                )
-
-    return Proof(argument, display=r"x^*(k) \in \partial X(N_{\min} - k, k),\quad k = \overline{0, N_{\min}}")
+def trajectory_on_the_boundaries() -> Steps:
+    for system in family():
+        states, _ = optimal(system)
+        yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
+        for k, state in enumerate(states[:-1]):
+            left = system.steps - k
+            p = -system.costates[k]
+            yield (
+                f"x*({k}) is the support point of X({left}, {k}) for −ψ({k})",
+                vanishes(state - system.point(p, left, k)),
+            )
 
 
-@claim(
+@claim.proof(
     "Theorem 1, ii)",
     "the normal cone at x*(k) lies in A'(k) times the normal cone at x*(k+1)",
-    verdict="holds",
     remark="The inclusion can be strict: for A(k) = I, U(0) a disc, U(1) a lens and x*(1) the corner of "
     "the lens, the two cones differ.",
+    display=r"N(x^*(k), X(N_{\min}-k, k)) \subset A^T(k)N(x^*(k+1), X(N_{\min}-k-1, k+1)),\quad k = "
+    r"\overline{0, N_{\min}-2}",
 )
-def normals_along_the_trajectory() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            for k in range(system.steps - 1):
-                here, after = -system.costates[k], -system.costates[k + 1]
-                state = optimal(system)[0][k + 1]
-                yield (
-                    f"{named(system)}: A'({k}) times the normal at x*({k + 1}) is the one at x*({k})",
-                    vanishes(system.A[k].T * after - here),
-                )
-                left = system.steps - k - 1
-                yield "and it is normal there", after.dot(state) == system.support(after, left, k + 1)
-        p = sp.Matrix([1, 4]) / sp.sqrt(17)
-        state = exact.LENS_CORNER + p
-        yield (
-            "A = I, U(0) the disc, U(1) the lens: x0 = (0, 4/5) + p goes to the corner by u(0) = −p",
-            (state - p == exact.LENS_CORNER and DISC.level(p) == 1),
-        )
-        edges = exact.lens_corner_normals()
-        yield (
-            "(±3/5, 4/5) are normal at the corner, and not normal at x0",
-            all(
-                exact.normal_at_lens_corner(edge) and edge.dot(state) < edge.dot(exact.LENS_CORNER) + 1
-                for edge in edges
-            ),
-        )
-
-    return Proof(
-        argument,
-        display=r"N(x^*(k), X(N_{\min}-k, k)) \subset A^T(k)N(x^*(k+1), X(N_{\min}-k-1, k+1)),\quad k = "
-        r"\overline{0, N_{\min}-2}",
+def normals_along_the_trajectory() -> Steps:
+    for system in family():
+        for k in range(system.steps - 1):
+            here, after = -system.costates[k], -system.costates[k + 1]
+            state = optimal(system)[0][k + 1]
+            yield (
+                f"{named(system)}: A'({k}) times the normal at x*({k + 1}) is the one at x*({k})",
+                vanishes(system.A[k].T * after - here),
+            )
+            left = system.steps - k - 1
+            yield "and it is normal there", after.dot(state) == system.support(after, left, k + 1)
+    p = sp.Matrix([1, 4]) / sp.sqrt(17)
+    state = exact.LENS_CORNER + p
+    yield (
+        "A = I, U(0) the disc, U(1) the lens: x0 = (0, 4/5) + p goes to the corner by u(0) = −p",
+        (state - p == exact.LENS_CORNER and DISC.level(p) == 1),
+    )
+    edges = exact.lens_corner_normals()
+    yield (
+        "(±3/5, 4/5) are normal at the corner, and not normal at x0",
+        all(
+            exact.normal_at_lens_corner(edge) and edge.dot(state) < edge.dot(exact.LENS_CORNER) + 1
+            for edge in edges
+        ),
     )
 
 
@@ -141,60 +132,48 @@ def steps_of_the_induction() -> Slip:
     )
 
 
-@claim(
+@claim.proof(
     "(3)",
     "with u* in −U(k) and u*(k) = −u*, the decomposition A(k)x*(k) = x*(k+1) + u* is a step of the system",
-    verdict="holds",
+    display=r"A(k)x^*(k) = x^*(k+1) + u^*,\quad x^*(k+1) = A(k)x^*(k) + u^*(k)",
 )
-def decomposition_as_a_step() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, controls = optimal(system)
-            for k in range(system.steps):
-                p, left = -system.costates[k + 1], system.steps - k - 1
-                part = system.U[k].image(-sp.eye(len(p))).point(p)
-                yield (
-                    f"{named(system)}: the part of A({k})x*({k}) in −U({k}) is −u*({k})",
-                    part == -controls[k],
-                )
-                yield (
-                    "the rest is x*(k+1), a support point",
-                    vanishes(system.A[k] * states[k] - part - system.point(p, left, k + 1)),
-                )
-
-    return Proof(argument, display=r"A(k)x^*(k) = x^*(k+1) + u^*,\quad x^*(k+1) = A(k)x^*(k) + u^*(k)")
+def decomposition_as_a_step() -> Steps:
+    for system in family():
+        states, controls = optimal(system)
+        for k in range(system.steps):
+            p, left = -system.costates[k + 1], system.steps - k - 1
+            part = system.U[k].image(-sp.eye(len(p))).point(p)
+            yield f"{named(system)}: the part of A({k})x*({k}) in −U({k}) is −u*({k})", part == -controls[k]
+            yield (
+                "the rest is x*(k+1), a support point",
+                vanishes(system.A[k] * states[k] - part - system.point(p, left, k + 1)),
+            )
 
 
-@claim(
+@claim.proof(
     "(4)",
     "the normal cone at A(k)x*(k) is the intersection of those at x*(k+1) and at u*",
-    verdict="holds",
     remark="This follows from the equality that the proof of Lemma 5 shows. The inclusion that Lemma 5 "
     "states is not enough.",
+    display=r"N(A(k)x^*(k), A(k)X(N_{\min}-k, k)) = N(x^*(k+1), X(N_{\min}-k-1, k+1)) \cap N(u^*, -U(k))",
 )
-def normals_of_a_step() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, controls = optimal(system)
-            for k in range(system.steps - 1):
-                p, left = -system.costates[k + 1], system.steps - k - 1
-                u = -controls[k]
-                total = p.dot(states[k + 1]) + p.dot(u)
-                yield (
-                    f"{named(system)}: −ψ({k + 1}) is normal to both parts",
-                    (
-                        p.dot(states[k + 1]) == system.support(p, left, k + 1)
-                        and p.dot(u) == system.U[k].support(p)
-                    ),
-                )
-                yield "and to their sum", total == system.support(system.A[k].T * p, left + 1, k)
-                gradient = system.U[k].normal(u)
-                yield (
-                    "the gradient at u* has the same direction",
-                    vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)),
-                )
-
-    return Proof(
-        argument,
-        display=r"N(A(k)x^*(k), A(k)X(N_{\min}-k, k)) = N(x^*(k+1), X(N_{\min}-k-1, k+1)) \cap N(u^*, -U(k))",
-    )
+def normals_of_a_step() -> Steps:
+    for system in family():
+        states, controls = optimal(system)
+        for k in range(system.steps - 1):
+            p, left = -system.costates[k + 1], system.steps - k - 1
+            u = -controls[k]
+            total = p.dot(states[k + 1]) + p.dot(u)
+            yield (
+                f"{named(system)}: −ψ({k + 1}) is normal to both parts",
+                (
+                    p.dot(states[k + 1]) == system.support(p, left, k + 1)
+                    and p.dot(u) == system.U[k].support(p)
+                ),
+            )
+            yield "and to their sum", total == system.support(system.A[k].T * p, left + 1, k)
+            gradient = system.U[k].normal(u)
+            yield (
+                "the gradient at u* has the same direction",
+                vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)),
+            )

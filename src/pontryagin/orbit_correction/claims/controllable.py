@@ -1,7 +1,6 @@
 """Section 2, (2) to Corollary 1: the 0-controllable sets."""
 
 from itertools import pairwise
-from typing import Any
 
 import sympy as sp
 
@@ -16,55 +15,43 @@ claim = Page("Ibragimov 2017")
 R = sp.Rational
 
 
-@claim(
+@claim.proof(
     "(2)",
     "X(N, k) is the set of states that admissible controls bring to 0 in the N steps from step k on",
-    verdict="holds",
+    display=r"X(N, k) = \{x(k) \in \mathbb{R}^n : \exists u(k) \in U(k), \dots, u(N+k-1) \in U(N+k-1) : "
+    r"x(N+k) = 0\},\ N \in \mathbb{N};\quad \{0\},\ N = 0",
 )
-def controllable_sets() -> Proof:
-    def argument() -> Steps:
-        reach = sp.S.Zero
-        for N, end in ((1, R(1, 2)), (2, R(3, 4)), (3, R(7, 8))):
-            yield (
-                f"x(k+1) = 2x(k) + u(k), |u| ≤ 1: u = −1 brings {end} just into X({N - 1}, k+1)",
-                2 * end - 1 == reach,
-            )
-            beyond = end + R(1, 100)
-            yield "and brings no larger x there", 2 * beyond - 1 > reach
-            reach = end
-        for system in family():
-            state = system.boundary_state()
-            end = system.fly(state, system.controls())[-1]
-            yield f"{named(system)}: a state of X(N, 0) and controls that bring it to 0", end.is_zero_matrix
-            outside = (-system.costates[0]).dot(R(11, 10) * state)
-            yield "and 11/10 of it is outside", outside > system.support(-system.costates[0], system.steps)
-
-    return Proof(
-        argument,
-        display=r"X(N, k) = \{x(k) \in \mathbb{R}^n : \exists u(k) \in U(k), \dots, u(N+k-1) \in U(N+k-1) : "
-        r"x(N+k) = 0\},\ N \in \mathbb{N};\quad \{0\},\ N = 0",
-    )
+def controllable_sets() -> Steps:
+    reach = sp.S.Zero
+    for N, end in ((1, R(1, 2)), (2, R(3, 4)), (3, R(7, 8))):
+        yield (
+            f"x(k+1) = 2x(k) + u(k), |u| ≤ 1: u = −1 brings {end} just into X({N - 1}, k+1)",
+            2 * end - 1 == reach,
+        )
+        beyond = end + R(1, 100)
+        yield "and brings no larger x there", 2 * beyond - 1 > reach
+        reach = end
+    for system in family():
+        state = system.boundary_state()
+        end = system.fly(state, system.controls())[-1]
+        yield f"{named(system)}: a state of X(N, 0) and controls that bring it to 0", end.is_zero_matrix
+        outside = (-system.costates[0]).dot(R(11, 10) * state)
+        yield "and 11/10 of it is outside", outside > system.support(-system.costates[0], system.steps)
 
 
-@claim(
+@claim.proof(
     "after (2): N_min finite",
     "N_min < ∞ means that x0 lies in the union of X(N, 0)",
-    verdict="holds",
     remark="N_min < ∞ is an assumption. It does not follow from 0 in int U(k): for x(k+1) = 2x(k) + "
     "u(k), |u| ≤ 1, the union is the interval (−1, 1).",
+    display=r"x_0 \in \bigcup_{N=0}^{\infty} X(N, 0)",
 )
-def finite_number_of_steps() -> Proof:
-    def argument() -> Steps:
-        N, i = sp.symbols("N i", integer=True, positive=True)
-        reach = sp.summation(2**-i, (i, 1, N))
-        yield (
-            "x(k+1) = 2x(k) + u(k): X(N, 0) = [−(1 − 2^−N), 1 − 2^−N]",
-            vanishes(sp.simplify(reach - 1 + 2**-N)),
-        )
-        yield "which never holds x0 = 1: no number of steps does", sp.limit(reach, N, sp.oo) == 1
-        yield "and holds x0 = 3/4 from N = 2 on: N_min = 2", reach.subs(N, 1) < R(3, 4) == reach.subs(N, 2)
-
-    return Proof(argument, display=r"x_0 \in \bigcup_{N=0}^{\infty} X(N, 0)")
+def finite_number_of_steps() -> Steps:
+    N, i = sp.symbols("N i", integer=True, positive=True)
+    reach = sp.summation(2**-i, (i, 1, N))
+    yield "x(k+1) = 2x(k) + u(k): X(N, 0) = [−(1 − 2^−N), 1 − 2^−N]", vanishes(sp.simplify(reach - 1 + 2**-N))
+    yield "which never holds x0 = 1: no number of steps does", sp.limit(reach, N, sp.oo) == 1
+    yield "and holds x0 = 3/4 from N = 2 on: N_min = 2", reach.subs(N, 1) < R(3, 4) == reach.subs(N, 2)
 
 
 @claim(
@@ -101,29 +88,26 @@ def least_number_of_steps() -> Conditional:
     )
 
 
-@claim(
+@claim.proof(
     "after (2): optimal trajectory",
     "a trajectory is optimal exactly if x*(k) lies in X(N_min − k, k) for every k",
-    verdict="holds",
+    display=r"x^*(k) \in X(N_{\min} - k, k),\quad k = \overline{0, N_{\min}}",
 )
-def optimal_trajectories() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states = system.fly(system.boundary_state(), system.controls())
-            yield f"{named(system)}: x*(N) = 0, the only point of X(0, N)", states[-1].is_zero_matrix
-            for k, state in enumerate(states[:-1]):
-                p = -system.costates[k]
-                left = system.support(p, system.steps - k, k)
-                yield f"x*({k}) lies in X({system.steps - k}, {k}), on its boundary", p.dot(state) == left
-            late = R(1, 2) * system.controls()[0]
-            strayed = system.A[0] * states[0] + late
-            p = -system.costates[1]
-            yield (
-                "after another first control, half of it, x(1) is outside X(N − 1, 1)",
-                p.dot(strayed) > system.support(p, system.steps - 1, 1),
-            )
-
-    return Proof(argument, display=r"x^*(k) \in X(N_{\min} - k, k),\quad k = \overline{0, N_{\min}}")
+def optimal_trajectories() -> Steps:
+    for system in family():
+        states = system.fly(system.boundary_state(), system.controls())
+        yield f"{named(system)}: x*(N) = 0, the only point of X(0, N)", states[-1].is_zero_matrix
+        for k, state in enumerate(states[:-1]):
+            p = -system.costates[k]
+            left = system.support(p, system.steps - k, k)
+            yield f"x*({k}) lies in X({system.steps - k}, {k}), on its boundary", p.dot(state) == left
+        late = R(1, 2) * system.controls()[0]
+        strayed = system.A[0] * states[0] + late
+        p = -system.costates[1]
+        yield (
+            "after another first control, half of it, x(1) is outside X(N − 1, 1)",
+            p.dot(strayed) > system.support(p, system.steps - 1, 1),
+        )
 
 
 def printed_state(N: int) -> sp.Expr:
@@ -162,7 +146,7 @@ def state_after_steps() -> Equality:
     printed = A(2) * A(1) * A(0) * x + A(2) * A(1) * u(0) + A(2) * u(1) + u(2)
     return Equality(
         {"x(3)": printed},
-        lambda: {"x(3)": summands.final_state(3)},
+        lambda: summands.final_state(3),
         display=r"0 = A(N+k-1)\cdot\ldots\cdot A(k)x(k) + A(N+k-1)\cdot\ldots\cdot A(k+1)u(k) + \dots + "
         r"A(N+k-1)u(N+k-2) + u(N+k-1)",
     )
@@ -200,10 +184,11 @@ def state_with_the_product_inverted() -> Misprint:
 def recurrence() -> Equality:
     sizes = (0, 1, 2, 3)
 
-    def derived() -> dict[str, Any]:
-        return {
-            rf"A(0)x(0)\ (N = {N})": sp.expand(A(0) * summands.state_brought_to_zero(N + 1)) for N in sizes
-        }
-
     printed = {rf"A(0)x(0)\ (N = {N})": summands.state_brought_to_zero(N, 1) - u(0) for N in sizes}
-    return Equality(printed, derived, display=r"A(k)X(N+1, k) = X(N, k+1) + (-U(k))")
+    return Equality(
+        printed,
+        lambda: {
+            rf"A(0)x(0)\ (N = {N})": sp.expand(A(0) * summands.state_brought_to_zero(N + 1)) for N in sizes
+        },
+        display=r"A(k)X(N+1, k) = X(N, k+1) + (-U(k))",
+    )

@@ -1,11 +1,9 @@
 """Section 3: strictly convex compact sets, their support points and normals."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Slip, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation.exact import Ellipsoid
 
@@ -67,38 +65,31 @@ def strictly_convex_sets() -> Slip:
     )
 
 
-@claim(
+@claim.proof(
     "section 3: support vector",
     "p ≠ 0 supports X at x if X lies in the half-space (p, u) ≤ (p, x)",
-    verdict="holds",
+    display=r"X \subset \{u \in \mathbb{R}^n : (p, u) \le (p, x)\}",
 )
-def support_vectors() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            X, p = system.U[0], system.costates[1]
-            at = X.point(p)
-            w = sp.Matrix(sp.symbols(f"w1:{len(at) + 1}", real=True))
-            gap = X.support(p) - p.dot(w) - deficit(X, p, w)
-            yield f"{named(system)}: (p, x) − (p, u) is a sum of squares for (u, Hu) ≤ 1", vanishes(gap)
-            yield "so p supports the set at its support point and at no other", X.level(at) == 1
-
-    return Proof(argument, display=r"X \subset \{u \in \mathbb{R}^n : (p, u) \le (p, x)\}")
+def support_vectors() -> Steps:
+    for system in family():
+        X, p = system.U[0], system.costates[1]
+        at = X.point(p)
+        w = sp.Matrix(sp.symbols(f"w1:{len(at) + 1}", real=True))
+        gap = X.support(p) - p.dot(w) - deficit(X, p, w)
+        yield f"{named(system)}: (p, x) − (p, u) is a sum of squares for (u, Hu) ≤ 1", vanishes(gap)
+        yield "so p supports the set at its support point and at no other", X.level(at) == 1
 
 
-@claim("section 3: support function", "s(p, X) is the largest (p, x)", verdict="holds")
-def support_function() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = system.costates[0]
-            total = system.support(p, system.steps)
-            yield (
-                f"{named(system)}: attained by the support point",
-                p.dot(system.point(p, system.steps)) == total,
-            )
-            pieces = sum(part.support(p) for part in system.summands(system.steps))
-            yield "and the support function of a sum is the sum", pieces == total
-
-    return Proof(argument, display=r"s(p, X) = \max_{x \in X}(p, x)")
+@claim.proof(
+    "section 3: support function", "s(p, X) is the largest (p, x)", display=r"s(p, X) = \max_{x \in X}(p, x)"
+)
+def support_function() -> Steps:
+    for system in family():
+        p = system.costates[0]
+        total = system.support(p, system.steps)
+        yield f"{named(system)}: attained by the support point", p.dot(system.point(p, system.steps)) == total
+        pieces = sum(part.support(p) for part in system.summands(system.steps))
+        yield "and the support function of a sum is the sum", pieces == total
 
 
 @claim(
@@ -180,12 +171,12 @@ def moved_midpoint() -> Equality:
     first, second = (sp.Matrix(sp.symbols(f"{name}1:4", real=True)) for name in ("x", "y"))
     p = sp.Matrix(sp.symbols("p1:4", real=True))
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # (p, x') = (p, x'') = s determines the last coordinates.
         levels = [p.dot(point) - s for point in (first, second)]
         known = sp.solve(levels, [first[2], second[2]], dict=True)[0]
         moved = (first + second) / 2 + size * p
-        return {r"(p, \tfrac12 x'' + \tfrac12 x' + \varepsilon p)": sp.simplify(p.dot(moved.subs(known)))}
+        return sp.simplify(p.dot(moved.subs(known)))
 
     return Equality(
         {r"(p, \tfrac12 x'' + \tfrac12 x' + \varepsilon p)": s + size * p.dot(p)},
@@ -195,43 +186,38 @@ def moved_midpoint() -> Equality:
     )
 
 
-@claim("after Lemma 2: ρ_X", "ρ_X(p) = arg max over X of (p, x) maps p ≠ 0 to the boundary", verdict="holds")
-def support_map() -> Proof:
-    def argument() -> Steps:
-        h = sp.symbols("h", positive=True)
-        X = Ellipsoid(sp.ImmutableMatrix(sp.diag(h, 2 * h)))
-        p = sp.Matrix(sp.symbols("p1:3", positive=True))
-        at = X.point(p)
-        yield "ellipse with semi-axes h, 2h: ρ(p) lies on the boundary", vanishes(X.level(at) - 1)
-        yield "does not depend on the length of p", vanishes(X.point(3 * p) - at)
-        yield (
-            "and is the gradient of the support function",
-            vanishes(sp.Matrix([X.support(p)]).jacobian(p).T - at),
-        )
-
-    return Proof(
-        argument,
-        display=r"\rho_X : \mathbb{R}^n \setminus \{0\} \to \partial X,\quad \rho_X(p) = \arg\max_{x \in "
-        r"X}(p, x)",
+@claim.proof(
+    "after Lemma 2: ρ_X",
+    "ρ_X(p) = arg max over X of (p, x) maps p ≠ 0 to the boundary",
+    display=r"\rho_X : \mathbb{R}^n \setminus \{0\} \to \partial X,\quad \rho_X(p) = \arg\max_{x \in "
+    r"X}(p, x)",
+)
+def support_map() -> Steps:
+    h = sp.symbols("h", positive=True)
+    X = Ellipsoid(sp.ImmutableMatrix(sp.diag(h, 2 * h)))
+    p = sp.Matrix(sp.symbols("p1:3", positive=True))
+    at = X.point(p)
+    yield "ellipse with semi-axes h, 2h: ρ(p) lies on the boundary", vanishes(X.level(at) - 1)
+    yield "does not depend on the length of p", vanishes(X.point(3 * p) - at)
+    yield (
+        "and is the gradient of the support function",
+        vanishes(sp.Matrix([X.support(p)]).jacobian(p).T - at),
     )
 
 
-@claim(
+@claim.proof(
     "Corollary 2",
     "the normal cones at two different boundary points have no vector in common",
-    verdict="holds",
+    display=r"N(x^1, X) \cap N(x^2, X) = \emptyset",
 )
-def disjoint_normal_cones() -> Proof:
-    def argument() -> Steps:
-        v, w = sp.Matrix(sp.symbols("v1:4", real=True)), sp.Matrix(sp.symbols("w1:4", real=True))
-        on_sphere = {v[2] ** 2: 1 - v[0] ** 2 - v[1] ** 2, w[2] ** 2: 1 - w[0] ** 2 - w[1] ** 2}
-        lost = sp.expand(1 - v.dot(w) - (v - w).dot(v - w) / 2).subs(on_sphere)
-        yield "unit sphere: v is normal at v, and 1 − (v, w) = |v − w|²/2 > 0 at any other w", vanishes(lost)
-        L = sp.Matrix(3, 3, sp.symbols("L1:10", real=True))
-        cofactors = L.adjugate().T
-        yield (
-            "ellipsoid x = Lv: L^−T v is normal there, with the same products",
-            vanishes(sp.expand((cofactors * v).dot(L * w) - L.det() * v.dot(w))),
-        )
-
-    return Proof(argument, display=r"N(x^1, X) \cap N(x^2, X) = \emptyset")
+def disjoint_normal_cones() -> Steps:
+    v, w = sp.Matrix(sp.symbols("v1:4", real=True)), sp.Matrix(sp.symbols("w1:4", real=True))
+    on_sphere = {v[2] ** 2: 1 - v[0] ** 2 - v[1] ** 2, w[2] ** 2: 1 - w[0] ** 2 - w[1] ** 2}
+    lost = sp.expand(1 - v.dot(w) - (v - w).dot(v - w) / 2).subs(on_sphere)
+    yield "unit sphere: v is normal at v, and 1 − (v, w) = |v − w|²/2 > 0 at any other w", vanishes(lost)
+    L = sp.Matrix(3, 3, sp.symbols("L1:10", real=True))
+    cofactors = L.adjugate().T
+    yield (
+        "ellipsoid x = Lv: L^−T v is normal there, with the same products",
+        vanishes(sp.expand((cofactors * v).dot(L * w) - L.det() * v.dot(w))),
+    )

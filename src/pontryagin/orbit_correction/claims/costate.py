@@ -1,11 +1,11 @@
 """Section 6, Lemma 9: the initial costate, (8) to (11)."""
 
-from typing import Any
+from collections.abc import Sequence
 
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, RightSides, Steps, vanishes
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.claims.shapes import plane, shape_inverse
 from pontryagin.orbit_correction.derivation.exact import ExactSystem
@@ -19,6 +19,16 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
     return [-Q * psi / sp.sqrt((psi.T * Q * psi)[0]) for Q in inverses]
 
 
+def total(system: ExactSystem, psi: sp.Matrix) -> sp.Matrix:
+    """The sum of the x^k."""
+    return sum(parts(system, psi), sp.zeros(*psi.shape))
+
+
+def levels(system: ExactSystem, points: Sequence[sp.Matrix]) -> list[sp.Expr]:
+    """(x, H~(k)x) of points x of E_1, E_2, ...; it is 1 on the boundary."""
+    return [(x.T * shape_inverse(system, k).inv() * x)[0] for k, x in enumerate(points, start=1)]
+
+
 @claim(
     "Lemma 9",
     "the equation for the initial costate ψ0, with −x0 as a sum of N_min vectors that depend on ψ0",
@@ -26,122 +36,91 @@ def parts(system: ExactSystem, psi: sp.Matrix) -> list[sp.Matrix]:
     remark="True with the corrected H~(k).",
 )
 def equation_for_the_costate() -> Equality:
-    systems = family()
-    keys = [f"-x_0\\ ({named(system)})" for system in systems]
-
-    def printed() -> dict[str, sp.Matrix]:
-        sums = [-sum(parts(s, s.costates[0]), sp.zeros(*s.psi0.shape)) for s in systems]
-        return dict(zip(keys, sums, strict=True))
-
     return Equality(
-        printed(),
-        lambda: {key: -system.boundary_state() for key, system in zip(keys, systems, strict=True)},
+        {f"-x_0\\ ({named(system)})": -total(system, system.costates[0]) for system in family()},
+        lambda: [-system.boundary_state() for system in family()],
         display=r"-x_0 = \sum_{k=1}^{N_{\min}} \frac{\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde "
         r"H^{-1}(k)\psi_0)}}",
     )
 
 
-@claim("(8)", "x0 is in exactly one way a sum of boundary points x^k of the E_k", verdict="holds")
-def decomposition_into_ellipsoids() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            psi, points = system.costates[0], parts(system, system.costates[0])
+@claim.proof(
+    "(8)",
+    "x0 is in exactly one way a sum of boundary points x^k of the E_k",
+    display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k",
+)
+def decomposition_into_ellipsoids() -> Steps:
+    for system in family():
+        added = total(system, system.costates[0])
+        yield f"{named(system)}: the x^k add up to x0", vanishes(added - system.boundary_state())
+        points = parts(system, system.costates[0])
+        yield "and lie on the boundaries", levels(system, points) == [1] * system.steps
+        moved = points[0] + (points[0] - points[1]) / 100
+        other = points[1] - (points[0] - points[1]) / 100
+        outside = levels(system, (moved, other))
+        yield "what is moved from one to the next takes one of them outside", max(outside) > 1
+
+
+@claim.proof(
+    "(9)",
+    "−ψ0 is normal to X(N_min, 0) at x0, and to every E_k at x^k",
+    display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
+)
+def common_normal() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for part, point in zip(system.summands(system.steps), parts(system, system.costates[0]), strict=True):
             yield (
-                f"{named(system)}: the x^k add up to x0",
-                vanishes(sum(points, sp.zeros(*psi.shape)) - system.boundary_state()),
+                f"{named(system)}: (−ψ0, x^k) is the support function of E_k",
+                p.dot(point) == part.support(p),
             )
-            levels = [
-                (point.T * shape_inverse(system, k).inv() * point)[0]
-                for k, point in enumerate(points, start=1)
-            ]
-            yield "and lie on the boundaries", levels == [1] * system.steps
-            moved = points[0] + (points[0] - points[1]) / 100
-            other = points[1] - (points[0] - points[1]) / 100
-            outside = [
-                (point.T * shape_inverse(system, k).inv() * point)[0]
-                for k, point in enumerate((moved, other), start=1)
-            ]
-            yield "what is moved from one to the next takes one of them outside", max(outside) > 1
-
-    return Proof(argument, display=r"x_0 = \sum_{k=1}^{N_{\min}} x^k,\quad x^k \in \partial E_k")
+        yield "and the sum that of X(N, 0)", p.dot(system.boundary_state()) == system.support(p, system.steps)
 
 
-@claim("(9)", "−ψ0 is normal to X(N_min, 0) at x0, and to every E_k at x^k", verdict="holds")
-def common_normal() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for part, point in zip(
-                system.summands(system.steps), parts(system, system.costates[0]), strict=True
-            ):
-                yield (
-                    f"{named(system)}: (−ψ0, x^k) is the support function of E_k",
-                    p.dot(point) == part.support(p),
-                )
-            yield (
-                "and the sum that of X(N, 0)",
-                p.dot(system.boundary_state()) == system.support(p, system.steps),
-            )
-
-    return Proof(
-        argument,
-        display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = \bigcap_{k=1}^{N_{\min}} N(x^k, E_k)",
-    )
-
-
-@claim(
+@claim.proof(
     "after (9): rays",
     "the normal cone at a boundary point of an ellipsoid is the ray of the gradient",
-    verdict="holds",
+    display=r"N(x^k, E_k) = \operatorname{cone}\{\nabla_x(x, \tilde H(k)x)\Bigr|_{x=x^k}\} \setminus "
+    r"\{0\}",
 )
-def rays() -> Proof:
-    def argument() -> Steps:
-        X, _, x = plane()
-        gradient = sp.Matrix([X.level(x)]).jacobian(x).T
-        yield "∇(x, Hx) = 2Hx", vanishes(sp.cancel(gradient - 2 * X.shape * x))
-        angle = sp.Symbol("phi", real=True)
-        p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
-        yield (
-            "unit circle at e1: p = (cos φ, sin φ) with (p, e1) = |p| is φ = 0",
-            sp.solveset(sp.Eq(p[0], 1), angle, sp.Interval.Lopen(-sp.pi, sp.pi)) == sp.FiniteSet(0),
-        )
-
-    return Proof(
-        argument,
-        display=r"N(x^k, E_k) = \operatorname{cone}\{\nabla_x(x, \tilde H(k)x)\Bigr|_{x=x^k}\} \setminus "
-        r"\{0\}",
+def rays() -> Steps:
+    X, _, x = plane()
+    gradient = sp.Matrix([X.level(x)]).jacobian(x).T
+    yield "∇(x, Hx) = 2Hx", vanishes(sp.cancel(gradient - 2 * X.shape * x))
+    angle = sp.Symbol("phi", real=True)
+    p = sp.Matrix([sp.cos(angle), sp.sin(angle)])
+    yield (
+        "unit circle at e1: p = (cos φ, sin φ) with (p, e1) = |p| is φ = 0",
+        sp.solveset(sp.Eq(p[0], 1), angle, sp.Interval.Lopen(-sp.pi, sp.pi)) == sp.FiniteSet(0),
     )
 
 
-@claim("after (9): one ray", "hence N(x0, X(N_min, 0)) = N(x^k, E_k) for every k", verdict="holds")
-def one_ray() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for k, point in enumerate(parts(system, system.costates[0]), start=1):
-                gradient = shape_inverse(system, k).inv() * point
-                yield (
-                    f"{named(system)}: the gradient at x^{k} is along −ψ0",
-                    (vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)) and gradient.dot(p) > 0),
-                )
+@claim.proof(
+    "after (9): one ray",
+    "hence N(x0, X(N_min, 0)) = N(x^k, E_k) for every k",
+    display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)",
+)
+def one_ray() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for k, point in enumerate(parts(system, system.costates[0]), start=1):
+            gradient = shape_inverse(system, k).inv() * point
+            yield (
+                f"{named(system)}: the gradient at x^{k} is along −ψ0",
+                (vanishes(gradient * p.norm() ** 2 - p * gradient.dot(p)) and gradient.dot(p) > 0),
+            )
 
-    return Proof(argument, display=r"-\psi_0 \in N(x_0, X(N_{\min}, 0)) = N(x^k, E_k)")
 
-
-@claim("(10)", "x^k is the point of E_k with the largest (−ψ0, x)", verdict="holds")
-def parts_as_support_points() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p = -system.costates[0]
-            for part, point in zip(
-                system.summands(system.steps), parts(system, system.costates[0]), strict=True
-            ):
-                yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
-
-    return Proof(
-        argument,
-        display=r"x^k = \rho_{E_k}(-\psi_0) = \arg\max_{(x, \tilde H(k)x) \le 1}(-\psi_0, x)",
-    )
+@claim.proof(
+    "(10)",
+    "x^k is the point of E_k with the largest (−ψ0, x)",
+    display=r"x^k = \rho_{E_k}(-\psi_0) = \arg\max_{(x, \tilde H(k)x) \le 1}(-\psi_0, x)",
+)
+def parts_as_support_points() -> Steps:
+    for system in family():
+        p = -system.costates[0]
+        for part, point in zip(system.summands(system.steps), parts(system, system.costates[0]), strict=True):
+            yield f"{named(system)}: x^k = ρ(−ψ0)", vanishes(point - part.point(p))
 
 
 @claim("after (10): x^k", "x^k as a function of ψ0, by Lagrange's multipliers", verdict="holds")
@@ -149,38 +128,32 @@ def parts_by_multipliers() -> Equality:
     X, _, _ = plane()
     psi = sp.Matrix(sp.symbols("psi1:3", positive=True))
     inverse = X.factor * X.factor.T
-    key = "x^k"
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # Lagrange's condition: -psi = 2 m H x with (x, Hx) = 1 and a positive multiplier m.
         multiplier = sp.Symbol("m", positive=True)
         stationary = -inverse * psi / (2 * multiplier)
         found = sp.solve(sp.Eq(sp.expand(X.level(stationary) * multiplier**2), multiplier**2), multiplier)
-        return {key: stationary.subs(multiplier, found[0])}
+        return stationary.subs(multiplier, found[0])
 
     return Equality(
-        {key: -inverse * psi / sp.sqrt((psi.T * inverse * psi)[0])},
+        {"x^k": -inverse * psi / sp.sqrt((psi.T * inverse * psi)[0])},
         derived,
         display=r"x^k = \frac{-\tilde H^{-1}(k)\psi_0}{\sqrt{(\psi_0, \tilde H^{-1}(k)\psi_0)}}",
     )
 
 
-@claim(
+@claim.proof(
     "after Lemma 9: not unique",
     "the equation of Lemma 9 is not linear, and does not change when ψ0 is multiplied by a positive number",
-    verdict="holds",
 )
-def homogeneous_of_degree_zero() -> Proof:
-    def argument() -> Steps:
-        factor = sp.Symbol("c", positive=True)
-        for system in family():
-            psi = system.costates[0]
-            total = sum(parts(system, factor * psi), sp.zeros(*psi.shape))
-            yield f"{named(system)}: cψ0 gives the same x0", vanishes(total - system.boundary_state())
-            turned = sum(parts(system, -psi), sp.zeros(*psi.shape))
-            yield "a negative factor gives −x0: not linear", turned == -system.boundary_state()
-
-    return Proof(argument)
+def homogeneous_of_degree_zero() -> Steps:
+    factor = sp.Symbol("c", positive=True)
+    for system in family():
+        psi = system.costates[0]
+        same = total(system, factor * psi)
+        yield f"{named(system)}: cψ0 gives the same x0", vanishes(same - system.boundary_state())
+        yield "a negative factor gives −x0: not linear", total(system, -psi) == -system.boundary_state()
 
 
 @claim(
@@ -208,11 +181,11 @@ def system_for_the_costate() -> Conditional:
                 ((curvature * psi).is_zero_matrix and curvature.rank() == len(psi) - 1),
             )
             unit = psi / psi.norm()
-            total = sum(parts(system, unit), sp.zeros(*psi.shape))
+            solved = vanishes(total(system, unit) - system.boundary_state())
             yield (
                 "ψ0/|ψ0| solves, −ψ0/|ψ0| does not",
-                (vanishes(total - system.boundary_state()) and vanishes(sp.simplify(unit.dot(unit) - 1)))
-                and sum(parts(system, -psi), sp.zeros(*psi.shape)) != system.boundary_state(),
+                (solved and vanishes(sp.simplify(unit.dot(unit) - 1)))
+                and total(system, -psi) != system.boundary_state(),
             )
 
     def counterexample() -> Steps:
@@ -220,16 +193,12 @@ def system_for_the_costate() -> Conditional:
             psi, state = system.costates[0], system.inner_state()
             yield f"{named(system)}: x0 with gauge α = {system.inner_gauge} is inside", system.inner_gauge < 1
             for other in (psi, -psi):
-                total = sum(parts(system, other), sp.zeros(*psi.shape))
                 yield (
                     "every sum lies on the boundary: ( −ψ, Σ) is the support function",
-                    -other.dot(total) == system.support(-other, system.steps),
+                    -other.dot(total(system, other)) == system.support(-other, system.steps),
                 )
             yield "so none is x0", -psi.dot(state) < system.support(-psi, system.steps)
-            both = [
-                size * sum(parts(system, p), sp.zeros(*psi.shape))
-                for p, size in ((psi, system.inner_gauge), (-psi, -system.inner_gauge))
-            ]
+            both = [system.inner_gauge * total(system, psi), -system.inner_gauge * total(system, -psi)]
             yield "with the factor α both (ψ, α) and (−ψ, −α) solve", both == [state, state]
 
     return Conditional(

@@ -5,7 +5,16 @@ from typing import Any
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Proof, Steps, Unreadable, vanishes
+from pontryagin.ledger.evidence import (
+    Consequence,
+    Equality,
+    Misprint,
+    Proof,
+    RightSides,
+    Steps,
+    Unreadable,
+    vanishes,
+)
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.derivation import interval, r, t, v_radial, v_transverse
 
@@ -40,59 +49,48 @@ def equations_of_motion() -> Misprint:
     keys = (r"\dot r", r"\dot\theta", r"\dot v_R", r"\dot v_T")
     printed = (v_radial, v_transverse / r, v_radial**2 / r - 1 / r**2, -v_radial * v_transverse / r)
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         radius, radial, transverse = derivation.equations_of_motion()
-        return dict(zip(keys, (radius, derivation.angular_rate(), radial, transverse), strict=True))
-
-    def consequence() -> Consequence:
-        return Consequence(
-            "v_R' on the circle r = 1, v_R = 0, v_T = 1",
-            printed[2].subs(CIRCLE),
-            derivation.equations_of_motion()[1].subs(CIRCLE),
-        )
+        return radius, derivation.angular_rate(), radial, transverse
 
     return Misprint(
         dict(zip(keys, printed, strict=True)),
         derived,
         defect={keys[2]: (v_radial**2 - v_transverse**2) / r},
-        consequence=consequence,
+        consequence=lambda: Consequence(
+            "v_R' on the circle r = 1, v_R = 0, v_T = 1",
+            printed[2].subs(CIRCLE),
+            derivation.equations_of_motion()[1].subs(CIRCLE),
+        ),
     )
 
 
-@claim(
+@claim.proof(
     "section 7: θ",
     "the angle of rotation does not matter",
-    verdict="holds",
     remark="True for the shape of the orbit. The position of the satellite along the orbit is not restored.",
 )
-def angle_does_not_matter() -> Proof:
-    def argument() -> Steps:
-        angle = sp.Symbol("theta")
-        rates = derivation.equations_of_motion()
-        yield "r', v_R' and v_T' do not contain θ", not rates.has(angle, sp.Function("theta"))
-        yield "they form a system of their own", rates.free_symbols == {r, v_radial, v_transverse}
-        yield "while θ' = 1 on the circle: the phase runs on", derivation.angular_rate().subs(CIRCLE) == 1
-
-    return Proof(argument)
+def angle_does_not_matter() -> Steps:
+    angle = sp.Symbol("theta")
+    rates = derivation.equations_of_motion()
+    yield "r', v_R' and v_T' do not contain θ", not rates.has(angle, sp.Function("theta"))
+    yield "they form a system of their own", rates.free_symbols == {r, v_radial, v_transverse}
+    yield "while θ' = 1 on the circle: the phase runs on", derivation.angular_rate().subs(CIRCLE) == 1
 
 
-@claim(
+@claim.proof(
     "section 7: circle",
     "the circular orbit is described by r0, v_R0 and v_T0",
-    verdict="holds",
     remark="The linearised system takes them as r0 = 1, v_R0 = 0, v_T0 = 1; in general v_T0 = r0^(−1/2).",
 )
-def circular_orbit() -> Proof:
-    def argument() -> Steps:
-        radius = sp.Symbol("r_0", positive=True)
-        at = {r: radius, v_radial: 0, v_transverse: 1 / sp.sqrt(radius)}
-        yield (
-            "r' = v_R' = v_T' = 0 for v_R = 0, v_T = r0^(−1/2)",
-            derivation.equations_of_motion().subs(at).is_zero_matrix,
-        )
-        yield "for r0 = 1: v_T0 = 1", derivation.equations_of_motion().subs(CIRCLE).is_zero_matrix
-
-    return Proof(argument)
+def circular_orbit() -> Steps:
+    radius = sp.Symbol("r_0", positive=True)
+    at = {r: radius, v_radial: 0, v_transverse: 1 / sp.sqrt(radius)}
+    yield (
+        "r' = v_R' = v_T' = 0 for v_R = 0, v_T = r0^(−1/2)",
+        derivation.equations_of_motion().subs(at).is_zero_matrix,
+    )
+    yield "for r0 = 1: v_T0 = 1", derivation.equations_of_motion().subs(CIRCLE).is_zero_matrix
 
 
 @claim(
@@ -118,10 +116,9 @@ def deviations_from_the_circle() -> Equality:
 @claim("section 7: linearised system", "Δr' = Δv_R, Δv_R' = Δr + 2Δv_T, Δv_T' = −Δv_R", verdict="holds")
 def linearised_system() -> Equality:
     radius, radial, transverse = deviations
-    keys = (r"\Delta\dot r", r"\Delta\dot v_R", r"\Delta\dot v_T")
     return Equality(
-        dict(zip(keys, (radial, radius + 2 * transverse, -radial), strict=True)),
-        lambda: dict(zip(keys, derivation.linearised() * deviations, strict=True)),
+        {r"\Delta\dot r": radial, r"\Delta\dot v_R": radius + 2 * transverse, r"\Delta\dot v_T": -radial},
+        lambda: derivation.linearised() * deviations,
         display=r"\Delta\dot r = \Delta v_R,\quad \Delta\dot v_R = \Delta r + 2\Delta v_T,\quad \Delta\dot "
         r"v_T = -\Delta v_R",
     )
@@ -138,14 +135,9 @@ z, rate = sp.symbols("z z'", real=True)
     "Az, which only z = 0 satisfies.",
 )
 def cauchy_problem() -> Unreadable:
-    keys = (r"\text{left side}", "A")
-
-    def derived() -> dict[str, Any]:
-        return dict(zip(keys, (rate, derivation.linearised()), strict=True))
-
     return Unreadable(
-        dict(zip(keys, (z, LINEAR), strict=True)),
-        derived,
+        {r"\text{left side}": z, "A": LINEAR},
+        lambda: (rate, derivation.linearised()),
         legible=("A",),
         display=r"z(t) = \begin{pmatrix} 0 & 1 & 0 \\ 1 & 0 & 2 \\ 0 & -1 & 0 \end{pmatrix} z(t),\quad z(0) "
         r"= z_0",
@@ -164,7 +156,7 @@ def solution_matrix() -> Proof:
 
     return Proof(
         argument,
-        Equality({"e^{At}": printed_transition(t)}, lambda: {"e^{At}": sp.Matrix(derivation.transition(t))}),
+        Equality({"e^{At}": printed_transition(t)}, lambda: sp.Matrix(derivation.transition(t))),
     )
 
 
@@ -177,9 +169,9 @@ def solution_matrix() -> Proof:
 def impulsive_cauchy_problem() -> Unreadable:
     keys = (r"\text{left side}", "A", "z(0) - y(k)")
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         jump = derivation.RADIAL * impulse[0] + derivation.TRANSVERSE * impulse[1]
-        return dict(zip(keys, (rate, derivation.linearised(), jump), strict=True))
+        return rate, derivation.linearised(), jump
 
     return Unreadable(
         dict(zip(keys, (z, LINEAR, sp.Matrix([0, *impulse])), strict=True)),
@@ -195,9 +187,9 @@ def recurrence() -> Equality:
     y = sp.Matrix(sp.symbols("y1:4", real=True))
     control = sp.Matrix(impulse)
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         start = y + derivation.RADIAL * impulse[0] + derivation.TRANSVERSE * impulse[1]
-        return {"y(k+1)": sp.Matrix(derivation.transition(interval)) * start}
+        return sp.Matrix(derivation.transition(interval)) * start
 
     printed = printed_transition(interval) * y + sp.Matrix.hstack(RADIAL, TRANSVERSE) * control
     return Equality(
@@ -210,40 +202,34 @@ def recurrence() -> Equality:
 
 @claim("section 7: A~", "the matrix A~ of an interval", verdict="holds")
 def interval_matrix() -> Equality:
-    key = r"\tilde A"
     return Equality(
-        {key: printed_transition(interval)}, lambda: {key: sp.Matrix(derivation.transition(interval))}
+        {r"\tilde A": printed_transition(interval)}, lambda: sp.Matrix(derivation.transition(interval))
     )
 
 
 @claim("section 7: B~", "the matrix B~ of an impulse", verdict="holds")
 def impulse_matrix() -> Equality:
-    key = r"\tilde B"
     return Equality(
-        {key: sp.Matrix.hstack(RADIAL, TRANSVERSE)},
-        lambda: {key: sp.Matrix.hstack(*derivation.impulse_directions())},
+        {r"\tilde B": sp.Matrix.hstack(RADIAL, TRANSVERSE)},
+        lambda: sp.Matrix.hstack(*derivation.impulse_directions()),
     )
 
 
-@claim(
+@claim.proof(
     "section 7: dimensions",
     "state and control differ in dimension, so the maximum principle of Theorems 1 to 3 does not apply",
-    verdict="holds",
     remark="The conditions of these theorems fail: the vectors B~w form a flat set without inner points. "
     "The gauge and its dual problem do not need these conditions.",
 )
-def flat_controls() -> Proof:
-    def argument() -> Steps:
-        inputs = sp.Matrix.hstack(*derivation.impulse_directions())
-        normal = derivation.impulse_directions()[0].cross(derivation.impulse_directions()[1])
-        yield "B~ has three rows and two columns", inputs.shape == (3, 2)
-        yield (
-            "b1 × b2 is orthogonal to all B~w: 0 is no inner point of the set of B~w",
-            vanishes(sp.simplify(normal.T * inputs)),
-        )
-        yield (
-            "and it is not 0: at Δt = π/2 it is (−1, −1, 2) or longer",
-            normal.subs(interval, sp.pi / 2).norm() > 1,
-        )
-
-    return Proof(argument)
+def flat_controls() -> Steps:
+    inputs = sp.Matrix.hstack(*derivation.impulse_directions())
+    normal = derivation.impulse_directions()[0].cross(derivation.impulse_directions()[1])
+    yield "B~ has three rows and two columns", inputs.shape == (3, 2)
+    yield (
+        "b1 × b2 is orthogonal to all B~w: 0 is no inner point of the set of B~w",
+        vanishes(sp.simplify(normal.T * inputs)),
+    )
+    yield (
+        "and it is not 0: at Δt = π/2 it is (−1, −1, 2) or longer",
+        normal.subs(interval, sp.pi / 2).norm() > 1,
+    )

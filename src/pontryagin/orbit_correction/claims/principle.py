@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Slip, Steps
+from pontryagin.ledger.evidence import Conditional, Equality, Slip, Steps
 from pontryagin.orbit_correction.claims.boundary import only_controls, optimal
 from pontryagin.orbit_correction.claims.convexity import DISC, E1, E2
 from pontryagin.orbit_correction.claims.family import family, named
@@ -103,78 +103,65 @@ def adjoint_recursion() -> Conditional:
 
 @claim("proof of Theorem 2", "ψ(k) = A^−T(k−1) ... A^−T(0) ψ(0)", verdict="holds")
 def adjoint_in_closed_form() -> Equality:
-    key = r"\psi(3)"
-
     printed = A_transposed(2) ** -1 * A_transposed(1) ** -1 * A_transposed(0) ** -1
     return Equality(
-        {key: printed},
-        lambda: {key: summands.adjoint(3)},
+        {r"\psi(3)": printed},
+        lambda: summands.adjoint(3),
         display=r"-\psi(k+1) = -(A^{-1}(k))^T\psi(k) \in (A^{-1}(k))^T N(x^*(k), X(N_{\min}-k, k)) \subset "
         r"N(x^*(k+1), X(N_{\min}-k-1, k+1))",
     )
 
 
-@claim("Theorem 3, i)", "u*(k) is the point of U(k) with the largest (A^−T(k)ψ(k), u)", verdict="holds")
-def maximum_principle() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, _ = optimal(system)
-            for k in range(system.steps):
-                p, left = -system.costates[k + 1], system.steps - k - 1
-                flown = system.point(p, left, k + 1) - system.A[k] * states[k]
-                q = system.A[k].inv().T * system.costates[k]
-                yield (
-                    f"{named(system)}: the control from x*({k}) to x*({k + 1}) attains the maximum",
-                    (q.dot(flown) == system.U[k].support(q) and system.U[k].level(flown) == 1),
-                )
-
-    return Proof(
-        argument,
-        display=r"u^*(k) = \arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad k = \overline{0, N_{\min}-1}",
-    )
+@claim.proof(
+    "Theorem 3, i)",
+    "u*(k) is the point of U(k) with the largest (A^−T(k)ψ(k), u)",
+    display=r"u^*(k) = \arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad k = \overline{0, N_{\min}-1}",
+)
+def maximum_principle() -> Steps:
+    for system in family():
+        states, _ = optimal(system)
+        for k in range(system.steps):
+            p, left = -system.costates[k + 1], system.steps - k - 1
+            flown = system.point(p, left, k + 1) - system.A[k] * states[k]
+            q = system.A[k].inv().T * system.costates[k]
+            yield (
+                f"{named(system)}: the control from x*({k}) to x*({k + 1}) attains the maximum",
+                (q.dot(flown) == system.U[k].support(q) and system.U[k].level(flown) == 1),
+            )
 
 
-@claim("Theorem 3, ii)", "from a boundary point the optimal control is unique", verdict="holds")
-def unique_control() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            for k, (U, q) in enumerate(zip(system.U, system.costates[1:], strict=True)):
-                other = U.point(q + system.costates[0])
-                yield (
-                    f"{named(system)}: another boundary point of U({k}) has a smaller (ψ({k + 1}), u)",
-                    bool(q.dot(other) < U.support(q)),
-                )
-        yield from only_controls()
-
-    return Proof(argument)
+@claim.proof("Theorem 3, ii)", "from a boundary point the optimal control is unique")
+def unique_control() -> Steps:
+    for system in family():
+        for k, (U, q) in enumerate(zip(system.U, system.costates[1:], strict=True)):
+            other = U.point(q + system.costates[0])
+            yield (
+                f"{named(system)}: another boundary point of U({k}) has a smaller (ψ({k + 1}), u)",
+                bool(q.dot(other) < U.support(q)),
+            )
+    yield from only_controls()
 
 
-@claim(
+@claim.proof(
     "proof of Theorem 3: normals",
     "−A^−T(k)ψ(k) is normal at A(k)x*(k), hence at u*; so A^−T(k)ψ(k) is normal at u*(k)",
-    verdict="holds",
+    display=r"-(A^{-1}(k))^T\psi(k) \in N(u^*, -U(k)),\quad (A^{-1}(k))^T\psi(k) \in N(u^*(k), U(k))",
 )
-def normals_at_the_controls() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, controls = optimal(system)
-            for k in range(system.steps):
-                q = system.A[k].inv().T * system.costates[k]
-                left = system.steps - k
-                yield (
-                    f"{named(system)}: −A^−Tψ({k}) is normal to A({k})X({left}, {k}) at A({k})x*({k})",
-                    (-q.dot(system.A[k] * states[k]) == system.support(-system.costates[k], left, k)),
-                )
-                mirrored = system.U[k].image(-sp.eye(len(q)))
-                yield (
-                    "and to −U(k) at u*, its negative to U(k) at u*(k)",
-                    (mirrored.point(-q) == -controls[k] and system.U[k].point(q) == controls[k]),
-                )
-
-    return Proof(
-        argument,
-        display=r"-(A^{-1}(k))^T\psi(k) \in N(u^*, -U(k)),\quad (A^{-1}(k))^T\psi(k) \in N(u^*(k), U(k))",
-    )
+def normals_at_the_controls() -> Steps:
+    for system in family():
+        states, controls = optimal(system)
+        for k in range(system.steps):
+            q = system.A[k].inv().T * system.costates[k]
+            left = system.steps - k
+            yield (
+                f"{named(system)}: −A^−Tψ({k}) is normal to A({k})X({left}, {k}) at A({k})x*({k})",
+                (-q.dot(system.A[k] * states[k]) == system.support(-system.costates[k], left, k)),
+            )
+            mirrored = system.U[k].image(-sp.eye(len(q)))
+            yield (
+                "and to −U(k) at u*, its negative to U(k) at u*(k)",
+                (mirrored.point(-q) == -controls[k] and system.U[k].point(q) == controls[k]),
+            )
 
 
 @claim(
@@ -215,19 +202,15 @@ def argument_of_the_maximum() -> Slip:
     )
 
 
-@claim(
+@claim.proof(
     "section 4: criterion",
     "the maximum principle is a criterion of optimality: the controls that it gives are optimal",
-    verdict="holds",
     remark="True for x0 on the boundary and −ψ(0) normal there. The paper uses that the principle is "
     "sufficient, but does not prove it.",
 )
-def sufficiency() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            states, _ = optimal(system)
-            yield f"{named(system)}: its controls end at 0 after N steps", states[-1].is_zero_matrix
-            p = -system.costates[0]
-            yield "and N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)
-
-    return Proof(argument)
+def sufficiency() -> Steps:
+    for system in family():
+        states, _ = optimal(system)
+        yield f"{named(system)}: its controls end at 0 after N steps", states[-1].is_zero_matrix
+        p = -system.costates[0]
+        yield "and N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)

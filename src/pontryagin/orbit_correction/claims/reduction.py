@@ -1,12 +1,10 @@
 """Section 7, (12): the ball in place of the cube, and what follows from the reduced system."""
 
-from typing import Any
-
 import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Proof, Refutation, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Refutation, RightSides, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.regrouping import printed_inputs
@@ -18,18 +16,15 @@ claim = Page("Ibragimov 2017")
 CORNER = sp.ones(3, 1)
 
 
-@claim("regrouping: cube", "the set of admissible u~ is not strictly convex", verdict="holds")
-def cube_is_not_strictly_convex() -> Proof:
-    def argument() -> Steps:
-        first, second = CORNER, sp.Matrix([1, 1, -1])
-        middle = (first + second) / 2
-        yield (
-            "between the corners (1, 1, 1) and (1, 1, −1) of the cube lies (1, 1, 0)",
-            middle == sp.Matrix([1, 1, 0]),
-        )
-        yield "on its boundary: max |u~_i| = 1", max(map(abs, middle)) == max(map(abs, first)) == 1
-
-    return Proof(argument)
+@claim.proof("regrouping: cube", "the set of admissible u~ is not strictly convex")
+def cube_is_not_strictly_convex() -> Steps:
+    first, second = CORNER, sp.Matrix([1, 1, -1])
+    middle = (first + second) / 2
+    yield (
+        "between the corners (1, 1, 1) and (1, 1, −1) of the cube lies (1, 1, 0)",
+        middle == sp.Matrix([1, 1, 0]),
+    )
+    yield "on its boundary: max |u~_i| = 1", max(map(abs, middle)) == max(map(abs, first)) == 1
 
 
 @claim(
@@ -59,32 +54,23 @@ def ball_in_the_cube() -> Conditional:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim(
+@claim.proof(
     "before (12): system",
     "x(k+1) = A(k)x(k) + B(k)u~(k) with (u~, u~) ≤ α_max²",
-    verdict="holds",
     remark="True with the corrected B(k).",
+    display=r"x(k+1) = A(k)x(k) + B(k)\tilde u(k),\quad x(0) = z_0,\quad \tilde u(k) \in \{u \in "
+    r"\mathbb{R}^3 : (u, u) \le \alpha_{\max}^2\}",
 )
-def regrouped_system() -> Proof:
-    def argument() -> Steps:
-        plan = worked.ball_plan()
-        left = worked.impulses_to_rest(dict(enumerate(plan.impulses)))
-        yield (
-            "the example's impulses, fired one by one at the starts of their intervals, end at 0",
-            left < 1e-16,
-        )
-        yield from worked.ball_certificate()
-        for k, column in enumerate(plan.states[2::2], start=1):
-            state = np.array(worked.Z0)
-            for impulse in plan.impulses[: 3 * k]:
-                state = worked.interval_matrix() @ (state + np.array([0.0, *impulse]))
-            yield f"x({2 * k}) = y({3 * k})", np.abs(state - column).max() < 1e-16
-
-    return Proof(
-        argument,
-        display=r"x(k+1) = A(k)x(k) + B(k)\tilde u(k),\quad x(0) = z_0,\quad \tilde u(k) \in \{u \in "
-        r"\mathbb{R}^3 : (u, u) \le \alpha_{\max}^2\}",
-    )
+def regrouped_system() -> Steps:
+    plan = worked.ball_plan()
+    left = worked.impulses_to_rest(dict(enumerate(plan.impulses)))
+    yield "the example's impulses, fired one by one at the starts of their intervals, end at 0", left < 1e-16
+    yield from worked.ball_certificate()
+    for k, column in enumerate(plan.states[2::2], start=1):
+        state = np.array(worked.Z0)
+        for impulse in plan.impulses[: 3 * k]:
+            state = worked.interval_matrix() @ (state + np.array([0.0, *impulse]))
+        yield f"x({2 * k}) = y({3 * k})", np.abs(state - column).max() < 1e-16
 
 
 @claim(
@@ -95,15 +81,14 @@ def regrouped_system() -> Proof:
     "B^−T(k)B^−1(k)/α_max².",
 )
 def system_with_ellipsoids() -> Equality:
-    key = r"H(k)\,\alpha_{\max}^2"
     B, peak = sp.Matrix(2, 2, sp.symbols("B11 B12 B21 B22", real=True)), sp.Symbol("alpha_max", positive=True)
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         ball = Ellipsoid(sp.ImmutableMatrix(peak * sp.eye(2)))
-        return {key: (peak**2 * ball.image(B).shape).applyfunc(sp.cancel)}
+        return (peak**2 * ball.image(B).shape).applyfunc(sp.cancel)
 
     return Equality(
-        {key: (B.inv().T * B.inv()).applyfunc(sp.cancel)},
+        {r"H(k)\,\alpha_{\max}^2": (B.inv().T * B.inv()).applyfunc(sp.cancel)},
         derived,
         display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = z_0,\quad u(k) \in U(k) = \{u \in \mathbb{R}^3 : "
         r"(u, (B^{-1}(k))^T B^{-1}(k)u) \le \alpha_{\max}^2\}",

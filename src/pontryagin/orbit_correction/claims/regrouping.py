@@ -43,16 +43,14 @@ def printed_inputs(k: int) -> sp.Matrix:
 
 @claim("regrouping: u~", "three successive impulse components make one control", verdict="holds")
 def regrouped_controls() -> Equality:
-    keys = (r"\tilde u(2)", r"\tilde u(3)")
-    printed = (sp.Matrix([w(0, 3), w(1, 3), w(0, 4)]), sp.Matrix([w(1, 4), w(0, 5), w(1, 5)]))
-
-    def derived() -> dict[str, Any]:
-        grouped = [sp.Matrix([w(component, j) for j, component in derivation.schedule(k)]) for k in (2, 3)]
-        return dict(zip(keys, grouped, strict=True))
+    printed = {
+        r"\tilde u(2)": sp.Matrix([w(0, 3), w(1, 3), w(0, 4)]),
+        r"\tilde u(3)": sp.Matrix([w(1, 4), w(0, 5), w(1, 5)]),
+    }
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
-        derived,
+        printed,
+        lambda: [sp.Matrix([w(component, j) for j, component in derivation.schedule(k)]) for k in (2, 3)],
         display=r"\tilde u(2k) = \begin{pmatrix} w_1(3k) \\ w_2(3k) \\ w_1(3k+1) \end{pmatrix},\quad \tilde "
         r"u(2k+1) = \begin{pmatrix} w_2(3k+1) \\ w_1(3k+2) \\ w_2(3k+2) \end{pmatrix}",
     )
@@ -100,9 +98,6 @@ def regrouped_inputs() -> Misprint:
     keys = ("B(2k)", "B(2k+1)")
     delay = sp.eye(3) - printed_transition(interval)
 
-    def derived() -> dict[str, Any]:
-        return {key: derivation.step_inputs(k) for k, key in enumerate(keys)}
-
     def consequence() -> Consequence:
         printed, right = (
             worked.gauge_with(4, inputs).alpha for inputs in (printed_inputs, derivation.step_inputs)
@@ -112,7 +107,7 @@ def regrouped_inputs() -> Misprint:
     empty = sp.zeros(3, 2)
     return Misprint(
         {key: printed_inputs(k) for k, key in enumerate(keys)},
-        derived,
+        lambda: {key: derivation.step_inputs(k) for k, key in enumerate(keys)},
         defect={
             keys[0]: sp.Matrix.hstack(delay * RADIAL, empty),
             keys[1]: sp.Matrix.hstack(delay * TRANSVERSE, empty),

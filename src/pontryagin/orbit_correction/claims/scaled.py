@@ -14,43 +14,38 @@ claim = Page("Ibragimov 2017")
 R = sp.Rational
 
 
-@claim(
+@claim.proof(
     "before (7): α",
     "α = μ(x0, X(N_min, 0)), the Minkowski functional, is below 1 in case (5)",
-    verdict="holds",
     remark="The paper's reference [22] for this functional is missing: its list ends at 21.",
+    display=r"\alpha = \mu(x_0, X(N_{\min}, 0)) < 1",
 )
-def minkowski_functional() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            p, state, N = -system.costates[0], system.inner_state(), system.steps
-            yield (
-                f"{named(system)}: x0/α lies in X(N, 0)",
-                state / system.inner_gauge == system.boundary_state(),
-            )
-            yield (
-                "and no smaller α does: (p, x0) = α s(p)",
-                p.dot(state) == system.inner_gauge * system.support(p, N),
-            )
-            yield "0 < α < 1", 0 < system.inner_gauge < 1
-
-    return Proof(argument, display=r"\alpha = \mu(x_0, X(N_{\min}, 0)) < 1")
+def minkowski_functional() -> Steps:
+    for system in family():
+        p, state, N = -system.costates[0], system.inner_state(), system.steps
+        yield f"{named(system)}: x0/α lies in X(N, 0)", state / system.inner_gauge == system.boundary_state()
+        yield (
+            "and no smaller α does: (p, x0) = α s(p)",
+            p.dot(state) == system.inner_gauge * system.support(p, N),
+        )
+        yield "0 < α < 1", 0 < system.inner_gauge < 1
 
 
-@claim("(7)", "the system (1) with αU(k) in place of U(k)", verdict="holds")
-def scaled_system() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            scaled = [system.inner_gauge * u for u in system.controls()]
-            states = system.fly(system.inner_state(), scaled)
-            yield f"{named(system)}: the α-fold controls bring x0 to 0", states[-1].is_zero_matrix
-            levels = [U.level(u) for U, u in zip(system.U, scaled, strict=True)]
-            yield (
-                "and lie on the boundaries of αU(k), inside U(k)",
-                levels == [system.inner_gauge**2] * system.steps,
-            )
-
-    return Proof(argument, display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in \alpha U(k)")
+@claim.proof(
+    "(7)",
+    "the system (1) with αU(k) in place of U(k)",
+    display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in \alpha U(k)",
+)
+def scaled_system() -> Steps:
+    for system in family():
+        scaled = [system.inner_gauge * u for u in system.controls()]
+        states = system.fly(system.inner_state(), scaled)
+        yield f"{named(system)}: the α-fold controls bring x0 to 0", states[-1].is_zero_matrix
+        levels = [U.level(u) for U, u in zip(system.U, scaled, strict=True)]
+        yield (
+            "and lie on the boundaries of αU(k), inside U(k)",
+            levels == [system.inner_gauge**2] * system.steps,
+        )
 
 
 @claim(
@@ -70,28 +65,25 @@ def scaled_sets() -> Equality:
     )
 
 
-@claim(
+@claim.proof(
     "Lemma 7, ii)",
     "the 0-controllable sets of (7) lie in X(N, k)",
-    verdict="holds",
     remark="This follows from α < 1, 0 ∈ X(N, k) and the convexity of X(N, k).",
+    display=r"X_\alpha(N, k) \subset X(N, k)",
 )
-def scaled_sets_inside() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            for k in range(system.steps):
-                p, left = -system.costates[k], system.steps - k
-                point = system.inner_gauge * system.point(p, left, k)
-                mixed = system.inner_gauge * system.point(p, left, k) + (1 - system.inner_gauge) * sp.zeros(
-                    *p.shape
-                )
-                yield (
-                    f"{named(system)}: a point of αX({left}, {k}) is a mixture of one of X and 0",
-                    (point == mixed and 0 < system.inner_gauge < 1),
-                )
-                yield "and inside the half-space of X", p.dot(point) < system.support(p, left, k)
-
-    return Proof(argument, display=r"X_\alpha(N, k) \subset X(N, k)")
+def scaled_sets_inside() -> Steps:
+    for system in family():
+        for k in range(system.steps):
+            p, left = -system.costates[k], system.steps - k
+            point = system.inner_gauge * system.point(p, left, k)
+            mixed = system.inner_gauge * system.point(p, left, k) + (1 - system.inner_gauge) * sp.zeros(
+                *p.shape
+            )
+            yield (
+                f"{named(system)}: a point of αX({left}, {k}) is a mixture of one of X and 0",
+                (point == mixed and 0 < system.inner_gauge < 1),
+            )
+            yield "and inside the half-space of X", p.dot(point) < system.support(p, left, k)
 
 
 def state_on_the_scaled_boundary() -> Steps:
@@ -157,34 +149,28 @@ def which_boundary() -> Slip:
     )
 
 
-@claim(
+@claim.proof(
     "Theorem 4",
     "α times the arg max, with −ψ(k) normal to X_α at x'(k), is optimal for system (1)",
-    verdict="holds",
     remark="Along the trajectory the gauge of x'(k) in X(N_min − k, k) remains α. From an inner point "
     "the optimal control is not unique: this one has the least peak.",
+    display=r"x'(0) = x_0,\quad u'(k) = \alpha\arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad "
+    r"-\psi(k) \in N(x'(k), X_\alpha(N_{\min}-k, k)),\quad x'(k+1) = A(k)x'(k) + u'(k)",
 )
-def optimal_from_inside() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            size, p = system.inner_gauge, -system.costates[0]
-            controls = [size * U.point(q) for U, q in zip(system.U, system.costates[1:], strict=True)]
-            states = system.fly(system.inner_state(), controls)
-            yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
-            yield "N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)
-            yield (
-                "−ψ(k) is normal to X_α(N − k, k) at x'(k): α is constant",
-                all(
-                    -q.dot(state) == size * system.support(-q, system.steps - k, k)
-                    for k, (q, state) in enumerate(zip(system.costates[:-1], states[:-1], strict=True))
-                ),
-            )
-
-    return Proof(
-        argument,
-        display=r"x'(0) = x_0,\quad u'(k) = \alpha\arg\max_{u \in U(k)}((A^{-1}(k))^T\psi(k), u),\quad "
-        r"-\psi(k) \in N(x'(k), X_\alpha(N_{\min}-k, k)),\quad x'(k+1) = A(k)x'(k) + u'(k)",
-    )
+def optimal_from_inside() -> Steps:
+    for system in family():
+        size, p = system.inner_gauge, -system.costates[0]
+        controls = [size * U.point(q) for U, q in zip(system.U, system.costates[1:], strict=True)]
+        states = system.fly(system.inner_state(), controls)
+        yield f"{named(system)}: the trajectory ends at 0", states[-1].is_zero_matrix
+        yield "N − 1 steps do not do", p.dot(states[0]) > system.support(p, system.steps - 1)
+        yield (
+            "−ψ(k) is normal to X_α(N − k, k) at x'(k): α is constant",
+            all(
+                -q.dot(state) == size * system.support(-q, system.steps - k, k)
+                for k, (q, state) in enumerate(zip(system.costates[:-1], states[:-1], strict=True))
+            ),
+        )
 
 
 @claim(

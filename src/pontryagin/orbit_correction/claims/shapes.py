@@ -1,11 +1,9 @@
 """Section 6, Lemma 8: ellipsoids, their images and the summands of X(N, 0)."""
 
-from typing import Any
-
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Consequence, Equality, Misprint, Proof, Steps, vanishes
+from pontryagin.ledger.evidence import Consequence, Equality, Misprint, RightSides, Steps, vanishes
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.claims.family import family, named
 from pontryagin.orbit_correction.derivation import summands
@@ -21,36 +19,30 @@ def shape_inverse(system: ExactSystem, k: int) -> sp.Matrix:
     return (product.T * system.U[k - 1].shape * product).inv()
 
 
-@claim(
+@claim.proof(
     "section 6: U(k)",
     "the set (u, Hu) ≤ 1 with H positive definite belongs to U_2, because (u, Hu) is strictly convex",
-    verdict="holds",
+    display=r"U(k) = \{u \in \mathbb{R}^n : (u, H(k)u) \le 1\}",
 )
-def ellipsoids_are_strictly_convex() -> Proof:
-    def argument() -> Steps:
-        a, b, h11, h12, h22 = sp.symbols("a b h11 h12 h22", real=True)
-        share = sp.Symbol("lambda", positive=True)
-        shape = sp.Matrix([[h11, h12], [h12, h22]])
-        x, y = sp.Matrix(sp.symbols("x1:3", real=True)), sp.Matrix([a, b])
+def ellipsoids_are_strictly_convex() -> Steps:
+    a, b, h11, h12, h22 = sp.symbols("a b h11 h12 h22", real=True)
+    share = sp.Symbol("lambda", positive=True)
+    shape = sp.Matrix([[h11, h12], [h12, h22]])
+    x, y = sp.Matrix(sp.symbols("x1:3", real=True)), sp.Matrix([a, b])
 
-        def form(v: sp.Matrix) -> sp.Expr:
-            return (v.T * shape * v)[0]
+    def form(v: sp.Matrix) -> sp.Expr:
+        return (v.T * shape * v)[0]
 
-        mixed = share * form(x) + (1 - share) * form(y) - form(share * x + (1 - share) * y)
+    mixed = share * form(x) + (1 - share) * form(y) - form(share * x + (1 - share) * y)
+    yield (
+        "λ(x, Hx) + (1 − λ)(y, Hy) − (·) = λ(1 − λ)(x − y, H(x − y))",
+        vanishes(sp.expand(mixed - share * (1 - share) * form(x - y))),
+    )
+    for system in family():
         yield (
-            "λ(x, Hx) + (1 − λ)(y, Hy) − (·) = λ(1 − λ)(x − y, H(x − y))",
-            vanishes(sp.expand(mixed - share * (1 - share) * form(x - y))),
+            f"{named(system)}: H > 0, and 0 is an inner point",
+            (system.U[0].shape.is_positive_definite and system.U[0].level(sp.zeros(*system.psi0.shape)) == 0),
         )
-        for system in family():
-            yield (
-                f"{named(system)}: H > 0, and 0 is an inner point",
-                (
-                    system.U[0].shape.is_positive_definite
-                    and system.U[0].level(sp.zeros(*system.psi0.shape)) == 0
-                ),
-            )
-
-    return Proof(argument, display=r"U(k) = \{u \in \mathbb{R}^n : (u, H(k)u) \le 1\}")
 
 
 def plane() -> tuple[Ellipsoid, sp.Matrix, sp.Matrix]:
@@ -62,21 +54,18 @@ def plane() -> tuple[Ellipsoid, sp.Matrix, sp.Matrix]:
     return Ellipsoid(sp.ImmutableMatrix(L)), M, sp.Matrix(sp.symbols("x1:3", real=True))
 
 
-@claim("Lemma 8, i)", "A^−T H A^−1 is positive definite", verdict="holds")
-def positive_definite_image() -> Proof:
-    def argument() -> Steps:
-        X, M, y = plane()
-        form = (y.T * M.inv().T * X.shape * M.inv() * y)[0]
-        root = X.factor.inv() * M.inv() * y
-        yield "(y, A^−T H A^−1 y) = |L^−1 A^−1 y|², H = L^−T L^−1", vanishes(sp.cancel(form - root.dot(root)))
-        for system in family():
-            inverse = system.A[0].inv()
-            yield (
-                f"{named(system)}: positive definite",
-                (inverse.T * system.U[0].shape * inverse).is_positive_definite,
-            )
-
-    return Proof(argument, display=r"(A^{-1})^T H A^{-1} > 0")
+@claim.proof("Lemma 8, i)", "A^−T H A^−1 is positive definite", display=r"(A^{-1})^T H A^{-1} > 0")
+def positive_definite_image() -> Steps:
+    X, M, y = plane()
+    form = (y.T * M.inv().T * X.shape * M.inv() * y)[0]
+    root = X.factor.inv() * M.inv() * y
+    yield "(y, A^−T H A^−1 y) = |L^−1 A^−1 y|², H = L^−T L^−1", vanishes(sp.cancel(form - root.dot(root)))
+    for system in family():
+        inverse = system.A[0].inv()
+        yield (
+            f"{named(system)}: positive definite",
+            (inverse.T * system.U[0].shape * inverse).is_positive_definite,
+        )
 
 
 @claim(
@@ -88,9 +77,7 @@ def form_of_the_image() -> Equality:
     X, M, x = plane()
     return Equality(
         {r"(y, (A^{-1})^T H A^{-1}y)": (x.T * X.shape * x)[0]},
-        lambda: {
-            r"(y, (A^{-1})^T H A^{-1}y)": sp.cancel(((M * x).T * M.inv().T * X.shape * M.inv() * (M * x))[0])
-        },
+        lambda: sp.cancel(((M * x).T * M.inv().T * X.shape * M.inv() * (M * x))[0]),
         display=r"(y, (A^{-1})^T H A^{-1}y) = (A^{-1}y, HA^{-1}y) = (x, Hx) \ge 0",
     )
 
@@ -100,7 +87,7 @@ def image_of_an_ellipsoid() -> Equality:
     X, M, _ = plane()
     return Equality(
         {r"H_{AX}": M.inv().T * X.shape * M.inv()},
-        lambda: {r"H_{AX}": X.image(M).shape},
+        lambda: X.image(M).shape,
         display=r"AX = \{x \in \mathbb{R}^n : (x, (A^{-1})^T H A^{-1}x) \le 1\}",
     )
 
@@ -126,7 +113,7 @@ def form_at_the_image_point() -> Misprint:
 
     return Misprint(
         {key: printed},
-        lambda: {key: right},
+        lambda: right,
         defect={key: (x.T * X.shape * (M.inv() - sp.eye(2)) * x)[0]},
         consequence=consequence,
         display=r"(x, Hx) = (A^{-1}Ax, HA^{-1}Ax) = (Ax, (A^{-1})^T H A^{-1}x) \le 1",
@@ -144,10 +131,10 @@ def summand() -> Misprint:
     key = "e_2"
     back = summands.backward_product([A(0), A(1)])
 
-    def derived() -> dict[str, Any]:
+    def derived() -> RightSides:
         # The part of the state that the last of two controls brings to 0; its sign is immaterial by symmetry.
         state = summands.state_brought_to_zero(2)
-        return {key: -(state - state.subs(summands.u(1), 0))}
+        return -(state - state.subs(summands.u(1), 0))
 
     def consequence() -> Consequence:
         sizes = [k + 1 for k in range(3)]
@@ -179,26 +166,23 @@ def shape_of_a_summand() -> Misprint:
 
     return Misprint(
         {key: before * H(2) * after},
-        lambda: {key: summands.carried_back(2)},
+        lambda: summands.carried_back(2),
         defect={key: before * (H(2) - H(1)) * after},
         consequence=consequence,
         display=r"\tilde H(k) = (A(k-1)\cdot\ldots\cdot A(0))^T H(k)(A(k-1)\cdot\ldots\cdot A(0))",
     )
 
 
-@claim(
+@claim.proof(
     "after Lemma 8: X(N, 0)",
     "X(N, 0) is the sum of E_1, ..., E_N",
-    verdict="holds",
     remark="True with the corrected E_k.",
+    display=r"X(N, 0) = \sum_{k=1}^{N} E_k",
 )
-def sum_of_ellipsoids() -> Proof:
-    def argument() -> Steps:
-        for system in family():
-            for k, part in enumerate(system.summands(system.steps), start=1):
-                yield (
-                    f"{named(system)}: summand {k} of Lemma 1 is the ellipsoid of H~({k})",
-                    vanishes(part.factor * part.factor.T - shape_inverse(system, k)),
-                )
-
-    return Proof(argument, display=r"X(N, 0) = \sum_{k=1}^{N} E_k")
+def sum_of_ellipsoids() -> Steps:
+    for system in family():
+        for k, part in enumerate(system.summands(system.steps), start=1):
+            yield (
+                f"{named(system)}: summand {k} of Lemma 1 is the ellipsoid of H~({k})",
+                vanishes(part.factor * part.factor.T - shape_inverse(system, k)),
+            )

@@ -4,7 +4,7 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Equality, Proof, Refutation, Steps, vanishes
+from pontryagin.ledger.evidence import Equality, Refutation, Steps, vanishes
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 
@@ -95,29 +95,23 @@ def piecewise_constant_controls() -> Refutation:
     return Refutation(counterexample)
 
 
-@claim(
+@claim.proof(
     "(1)",
     "a nonstationary linear system with A(k) nonsingular, 0 inside U(k), and U(k) strictly convex "
     "and compact; the satellite of section 7 is such a system",
-    verdict="holds",
     remark="Checked for the satellite at the paper's Δt = 0.25.",
+    display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in U(k),\quad k = 0, 1, 2, \dots",
 )
-def system() -> Proof:
-    def argument() -> Steps:
-        for k in range(2):
-            yield f"det A({k}) = 1", vanishes(sp.simplify(derivation.step_matrix(k).det() - 1))
-            yield (
-                f"det B({k}) is not 0 at Δt = 1/4: U({k}) is an ellipsoid about 0",
-                abs(np.linalg.det(worked.step_inputs(k))) > 0.06,
-            )
+def system() -> Steps:
+    for k in range(2):
+        yield f"det A({k}) = 1", vanishes(sp.simplify(derivation.step_matrix(k).det() - 1))
         yield (
-            "A(0) is not A(1): nonstationary",
-            not vanishes(derivation.step_matrix(0)[0, 1] - derivation.step_matrix(1)[0, 1]),
+            f"det B({k}) is not 0 at Δt = 1/4: U({k}) is an ellipsoid about 0",
+            abs(np.linalg.det(worked.step_inputs(k))) > 0.06,
         )
-
-    return Proof(
-        argument,
-        display=r"x(k+1) = A(k)x(k) + u(k),\quad x(0) = x_0,\quad u(k) \in U(k),\quad k = 0, 1, 2, \dots",
+    yield (
+        "A(0) is not A(1): nonstationary",
+        not vanishes(derivation.step_matrix(0)[0, 1] - derivation.step_matrix(1)[0, 1]),
     )
 
 
@@ -126,6 +120,6 @@ def scalar_product() -> Equality:
     pair = sp.symbols("x1:4 y1:4")
     return Equality(
         {"(x, y)": sum(a * b for a, b in zip(pair[:3], pair[3:], strict=True))},
-        lambda: {"(x, y)": (sp.Matrix([pair[:3]]) * sp.Matrix(pair[3:]))[0]},
+        lambda: (sp.Matrix([pair[:3]]) * sp.Matrix(pair[3:]))[0],
         display=r"(x, y) = x_1y_1 + \ldots + x_ny_n",
     )

@@ -5,7 +5,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.ledger import Entry, Page
 from pontryagin.ledger.decimals import Decimals, unit
-from pontryagin.ledger.evidence import Conditional, Proof, Steps
+from pontryagin.ledger.evidence import Conditional, Steps
 from pontryagin.orbit_correction import derivation
 from pontryagin.orbit_correction.claims import worked
 from pontryagin.orbit_correction.printed import CONTROLS, COSTATES, FEWEST_STEPS, GAUGE, STATES
@@ -64,19 +64,16 @@ def gauge_of_the_example() -> Decimals:
     return Decimals({key: GAUGE}, lambda: {key: float(worked.ball_plan().gauge)}, worked.ball_certificate)
 
 
-@claim(
+@claim.proof(
     "after (12): boundary",
     "z0 is on the boundary of X_0.9286(4, 0)",
-    verdict="holds",
     remark="True to the printed digits: the gauge is 0.928574, so z0 lies inside by 3 parts in 100,000.",
+    display=r"z_0 \in \partial X_{0.9286}(4, 0)",
 )
-def on_the_scaled_boundary() -> Proof:
-    def argument() -> Steps:
-        yield from worked.ball_certificate()
-        share = float(worked.ball_plan().gauge) / 0.9286
-        yield f"the gauge of z0 in 0.9286 X(4, 0) is {share:.6f}", 1 - 1e-4 / 0.9286 < share < 1
-
-    return Proof(argument, display=r"z_0 \in \partial X_{0.9286}(4, 0)")
+def on_the_scaled_boundary() -> Steps:
+    yield from worked.ball_certificate()
+    share = float(worked.ball_plan().gauge) / 0.9286
+    yield f"the gauge of z0 in 0.9286 X(4, 0) is {share:.6f}", 1 - 1e-4 / 0.9286 < share < 1
 
 
 @claim(
@@ -207,27 +204,23 @@ def rounded_tables() -> Conditional:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim(
+@claim.proof(
     "tables: consistency",
     "the printed numbers fit each other",
-    verdict="holds",
     remark="Checked with A(k); B(k) does not enter.",
 )
-def consistent_tables() -> Proof:
-    def argument() -> Steps:
-        states, costates, controls = (
-            np.array([[float(number) for number in numbers] for numbers in table])
-            for table in (STATES, COSTATES, CONTROLS)
+def consistent_tables() -> Steps:
+    states, costates, controls = (
+        np.array([[float(number) for number in numbers] for numbers in table])
+        for table in (STATES, COSTATES, CONTROLS)
+    )
+    for k in range(4):
+        gap = states[k + 1] - worked.step_matrix(k) @ states[k] - controls[k]
+        yield (
+            f"x*({k + 1}) = A({k})x*({k}) + u*({k}) to two units of the last digit",
+            np.abs(gap).max() < 2e-7,
         )
-        for k in range(4):
-            gap = states[k + 1] - worked.step_matrix(k) @ states[k] - controls[k]
-            yield (
-                f"x*({k + 1}) = A({k})x*({k}) + u*({k}) to two units of the last digit",
-                np.abs(gap).max() < 2e-7,
-            )
-        for k in range(3):
-            turned = worked.step_matrix(k).T @ costates[k + 1] - costates[k]
-            yield f"ψ({k}) = A'({k})ψ({k + 1}) to two units", np.abs(turned).max() < 2e-4
-        yield "(ψ0, ψ0) = 1", abs(float(costates[0] @ costates[0]) - 1) < 1e-4
-
-    return Proof(argument)
+    for k in range(3):
+        turned = worked.step_matrix(k).T @ costates[k + 1] - costates[k]
+        yield f"ψ({k}) = A'({k})ψ({k + 1}) to two units", np.abs(turned).max() < 2e-4
+    yield "(ψ0, ψ0) = 1", abs(float(costates[0] @ costates[0]) - 1) < 1e-4

@@ -66,8 +66,13 @@ def controllable_sets(plan: Plan) -> Figure:
         space.text(x - 0.16, y, z + 0.03, f"{k}", color=INK)
     _dress(space)
     space.view_init(20, -50)
-    handles, names = space.get_legend_handles_labels()
-    figure.legend(handles, names, loc="upper left", bbox_to_anchor=(0.0, 1.01), ncols=2, columnspacing=1.0)
+    figure.legend(
+        *space.get_legend_handles_labels(),
+        loc="upper left",
+        bbox_to_anchor=(0.0, 1.01),
+        ncols=2,
+        columnspacing=1.0,
+    )
     figure.text(0.02, 0.115, _description(frame), va="top", fontsize=9.5, linespacing=1.35)
     return figure
 
@@ -111,8 +116,7 @@ def remaining_sets(plan: Plan) -> Figure:
     for ax in axes:
         ax.set_xlim(-reach, reach)
     axes[0].set_ylabel("across, $10^{-2}$")
-    handles, names = axes[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside upper center", ncols=4)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return figure
 
 

@@ -8,7 +8,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Misprint,
     Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -78,10 +78,10 @@ def equal_at_both_ends() -> Misprint:
             printed[0].subs(start),
         )
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # nu* = mu o lambda~, with mu = lambda o nu.
         lifted = dict(zip(principle.mu, reduction.lifted(), strict=True))
-        return {key: reduction.invariant().subs(lifted)}
+        return reduction.invariant().subs(lifted)
 
     return Misprint(
         {key: printed},
@@ -93,28 +93,19 @@ def equal_at_both_ends() -> Misprint:
     )
 
 
-@claim(
-    "(15): origin",
-    "(15) follows from (6) and the integral ν*",
-    verdict="holds",
-    remark="(15) does not imply (6).",
-)
-def origin_of_15() -> Proof:
-    def argument() -> Steps:
-        for k, part in enumerate(reduction.invariant()):
-            moves = reduction.along(part)
-            yield f"component {k} of λ∘ν∘λ~ is constant", vanishes(sp.expand(sp.simplify(moves)))
-        seen = product(attitude, pure(nu), tilde)
-        opposite = dict(zip(attitude, -attitude, strict=True))
-        other = (seen - seen.subs(opposite, simultaneous=True)).applyfunc(sp.expand)
-        yield "λ = −λ* gives the same as λ = λ*", other.is_zero_matrix
-
-    return Proof(argument)
+@claim.proof("(15): origin", "(15) follows from (6) and the integral ν*", remark="(15) does not imply (6).")
+def origin_of_15() -> Steps:
+    for k, part in enumerate(reduction.invariant()):
+        moves = reduction.along(part)
+        yield f"component {k} of λ∘ν∘λ~ is constant", vanishes(sp.expand(sp.simplify(moves)))
+    seen = product(attitude, pure(nu), tilde)
+    opposite = dict(zip(attitude, -attitude, strict=True))
+    other = (seen - seen.subs(opposite, simultaneous=True)).applyfunc(sp.expand)
+    yield "λ = −λ* gives the same as λ = λ*", other.is_zero_matrix
 
 
 @claim("(16)", "transversality at the moving end", verdict="holds")
 def moving_end() -> Proof:
-    key = "0"
     bracket = eccentricity * areal / parameter * s1 * sp.cos(anomaly) + nu3 / 2
     printed = anomaly_constant + parameter * eccentricity * rho * sp.sin(anomaly) + growth**2 * bracket
 
@@ -131,29 +122,29 @@ def moving_end() -> Proof:
 
     return Proof(
         argument,
-        Equality({key: printed}, lambda: {key: transversality.condition()}),
+        Equality({"0": printed}, transversality.condition),
         display=r"C_\varphi + p^* e^*\rho(t_k)\sin\varphi_k^* + (1 + e^*\cos\varphi_k^*)^2\Bigl[\frac{e^* "
         r"c^*}{p^*}s_1(t_k)\cos\varphi_k^* + \frac12\nu_3(t_k)\Bigr] = 0",
     )
 
 
-@claim("after (16): C_φ", "C_φ is a constant of integration", verdict="holds")
-def constant_of_integration() -> Proof:
-    def argument() -> Steps:
-        found = reduction.anomaly_integral()
-        yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
-        pair = reduction.anomaly_costate_of() * model.anomaly_rate()
-        yield (
-            "Φ*φ*' is c*C_φ/p*², the last term of (17)",
-            vanishes(pair - areal * anomaly_constant / parameter**2),
-        )
-
-    return Proof(argument, display=r"C_\varphi = \Phi^*(1 + e^*\cos\varphi^*)^2")
+@claim.proof(
+    "after (16): C_φ",
+    "C_φ is a constant of integration",
+    display=r"C_\varphi = \Phi^*(1 + e^*\cos\varphi^*)^2",
+)
+def constant_of_integration() -> Steps:
+    found = reduction.anomaly_integral()
+    yield "C_φ = Φ*(1 + e* cos φ*)² is constant", vanishes(sp.simplify(reduction.along(found)))
+    pair = reduction.anomaly_costate_of() * model.anomaly_rate()
+    yield (
+        "Φ*φ*' is c*C_φ/p*², the last term of (17)",
+        vanishes(pair - areal * anomaly_constant / parameter**2),
+    )
 
 
 @claim("(17)", "the integral H⁰ is zero, since t_k is free", verdict="holds")
 def hamiltonian() -> Proof:
-    key = "H^0"
     printed = (
         -(time_weight + energy_weight * (p1**2 + p2**2 + p3**2))
         + rho * v1
@@ -181,7 +172,7 @@ def hamiltonian() -> Proof:
 
     return Proof(
         argument,
-        Equality({key: printed}, lambda: {key: reduction.hamiltonian()}),
+        Equality({"H^0": printed}, reduction.hamiltonian),
         display=r"H^0 = -(\alpha_1 + \alpha_2 p^{02}) + \rho v_1 + s_1\Bigl(\frac{c^2}{r^3} - "
         r"\frac{fM}{r^2} + p_1^0\Bigr) + e r p_2^0 + \frac{r\nu_1 p_3^0}{2c} + \frac{c\nu_3}{2r^2} + "
         r"\frac{c^* C_\varphi}{p^{*2}} = 0",

@@ -4,7 +4,6 @@ import sympy as sp
 
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
-    Proof,
     Refutation,
     Steps,
     vanishes,
@@ -86,28 +85,24 @@ def repaired() -> Steps:
     yield f"(5), (6) and that law have rank 7: least singular value {found[-1]:.4f}", found[-1] > 1e-3
 
 
-@claim(
+@claim.proof(
     "conclusion: simpler",
     "the right-hand sides have become simpler",
-    verdict="holds",
     remark="They are simpler even with the eleventh equation.",
 )
-def simpler() -> Proof:
-    def argument() -> Steps:
-        for mode in ("unsaturated", "saturated"):
-            systems = (forms.full(mode), forms.repaired(mode), forms.reduced(mode))
-            sixteen, eleven, ten = (sum(sp.count_ops(rate) for rate in form.rates) for form in systems)
-            yield (
-                f"{mode}: {sixteen} operations in 16 equations, {eleven} in 11, {ten} in 10",
-                (ten < eleven < sixteen / 2),
-            )
-            shared = [sum(sp.count_ops(part) for part in evaluated(form)) for form in systems]
-            yield (
-                f"what occurs twice counted once: {shared[0]}, {shared[1]}, {shared[2]}",
-                shared[2] < shared[1] < shared[0],
-            )
-
-    return Proof(argument)
+def simpler() -> Steps:
+    for mode in ("unsaturated", "saturated"):
+        systems = (forms.full(mode), forms.repaired(mode), forms.reduced(mode))
+        sixteen, eleven, ten = (sum(sp.count_ops(rate) for rate in form.rates) for form in systems)
+        yield (
+            f"{mode}: {sixteen} operations in 16 equations, {eleven} in 11, {ten} in 10",
+            (ten < eleven < sixteen / 2),
+        )
+        shared = [sum(sp.count_ops(part) for part in evaluated(form)) for form in systems]
+        yield (
+            f"what occurs twice counted once: {shared[0]}, {shared[1]}, {shared[2]}",
+            shared[2] < shared[1] < shared[0],
+        )
 
 
 def evaluated(form: forms.Form) -> list[sp.Expr]:

@@ -8,8 +8,7 @@ from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Conditional,
     Equality,
-    Proof,
-    Sides,
+    RightSides,
     Slip,
     Steps,
     vanishes,
@@ -38,15 +37,13 @@ def r_of_target() -> tuple[sp.Expr, sp.Expr]:
     "nothing to minimise. `Rendezvous` refuses this case.",
 )
 def functional() -> Equality:
-    key = r"\dot g"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         at_rest = principle.hamiltonian().subs(dict.fromkeys(principle.COSTATE, 0))
         length = {thrust[0]: p, thrust[1]: 0, thrust[2]: 0}
-        return {key: sp.expand(-at_rest.subs(length))}
+        return sp.expand(-at_rest.subs(length))
 
     return Equality(
-        {key: time_weight + energy_weight * p**2},
+        {r"\dot g": time_weight + energy_weight * p**2},
         derived,
         display=r"J = \int_0^{t_k}(\alpha_1 + \alpha_2 p^2(t))\,dt,\quad \alpha_1, \alpha_2 = "
         r"\mathrm{const} \ge 0",
@@ -232,11 +229,12 @@ def loss_of_mass() -> Conditional:
     return Conditional(argument, counterexample=counterexample)
 
 
-@claim("section 1: least time", "with α1 = 1, α2 = 0 the functional is t_k", verdict="holds")
-def least_time() -> Proof:
-    def argument() -> Steps:
-        running = principle.running_cost().subs({time_weight: 1, energy_weight: 0})
-        yield "the integrand is 1", running == 1
-        yield "its integral is t_k", vanishes(sp.integrate(running, (t, 0, t_k)) - t_k)
-
-    return Proof(argument, display=r"\alpha_1 = 1,\ \alpha_2 = 0:\quad J = t_k")
+@claim.proof(
+    "section 1: least time",
+    "with α1 = 1, α2 = 0 the functional is t_k",
+    display=r"\alpha_1 = 1,\ \alpha_2 = 0:\quad J = t_k",
+)
+def least_time() -> Steps:
+    running = principle.running_cost().subs({time_weight: 1, energy_weight: 0})
+    yield "the integrand is 1", running == 1
+    yield "its integral is t_k", vanishes(sp.integrate(running, (t, 0, t_k)) - t_k)

@@ -5,7 +5,6 @@ import sympy as sp
 from pontryagin.ledger import Page
 from pontryagin.ledger.evidence import (
     Equality,
-    Proof,
     Refutation,
     Steps,
     vanishes,
@@ -36,141 +35,122 @@ def constant(expression: sp.Expr) -> bool:
     return vanishes(sp.expand(sp.simplify(reduction.along(expression))))
 
 
-@claim("section 2: ν*", "ν* = μ∘λ~ is a first integral", verdict="holds", remark="This holds at any thrust.")
-def invariant() -> Proof:
-    def argument() -> Steps:
-        for k, part in enumerate(reduction.invariant()):
-            yield f"component {k} of μ∘λ~ is constant along the 16 equations", constant(part)
-
-    return Proof(argument, display=r"\bar\nu^* = \bar\mu\circ\tilde{\bar\lambda} = \mathrm{const}")
-
-
-@claim("section 2: ν = λ~∘ν*∘λ", "the new variable ν is obtained from the integral ν*", verdict="holds")
-def nu_from_the_invariant() -> Proof:
-    def argument() -> Steps:
-        seen = product(conjugate(attitude), reduction.invariant(), attitude)
-        for k, (a, b) in enumerate(zip(seen, reduction.nu_of(), strict=True)):
-            yield f"component {k} of λ~∘ν*∘λ is that of λ~∘μ, for |λ| = 1", vanishes(at_unit_norm(a - b))
-
-    return Proof(argument, display=r"\bar\nu = \tilde{\bar\lambda}\circ\bar\nu^*\circ\bar\lambda")
+@claim.proof(
+    "section 2: ν*",
+    "ν* = μ∘λ~ is a first integral",
+    remark="This holds at any thrust.",
+    display=r"\bar\nu^* = \bar\mu\circ\tilde{\bar\lambda} = \mathrm{const}",
+)
+def invariant() -> Steps:
+    for k, part in enumerate(reduction.invariant()):
+        yield f"component {k} of μ∘λ~ is constant along the 16 equations", constant(part)
 
 
-@claim(
+@claim.proof(
+    "section 2: ν = λ~∘ν*∘λ",
+    "the new variable ν is obtained from the integral ν*",
+    display=r"\bar\nu = \tilde{\bar\lambda}\circ\bar\nu^*\circ\bar\lambda",
+)
+def nu_from_the_invariant() -> Steps:
+    seen = product(conjugate(attitude), reduction.invariant(), attitude)
+    for k, (a, b) in enumerate(zip(seen, reduction.nu_of(), strict=True)):
+        yield f"component {k} of λ~∘ν*∘λ is that of λ~∘μ, for |λ| = 1", vanishes(at_unit_norm(a - b))
+
+
+@claim.proof(
     "section 2: integrals",
     "the boundary value problem has first integrals, which are taken into account",
-    verdict="holds",
     remark="The integrals are ν* (four), |λ|, C_φ and H. ν0 is one of the four, the scalar part of ν*, and "
     "may be chosen at will, as no thrust contains it. |ν| is constant along (14) and is not used: the "
     "ten equations are one more than needed.",
 )
-def integrals() -> Proof:
-    def argument() -> Steps:
-        norm, gauge, square = reduction.norms()
-        yield "|λ|² is constant", constant(norm)
-        yield "C_φ = Φ*(1 + e* cos φ*)² is constant", constant(reduction.anomaly_integral())
-        yield "ν0 is constant", constant(gauge)
-        without = {
-            principle.in_nu(part).has(nu0) for part in (principle.hamiltonian(), *principle.switching())
-        }
-        yield "and neither H nor n contains it", without == {False}
-        yield "ν1² + ν2² + ν3² is constant", constant(square)
-        for mode in principle.MODES:
-            yield f"H is constant, the {mode} thrust put in", vanishes(variation.energy_rate(mode))
-
-    return Proof(argument)
+def integrals() -> Steps:
+    norm, gauge, square = reduction.norms()
+    yield "|λ|² is constant", constant(norm)
+    yield "C_φ = Φ*(1 + e* cos φ*)² is constant", constant(reduction.anomaly_integral())
+    yield "ν0 is constant", constant(gauge)
+    without = {principle.in_nu(part).has(nu0) for part in (principle.hamiltonian(), *principle.switching())}
+    yield "and neither H nor n contains it", without == {False}
+    yield "ν1² + ν2² + ν3² is constant", constant(square)
+    for mode in principle.MODES:
+        yield f"H is constant, the {mode} thrust put in", vanishes(variation.energy_rate(mode))
 
 
-@claim("section 2: six", "the order falls by six for any control p", verdict="holds")
-def six() -> Proof:
-    def argument() -> Steps:
-        whole = [*principle.STATE, *principle.COSTATE]
-        yield "16 − 4 (λ) − 4 (μ) − 1 (Φ*) + 3 (ν) = 10", len(whole) - 6 == len(reduction.REDUCED)
-        outside = set().union(*(rate.free_symbols for rate in reduction.rates())) - set(reduction.REDUCED)
-        yield "the ten rates contain no λ, μ, Φ*", outside.isdisjoint(whole)
-        yield "and p1, p2, p3 as they are: any control", set(thrust) < outside
-        yield "ν0 drops out too: its rate is 0", reduction.gauge_rate() == 0
-
-    return Proof(argument)
+@claim.proof("section 2: six", "the order falls by six for any control p")
+def six() -> Steps:
+    whole = [*principle.STATE, *principle.COSTATE]
+    yield "16 − 4 (λ) − 4 (μ) − 1 (Φ*) + 3 (ν) = 10", len(whole) - 6 == len(reduction.REDUCED)
+    outside = set().union(*(rate.free_symbols for rate in reduction.rates())) - set(reduction.REDUCED)
+    yield "the ten rates contain no λ, μ, Φ*", outside.isdisjoint(whole)
+    yield "and p1, p2, p3 as they are: any control", set(thrust) < outside
+    yield "ν0 drops out too: its rate is 0", reduction.gauge_rate() == 0
 
 
 @claim("(11)", "rates of v1, r, c", verdict="holds")
 def translation() -> Equality:
-    keys = (r"\dot v_1", r"\dot r", r"\dot c")
-    printed = (c**2 / r**3 - gravity / r**2 + p1, v1, r * p2)
-    return Equality(
-        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(v1, r, c), strict=True))
-    )
+    printed = {r"\dot v_1": c**2 / r**3 - gravity / r**2 + p1, r"\dot r": v1, r"\dot c": r * p2}
+    return Equality(printed, lambda: rates(v1, r, c))
 
 
 @claim("(12)", "rates of s1 and ρ", verdict="holds")
 def radial_costates() -> Equality:
-    keys = (r"\dot s_1", r"\dot\rho")
-    printed = (
-        -rho,
-        ((3 * c**2 / r - 2 * gravity) * s1 + c * nu3) / r**3 - e * p2 - nu1 * p3 / (2 * c),
-    )
-    return Equality(
-        dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(s1, rho), strict=True))
-    )
+    printed = {
+        r"\dot s_1": -rho,
+        r"\dot\rho": ((3 * c**2 / r - 2 * gravity) * s1 + c * nu3) / r**3 - e * p2 - nu1 * p3 / (2 * c),
+    }
+    return Equality(printed, lambda: rates(s1, rho))
 
 
 @claim("(13)", "rate of e", verdict="holds")
 def areal_costate() -> Equality:
-    key = r"\dot e"
     printed = -(2 * c * s1 / r + nu3 / 2) / r**2 + r * nu1 * p3 / (2 * c**2)
-    return Equality({key: printed}, lambda: {key: rates(e)[0]})
+    return Equality({r"\dot e": printed}, lambda: rates(e)[0])
 
 
 @claim("(14)", "rates of ν1, ν2, ν3", verdict="holds")
 def nu_rates() -> Equality:
-    keys = (r"\dot\nu_1", r"\dot\nu_2", r"\dot\nu_3")
-    printed = (c * nu2 / r**2, -c * nu1 / r**2 + r * nu3 * p3 / c, -r * nu2 * p3 / c)
-    return Equality(dict(zip(keys, printed, strict=True)), lambda: dict(zip(keys, rates(*nu), strict=True)))
+    printed = {
+        r"\dot\nu_1": c * nu2 / r**2,
+        r"\dot\nu_2": -c * nu1 / r**2 + r * nu3 * p3 / c,
+        r"\dot\nu_3": -r * nu2 * p3 / c,
+    }
+    return Equality(printed, lambda: rates(*nu))
 
 
-@claim("after (14): order", "(11) to (14) and φ*' form a system of order ten", verdict="holds")
-def order_ten() -> Proof:
-    def argument() -> Steps:
-        yield "ten variables", len(reduction.REDUCED) == len(reduction.rates()) == 10
-        n = dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True))
-        closed = [rate.subs(n) for rate in reduction.rates()]
-        outside = set().union(*(rate.free_symbols for rate in closed)) - set(reduction.REDUCED)
-        yield "with the optimal thrust they are closed", outside.isdisjoint((*attitude, *mu, *thrust, nu0))
-        yield "φ*' contains φ* alone", set(reduction.REDUCED) & rates(anomaly)[0].free_symbols == {anomaly}
-        yield (
-            "and no other rate contains φ*",
-            not any(
-                rate.has(anomaly) for x, rate in zip(reduction.REDUCED, closed, strict=True) if x != anomaly
-            ),
-        )
-
-    return Proof(argument)
+@claim.proof("after (14): order", "(11) to (14) and φ*' form a system of order ten")
+def order_ten() -> Steps:
+    yield "ten variables", len(reduction.REDUCED) == len(reduction.rates()) == 10
+    n = dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True))
+    closed = [rate.subs(n) for rate in reduction.rates()]
+    outside = set().union(*(rate.free_symbols for rate in closed)) - set(reduction.REDUCED)
+    yield "with the optimal thrust they are closed", outside.isdisjoint((*attitude, *mu, *thrust, nu0))
+    yield "φ*' contains φ* alone", set(reduction.REDUCED) & rates(anomaly)[0].free_symbols == {anomaly}
+    yield (
+        "and no other rate contains φ*",
+        not any(rate.has(anomaly) for x, rate in zip(reduction.REDUCED, closed, strict=True) if x != anomaly),
+    )
 
 
-@claim(
+@claim.proof(
     "after (14): eleven",
     "ten arbitrary constants appear, and t_k is the eleventh unknown",
-    verdict="holds",
     remark="The ten constants are those of (11) to (14) and φ*'. A twelfth unknown, C_φ, comes with (16); "
     "the paper does not count it in what follows. The law (n, p) = α1 + α2p² at t_k takes the place "
     "of (16) and (17) and does not contain C_φ.",
 )
-def eleven_unknowns() -> Proof:
-    def argument() -> Steps:
-        closed = reduction.rates().subs(dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True)))
-        changing = {*principle.STATE, *principle.COSTATE, *nu, anomaly_constant}
-        inside = closed.free_symbols & changing
-        yield "ten rates of ten variables, in nothing else that changes", inside <= set(reduction.REDUCED)
-        start = dict.fromkeys(reduction.REDUCED, sp.Rational(1, 2))
-        smooth = closed.jacobian(reduction.REDUCED).subs(start)
-        yield (
-            "their derivatives are finite where n ≠ 0: one motion for each ten values at t0",
-            not smooth.has(sp.zoo, sp.nan, sp.oo),
-        )
-        law = terminal.hamiltonian_at_a_meeting()
-        yield "(16) put into (17) leaves no C_φ", not law.has(anomaly_constant)
-
-    return Proof(argument)
+def eleven_unknowns() -> Steps:
+    closed = reduction.rates().subs(dict(zip(thrust, principle.optimal_thrust("saturated"), strict=True)))
+    changing = {*principle.STATE, *principle.COSTATE, *nu, anomaly_constant}
+    inside = closed.free_symbols & changing
+    yield "ten rates of ten variables, in nothing else that changes", inside <= set(reduction.REDUCED)
+    start = dict.fromkeys(reduction.REDUCED, sp.Rational(1, 2))
+    smooth = closed.jacobian(reduction.REDUCED).subs(start)
+    yield (
+        "their derivatives are finite where n ≠ 0: one motion for each ten values at t0",
+        not smooth.has(sp.zoo, sp.nan, sp.oo),
+    )
+    law = terminal.hamiltonian_at_a_meeting()
+    yield "(16) put into (17) leaves no C_φ", not law.has(anomaly_constant)
 
 
 @claim(

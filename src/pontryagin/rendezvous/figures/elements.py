@@ -27,6 +27,7 @@ from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.least_fuel import least_fuel
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.solve import solve_in_elements
+from pontryagin.rendezvous.figures.labels import saturated_arcs
 from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.judge.table import (
     MESHES,
@@ -61,28 +62,26 @@ def elements_along(solution: ElementsExtremal) -> Figure:
     figure, axes = subplots(3, sharex=True, height=5.6)
     for ax, (values, name) in zip(axes, panels, strict=True):
         _shade_burns(ax, solution)
-        for k in range(4):
-            ax.plot(t, values[:, k], color=PALETTE[k], label=rf"component {k}")
-        ax.set_ylabel(f"${name}$")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=5)
+        draw_components(ax, t, values, name)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     axes[-1].set_xlabel(TIME)
     axes[-1].set_xlim(0, solution.duration)
     figure.align_ylabels(list(axes))
     return figure
 
 
+def draw_components(ax: Axes, t: Array, values: Array, name: str) -> None:
+    """Draw the four components (k, 4) of a quaternion."""
+    for k in range(4):
+        ax.plot(t, values[:, k], color=PALETTE[k], label=f"component {k}")
+    ax.set_ylabel(f"${name}$")
+
+
 def _shade_burns(ax: Axes, solution: ElementsExtremal) -> None:
     """Shade the arcs with thrust if there are coasting arcs too."""
     if "coast" not in solution.modes:
         return
-    edges = [0.0, *solution.switch_times, solution.duration]
-    burns = [
-        pair
-        for mode, pair in zip(solution.modes, itertools.pairwise(edges), strict=True)
-        if mode == "saturated"
-    ]
-    for place, (begin, end) in enumerate(burns):
+    for place, (begin, end) in enumerate(saturated_arcs(solution)):
         label = None if place else "thrust"
         ax.axvspan(begin, end, color=GREY, alpha=SHADE, zorder=0, linewidth=0, label=label)
 
@@ -111,8 +110,7 @@ def sharpening(solution: ElementsExtremal) -> Figure:
     above.set_ylabel(r"$|n|/\alpha_2$")
     below.set_ylabel(r"$|p|/p_{\max}$")
     below.set_xlabel(TIME)
-    handles, labels = below.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right center")
+    figure.legend(*below.get_legend_handles_labels(), loc="outside right center")
     return figure
 
 
@@ -157,8 +155,7 @@ def two_functionals(energy: ElementsExtremal, fuel: ElementsExtremal) -> Figure:
     left.set_ylabel("$Y$")
     right.set_xlabel(TIME)
     right.set_ylabel("thrust $|p|$")
-    handles, labels = right.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=2)
+    figure.legend(*right.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
 
 

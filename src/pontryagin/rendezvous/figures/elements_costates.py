@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
     BLUE,
-    PALETTE,
     styled,
     subplots,
 )
@@ -15,9 +14,7 @@ from pontryagin.rendezvous.elements.arcs import COSTATES
 from pontryagin.rendezvous.elements.certificate import running_cost
 from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
-
-SAMPLES = 601
-"""Number of times at which a series is drawn."""
+from pontryagin.rendezvous.figures.elements import SAMPLES, draw_components
 
 
 @styled
@@ -36,13 +33,10 @@ def costates_along(solution: ElementsExtremal) -> Figure:
     states = solution.flight.sample(phi)
     figure, axes = subplots(3, sharex=True, height=5.6)
     for ax, name, values in zip(axes, "ab", np.split(states[:, COSTATES], 2, axis=1), strict=False):
-        for k in range(4):
-            ax.plot(times, values[:, k], color=PALETTE[k], label=f"component {k}")
-        ax.set_ylabel(f"${name}$")
+        draw_components(ax, times, values, name)
     axes[2].plot(times, 1e14 * drift(solution, states, phi), color=BLUE, linewidth=0.9)
     axes[2].set(ylabel="drift of $H$ [$10^{-14}$]", xlabel="time $t$", xlim=(0, solution.duration))
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     figure.align_ylabels(list(axes))
     return figure
 

@@ -44,8 +44,9 @@ def false_meetings(family: FalseFamily) -> Figure:
         ax = figure.add_subplot(rows, COLUMNS, number, projection="3d" if space else None)
         _panel(ax, member, 3 if space else 2)
         ax.set_title(_title(member), fontsize=9.5, linespacing=1.25)
-    handles, names = figure.axes[-1].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.2)
+    figure.legend(
+        *figure.axes[-1].get_legend_handles_labels(), loc="outside lower center", ncols=3, columnspacing=1.2
+    )
     return figure
 
 

@@ -1,5 +1,6 @@
 """Units and colours that the figures of this paper share."""
 
+import itertools
 from dataclasses import dataclass
 
 from pontryagin.display.plotting import (
@@ -11,12 +12,14 @@ from pontryagin.display.plotting import (
     PURPLE,
     RED,
 )
+from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.problem.cases import (
     ASTRONOMICAL_UNIT,
     DAY,
     SUN,
 )
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
+from pontryagin.rendezvous.reduced.solution import Extremal
 
 COMPONENTS = (BLUE, GREEN, ORANGE)
 CRAFT, TARGET, START, THRUST, BOUND, OTHER = BLUE, GREEN, GREY, RED, INK, PURPLE
@@ -48,6 +51,12 @@ def units(problem: Rendezvous) -> Units:
     if problem.gravity == SUN:
         return Units(ASTRONOMICAL_UNIT, DAY, 1e-6, "AU", "d", r"mm/s$^2$")
     return Units(1000.0, 3600.0, 1e-6, r"$10^3$ km", "h", r"mm/s$^2$")
+
+
+def saturated_arcs(extremal: Extremal | ElementsExtremal) -> list[tuple[float, float]]:
+    """Begin and end, since the start, of each arc with the thrust at its bound."""
+    edges = itertools.pairwise([0.0, *extremal.switch_times, extremal.duration])
+    return [ends for mode, ends in zip(extremal.modes, edges, strict=True) if mode == "saturated"]
 
 
 def power(value: float) -> str:

@@ -1,5 +1,7 @@
 """The time series of a rendezvous: thrust, switching function, H, costates."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,7 +13,7 @@ from pontryagin.display.plotting import (
     styled,
     subplots,
 )
-from pontryagin.rendezvous.figures.labels import BOUND, COMPONENTS, THRUST, units
+from pontryagin.rendezvous.figures.labels import BOUND, COMPONENTS, THRUST, saturated_arcs, units
 from pontryagin.rendezvous.reduced.certificate import (
     anomaly_constant,
     flown_thrust,
@@ -72,11 +74,8 @@ def _thrust(extremal: Extremal, states: Array, times: Array) -> Array:
 def _components(ax: Axes, extremal: Extremal, times: Array, states: Array) -> None:
     thrust = _thrust(extremal, states, times)
     names = ("$p_1$, radial", "$p_2$, transversal", "$p_3$, out of the plane")
-    for values, name, colour in zip(thrust.T, names, COMPONENTS, strict=True):
-        ax.plot(times, values, color=colour, label=name)
+    _named_curves(ax, times, thrust, names, room=0.55)
     ax.set_ylabel(units(extremal.problem).axis(r"thrust $p_\eta$", "acceleration"))
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.55 * (high - low))
     ax.legend(loc="upper left", labelspacing=0.15, borderaxespad=0.1, handlelength=1.4)
 
 
@@ -107,18 +106,21 @@ def _switching(ax: Axes, extremal: Extremal, times: Array, states: Array) -> Non
 
 
 def _costates(ax: Axes, times: Array, values: Array, names: tuple[str, str, str]) -> None:
+    _named_curves(ax, times, values, names, room=0.2)
+    ax.set_ylabel("costates")
+    ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, handlelength=1.2, columnspacing=1.0)
+
+
+def _named_curves(ax: Axes, times: Array, values: Array, names: Sequence[str], room: float) -> None:
+    """Draw three columns, and leave room for the legend above them, as a share of the axis."""
     for series, name, colour in zip(values.T, names, COMPONENTS, strict=True):
         ax.plot(times, series, color=colour, label=name)
-    ax.set_ylabel("costates")
     low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.2 * (high - low))
-    ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, handlelength=1.2, columnspacing=1.0)
+    ax.set_ylim(low, high + room * (high - low))
 
 
 def _shade(ax: Axes, extremal: Extremal, unit: float) -> None:
     """Shade the arcs on the bound if there are others too."""
-    edges = np.concatenate([[0.0], extremal.switch_times, [extremal.duration]]) / unit
     if len(set(extremal.modes)) > 1:
-        for mode, begin, end in zip(extremal.modes, edges[:-1], edges[1:], strict=True):
-            if mode == "saturated":
-                ax.axvspan(begin, end, color="#f0e6d2", zorder=0, linewidth=0)
+        for begin, end in saturated_arcs(extremal):
+            ax.axvspan(begin / unit, end / unit, color="#f0e6d2", zorder=0, linewidth=0)

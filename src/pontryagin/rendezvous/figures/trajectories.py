@@ -25,6 +25,5 @@ def trajectories(found: Mapping[str, Extremal]) -> Figure:
         draw(ax, extremal, arrows=16, width=1.3)
         ax.set_axis_off()
         ax.set_title(name, y=0.97)
-    handles, names = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=3)
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure

@@ -9,6 +9,7 @@ from itertools import chain
 from pontryagin.triple_integrator.claims import (
     areas,
     chebyshev,
+    cramer,
     energy,
     example_1,
     example_2,
@@ -40,6 +41,7 @@ IN_ORDER = (
     search,
     example_2,
     chebyshev,
+    cramer,
     impulse,
     reach,
 )

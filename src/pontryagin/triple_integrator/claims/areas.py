@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Consequence, Equality, Evidence, Misprint, Sides
+from pontryagin.ledger.evidence import Consequence, Equality, Evidence, Misprint, RightSides
 from pontryagin.triple_integrator.claims.peak import area_with_two_zeros, first, second
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import tau
@@ -32,7 +32,7 @@ def piece_in_the_vertex_form() -> Evidence:
     printed = alpha * (b - a) * (apex**2 - half_width**2 - apex * (b + a) + (b**2 + b * a + a**2) / 3)
     return Equality(
         {"S_k": printed},
-        lambda: {"S_k": parabola.area(a, b)},
+        lambda: parabola.area(a, b),
         display=r"S_k = \alpha_m (b_k - a_k)\left[\tau_m^2 - \Delta_m^2 - \tau_m(b_k + a_k) + "
         r"\tfrac13 (b_k^2 + b_k a_k + a_k^2)\right]",
     )
@@ -53,7 +53,7 @@ def limits_of_the_third_piece() -> Evidence:
 
     return Misprint(
         {"a_2": apex + half_width},
-        lambda: {"a_2": sp.solve(parabola.vertex_form().subs(beta, alpha * half_width**2), tau)[0]},
+        lambda: sp.solve(parabola.vertex_form().subs(beta, alpha * half_width**2), tau)[0],
         defect={"a_2": 2 * half_width},
         consequence=consequence,
         display=r"b_3 = T,\quad a_2 = \tau_m + \Delta_m",
@@ -72,7 +72,7 @@ def three_areas() -> Evidence:
     }
     return Equality(
         printed,
-        lambda: dict(zip(printed, parabola.areas(), strict=True)),
+        parabola.areas,
         display=r"S_1 = \tfrac13 \alpha_m(\tau_m - \Delta_m)^2(\tau_m + 2\Delta_m);\quad S_2 = -\tfrac43 "
         r"\alpha_m"
         r"\Delta_m^3;\quad S_3 = \tfrac13 \alpha_m(T - \tau_m - \Delta_m)[\Delta_m(T - \tau_m - 2\Delta_m) + "
@@ -85,7 +85,7 @@ def third_area_conjugate() -> Evidence:
     printed = alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3)
     return Equality(
         {"S_3": printed},
-        lambda: {"S_3": parabola.areas()[2]},
+        lambda: parabola.areas()[2],
         display=r"S_3 = \tfrac13 \alpha_m(\tilde{\tau}_m^3 - 3\tilde{\tau}_m\Delta_m^2 + 2\Delta_m^3),\quad "
         r"\tilde{\tau}_m = T - \tau_m",
     )
@@ -95,9 +95,9 @@ def third_area_conjugate() -> Evidence:
 def first_area_conjugate() -> Evidence:
     printed = alpha / 3 * (apex**3 - 3 * apex * half_width**2 + 2 * half_width**3)
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # The parabola is symmetric about its apex: S1 is S3 with time reversed.
-        return {"S_1": parabola.areas()[2].subs(apex, T - apex)}
+        return parabola.areas()[2].subs(apex, T - apex)
 
     return Equality(
         {"S_1": printed},
@@ -111,7 +111,7 @@ def condition_on_the_zeros() -> Evidence:
     printed = alpha * (2 * c1 - 2 * conjugate * c2 + (conjugate**2 - half_width**2) * c3)
     return Equality(
         {"1": printed},
-        lambda: {"1": parabola.normalisation().subs(beta, alpha * half_width**2)},
+        lambda: parabola.normalisation().subs(beta, alpha * half_width**2),
         display=r"\alpha_m[2c_1 - 2\tilde{\tau}_m c_2 + (\tilde{\tau}_m^2 - \Delta_m^2)c_3] = 1",
     )
 
@@ -129,9 +129,9 @@ def signed_area() -> Evidence:
         alpha / 3 * (conjugate**3 - 3 * conjugate * half_width**2 + 2 * half_width**3),
     )
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         at = {first: apex - half_width, second: apex + half_width}
-        return {"F": sp.expand(alpha * area_with_two_zeros().subs(at))}
+        return sp.expand(alpha * area_with_two_zeros().subs(at))
 
     return Equality({"F": sides[0] - sides[1] + sides[2]}, derived, display="F = S_1 - S_2 + S_3")
 
@@ -148,7 +148,7 @@ def auxiliary_function() -> Evidence:
     printed = first_area + R(4, 3) * alpha * half_width**3 + third_area + price * condition
     return Equality(
         {r"\tilde F": printed},
-        lambda: {r"\tilde F": parabola.lagrangian()},
+        parabola.lagrangian,
         display=r"\tilde F = S_1 - S_2 + S_3 + \lambda\left[2c_1 - 2\tilde{\tau}_m c_2 + (\tilde{\tau}_m^2 - "
         r"\Delta_m^2)c_3 - \frac{1}{\alpha_m}\right]",
     )

@@ -12,12 +12,13 @@ from pontryagin.ledger.evidence import (
     Evidence,
     LinearSystem,
     Misprint,
-    Proof,
+    RightSides,
     Sides,
     Steps,
     vanishes,
 )
-from pontryagin.triple_integrator.claims.chebyshev import element
+from pontryagin.triple_integrator.claims.chebyshev import F
+from pontryagin.triple_integrator.claims.cramer import ROOM, element, room
 from pontryagin.triple_integrator.derivation import channel, chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive, kick, required_moments, tau
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
@@ -30,9 +31,7 @@ R = sp.Rational
 c1, c2, c3 = c
 x10, x20, x30 = channel.initial
 a0, am, aT = chebyshev.impulses
-turn = sp.Symbol("gamma_T", positive=True)
 width0, widthT, widthm = sp.symbols("epsilon_0 epsilon_T epsilon_m", positive=True)
-F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 
 @claim(
@@ -60,9 +59,7 @@ def conditions_on_the_optimum() -> Evidence:
         )
 
     def counterexample() -> Steps:
-        room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
-        shape = 16 * tau * (T - tau) * (T - 2 * tau) ** 2 / F**2
-        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive except at 0, T/2, T", vanishes(room - shape)
+        yield "ρ0² − h0² = 16τ(T − τ)(T − 2τ)²/F² is positive except at 0, T/2, T", vanishes(room() - ROOM)
         h = dual_function_of(sp.Matrix([1, -R(1, 2), R(1, 16)]))
         reached = 64 * (sp.integrate(h, (s, R(7, 8), 1)) + sp.integrate(h, (s, 0, R(1, 8))))
         yield (
@@ -89,19 +86,18 @@ def conditions_on_the_optimum() -> Evidence:
     "0).",
 )
 def approximating_pulses() -> Evidence:
-    keys = (
-        r"\inf I_m",
-        r"\sup I_m",
-        r"\lvert\hat u\rvert_{I_0}",
-        r"\lvert\hat u\rvert_{I_f}",
-        r"\lvert\hat u\rvert_{I_m}",
-    )
-    printed = dict(zip(keys, (-widthm, widthm, a0 / width0, aT / widthT, am / (2 * widthm)), strict=True))
+    printed = {
+        r"\inf I_m": -widthm,
+        r"\sup I_m": widthm,
+        r"\lvert\hat u\rvert_{I_0}": a0 / width0,
+        r"\lvert\hat u\rvert_{I_f}": aT / widthT,
+        r"\lvert\hat u\rvert_{I_m}": am / (2 * widthm),
+    }
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         centre = sp.solve(element().diff(tau), tau)[0]
         heights = (a0 / width0, aT / widthT, am / ((centre + widthm) - (centre - widthm)))
-        return dict(zip(keys, (centre - widthm, centre + widthm, *heights), strict=True))
+        return centre - widthm, centre + widthm, *heights
 
     def consequence() -> Consequence:
         # In the limit of zero widths the impulses are 4 and half of -8 at the start, and 4 at the end.
@@ -114,7 +110,7 @@ def approximating_pulses() -> Evidence:
     return Misprint(
         printed,
         derived,
-        defect={keys[0]: -T / 2, keys[1]: -T / 2},
+        defect={r"\inf I_m": -T / 2, r"\sup I_m": -T / 2},
         consequence=consequence,
         display=r"\hat u_\varepsilon(\tau) = \frac{a_0}{\varepsilon_0}\operatorname{sign} h_0(0),\ \tau \in "
         r"[0, "
@@ -125,23 +121,17 @@ def approximating_pulses() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (4.8)",
     "impulses away from the extremes of h0 do not attain the maximum",
-    verdict="holds",
     remark="True for the h0 of (4.4). Where the minimal element is a constant, it is extreme at every "
     "instant.",
 )
-def only_at_the_extremes() -> Evidence:
-    def argument() -> Steps:
-        room = sp.factor(element().subs(tau, 0) ** 2 - element() ** 2)
-        inside = sp.Poly(sp.cancel(room * F**2 / 16), tau).as_expr()
-        yield "|h0| < ρ0 except at 0, T/2, T", vanishes(inside - tau * (T - tau) * (T - 2 * tau) ** 2)
-        h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
-        weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
-        yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1
-
-    return Proof(argument)
+def only_at_the_extremes() -> Steps:
+    yield "|h0| < ρ0 except at 0, T/2, T", vanishes(room() - ROOM)
+    h = dual_function_of(sp.Matrix([16, -8, 1]) / 16)
+    weight = h.subs(s, R(3, 4)) / h.subs(s, 1)
+    yield "the same impulse at T/4 instead of 0 contributes less", abs(weight) < 1
 
 
 @claim(
@@ -152,45 +142,41 @@ def only_at_the_extremes() -> Evidence:
     "sign would put them outside. (4.8) is taken with its middle pulse at T/2.",
 )
 def limit_of_the_pulses() -> Evidence:
-    keys = ("x_1(T)", "x_2(T)", "x_3(T)")
     printed = three_impulses((sign * a0, -sign * am, sign * aT), T)
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         width = sp.Symbol("epsilon", positive=True)
         middle = chebyshev.spike(T / 2 - width, T / 2 + width, -sign * am)
         pulses = chebyshev.spike(sp.S.Zero, width, sign * a0) + middle
         pulses += chebyshev.spike(T - width, T, sign * aT)
-        return dict(zip(keys, (sp.limit(sp.expand(x), width, 0) for x in pulses), strict=True))
+        return [sp.limit(sp.expand(x), width, 0) for x in pulses]
 
     return Equality(
-        dict(zip(keys, printed, strict=True)),
+        dict(zip(("x_1(T)", "x_2(T)", "x_3(T)"), printed, strict=True)),
         derived,
         display=r"u_\delta(\tau) = s_0\left[a_0\delta(\tau + 0) - a_m\delta(\tau - \tfrac12 T) + "
         r"a_T\delta(\tau - T - 0)\right]",
     )
 
 
-@claim("after (4.9): L_1", "the impulsive control is not an element of L_1", verdict="holds")
-def impulses_are_not_integrable() -> Evidence:
-    def argument() -> Steps:
-        width, bound = sp.symbols("epsilon U", positive=True)
-        yield (
-            "over [0, ε] an impulse adds a0 to x3, however small ε",
-            vanishes(sp.limit(drive(kick(sp.zeros(3, 1), a0), width, sp.S.Zero)[2], width, 0) - a0),
-        )
-        grown = drive(sp.zeros(3, 1), width, bound)[2]
-        yield "a bounded u at most U ε, and bounded u are dense in L_1", sp.limit(grown, width, 0) == 0
-
-    return Proof(argument)
+@claim.proof("after (4.9): L_1", "the impulsive control is not an element of L_1")
+def impulses_are_not_integrable() -> Steps:
+    width, bound = sp.symbols("epsilon U", positive=True)
+    yield (
+        "over [0, ε] an impulse adds a0 to x3, however small ε",
+        vanishes(sp.limit(drive(kick(sp.zeros(3, 1), a0), width, sp.S.Zero)[2], width, 0) - a0),
+    )
+    grown = drive(sp.zeros(3, 1), width, bound)[2]
+    yield "a bounded u at most U ε, and bounded u are dense in L_1", sp.limit(grown, width, 0) == 0
 
 
 @claim("after (4.9): s0", "s0 = sign h0(0)", verdict="holds")
 def sign_of_the_polynomial() -> Evidence:
     number = sp.Symbol("F", real=True, nonzero=True)
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         start = sp.cancel(element().subs(tau, 0) / T**2)
-        return {"s_0": sp.sign(start.subs(c1, (number + 8 * T * c2 - T**2 * c3) / 16).simplify())}
+        return sp.sign(start.subs(c1, (number + 8 * T * c2 - T**2 * c3) / 16).simplify())
 
     # rho~0 = s0 rho0 = T^2/F with rho0 > 0, so that s0 = sign F.
     return Equality({"s_0": sp.sign(1 / number)}, derived, display=r"s_0 = \operatorname{sign} h_0(0)")
@@ -217,21 +203,18 @@ def end_state_under_impulses() -> Evidence:
     )
 
 
-@claim("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)", verdict="holds")
-def with_a_disturbance() -> Evidence:
-    def argument() -> Steps:
-        force = sp.symbols("f_0", real=True) * (1 + tau)
-        start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
-        later = force.subs(tau, tau + T / 2)
-        state = drive(kick(start, impulses[0]), T / 2, sp.S.Zero, force)
-        end = kick(drive(kick(state, impulses[1]), T / 2, sp.S.Zero, later), impulses[2])
-        needed = required_moments(force).subs(dict(zip(channel.final, end, strict=True)))
-        yield (
-            "the impulses have the moments c of (1.10), f included",
-            vanishes(needed - three_impulses(impulses, T)),
-        )
-
-    return Proof(argument)
+@claim.proof("before (4.10): disturbance", "with f ≠ 0 the same holds with c corrected by (1.10)")
+def with_a_disturbance() -> Steps:
+    force = sp.symbols("f_0", real=True) * (1 + tau)
+    start, impulses = channel.initial, (sign * a0, -sign * am, sign * aT)
+    later = force.subs(tau, tau + T / 2)
+    state = drive(kick(start, impulses[0]), T / 2, sp.S.Zero, force)
+    end = kick(drive(kick(state, impulses[1]), T / 2, sp.S.Zero, later), impulses[2])
+    needed = required_moments(force).subs(dict(zip(channel.final, end, strict=True)))
+    yield (
+        "the impulses have the moments c of (1.10), f included",
+        vanishes(needed - three_impulses(impulses, T)),
+    )
 
 
 @claim("before (4.10): system", "linear system for a0, am, aT with c~ = s0 c", verdict="holds")

@@ -3,7 +3,16 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import (
+    Conditional,
+    Equality,
+    Evidence,
+    Proof,
+    RightSides,
+    Sides,
+    Steps,
+    vanishes,
+)
 from pontryagin.triple_integrator.claims.turn import BANG_BANG, PEAK_DUAL, TURN, unit_turn
 from pontryagin.triple_integrator.derivation import channel, energy
 from pontryagin.triple_integrator.derivation.channel import (
@@ -65,28 +74,20 @@ def ends_of_the_turn() -> Evidence:
     return Equality(printed, derived)
 
 
-@claim(
+@claim.proof(
     "after (0.2)",
     "γ0 = 0, 0 < γf ≤ π, ω0 = ωf = 0 is a turn by the angle γf about the body axis, and not a trivial one",
-    verdict="holds",
 )
-def turn_by_an_angle() -> Evidence:
+def turn_by_an_angle() -> Steps:
     angle = sp.Symbol("gamma_f", real=True)
-
-    def argument() -> Steps:
-        axis = sp.Matrix([0, 0, 1])
-        turned = channel.rotation(angle, axis)
-        yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
-        yield (
-            "its trace is 1 + 2 cos γf: it is a turn by γf",
-            vanishes(turned.trace() - 1 - 2 * sp.cos(angle)),
-        )
-        back = channel.rotation(angle - 2 * sp.pi, axis)
-        yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
-        rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
-        yield "left to itself at rest, the craft does not turn", vanishes(rest)
-
-    return Proof(argument)
+    axis = sp.Matrix([0, 0, 1])
+    turned = channel.rotation(angle, axis)
+    yield "the attitude at γf keeps the axis", vanishes(turned * axis - axis)
+    yield "its trace is 1 + 2 cos γf: it is a turn by γf", vanishes(turned.trace() - 1 - 2 * sp.cos(angle))
+    back = channel.rotation(angle - 2 * sp.pi, axis)
+    yield "an angle beyond π is the turn by 2π − γf the other way round", vanishes(turned - back)
+    rest = channel.drive(sp.zeros(3, 1), T, sp.S.Zero)
+    yield "left to itself at rest, the craft does not turn", vanishes(rest)
 
 
 @claim(
@@ -98,9 +99,9 @@ def acceleration_is_torque_and_disturbance() -> Evidence:
     acceleration = channel.euler_acceleration(applied, external)
     rest = acceleration.subs(applied, 0)
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         in_relative_torque = acceleration.subs(applied, inertia * torque(t))
-        return {r"\varepsilon(t)": in_relative_torque - rest + disturbance(t)}
+        return in_relative_torque - rest + disturbance(t)
 
     def argument() -> Steps:
         rates = sp.symbols("omega_2:4", real=True)
@@ -113,18 +114,18 @@ def acceleration_is_torque_and_disturbance() -> Evidence:
 
 @claim("after (0.3)", "(0.1) and (0.3) make a double integrator: d²γ/dt² = m + f", verdict="holds")
 def double_integrator() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         rate = {gamma(t).diff(t): omega(t), omega(t).diff(t): torque(t) + disturbance(t)}
-        return {r"\ddot\gamma(t)": gamma(t).diff(t).subs(rate).diff(t).subs(rate)}
+        return gamma(t).diff(t).subs(rate).diff(t).subs(rate)
 
     return Equality({r"\ddot\gamma(t)": torque(t) + disturbance(t)}, derived)
 
 
 @claim("(0.4)", "the control u is the rate of the control torque", verdict="holds")
 def rate_of_the_torque() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         built_up = sp.Symbol("m_0") + sp.Integral(control(tau), (tau, channel.t0, t))
-        return {r"\dot m(t)": built_up.diff(t)}
+        return built_up.diff(t)
 
     return Equality(
         {r"\dot m(t)": control(t)},
@@ -200,18 +201,12 @@ def triple_integrator() -> Evidence:
     )
 
 
-@claim("(0.7)", "the control may be bounded: |u| ≤ u0", verdict="holds")
-def bound_on_the_control() -> Evidence:
-    def argument() -> Steps:
-        yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
-        yield (
-            "no smaller u0 suffices: the bound by a dual function",
-            peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32,
-        )
-        least_energy = energy.minimum_energy_control().subs(unit_turn())
-        yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
-
-    return Proof(argument, display=r"\lvert u(t) \rvert \le u_0")
+@claim.proof("(0.7)", "the control may be bounded: |u| ≤ u0", display=r"\lvert u(t) \rvert \le u_0")
+def bound_on_the_control() -> Steps:
+    yield "the turn by 1 in unit time can be made with u0 = 32", piecewise_moments(BANG_BANG) == TURN
+    yield "no smaller u0 suffices: the bound by a dual function", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
+    least_energy = energy.minimum_energy_control().subs(unit_turn())
+    yield "the least-energy programme of that turn breaks the bound", least_energy.subs(s, 1) == 60
 
 
 @claim("(0.8)", "the state at t0", verdict="holds")
@@ -232,18 +227,10 @@ def final_state() -> Evidence:
     return Equality({"x_1(t_f)": x1f, "x_2(t_f)": x2f, "x_3(t_f)": x3f}, derived)
 
 
-@claim(
-    "after (0.9)",
-    "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c",
-    verdict="holds",
+@claim.proof(
+    "after (0.9)", "the manoeuvre is not trivial where c ≠ 0: the free motion misses the target by c"
 )
-def nontrivial() -> Evidence:
-    def argument() -> Steps:
-        gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
-        yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
-        yield (
-            "every gap occurs: its derivative by xf is the identity",
-            gap.jacobian(channel.final) == sp.eye(3),
-        )
-
-    return Proof(argument)
+def nontrivial() -> Steps:
+    gap = channel.final - channel.drive(channel.initial, T, sp.S.Zero, kappa)
+    yield "what the free motion misses is c of (1.10)", vanishes(gap - channel.required_moments(kappa))
+    yield "every gap occurs: its derivative by xf is the identity", gap.jacobian(channel.final) == sp.eye(3)

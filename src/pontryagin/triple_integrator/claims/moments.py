@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import Equality, Evidence, Proof, RightSides, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import channel
 from pontryagin.triple_integrator.derivation.channel import control, disturbance, t, t0, tau, tf
 from pontryagin.triple_integrator.derivation.model import INPUT, T, moments_of, s, transition
@@ -13,7 +13,6 @@ claim = Page("Gorelov & Morozova 2012")
 x10, x20, x30 = channel.initial
 x1f, x2f, x3f = channel.final
 to_go = tf - tau
-p, q = sp.symbols("p q", positive=True)
 
 
 @claim("(1.1)", "state equations in matrix form, with A, b and f(t)", verdict="holds")
@@ -46,25 +45,20 @@ def vector_ends() -> Evidence:
     return Equality({r"\mathbf{x}(t_0)": channel.initial, r"\mathbf{x}(t_f)": channel.final}, derived)
 
 
-@claim("(1.3)", "Cauchy's formula solves (1.1) with x(t0) = x0", verdict="holds")
-def cauchy_formula() -> Evidence:
-    def argument() -> Steps:
-        path = channel.cauchy()
-        residual = path.diff(t) - channel.right_hand_side(path)
-        yield (
-            "it satisfies the state equations, for any u and f",
-            vanishes(residual.applyfunc(sp.expand).doit()),
-        )
-        empty = {
-            part: 0 for part in path.subs(t, t0).atoms(sp.Integral) if part.limits[0][1] == part.limits[0][2]
-        }
-        yield "and starts from x0", vanishes(path.subs(t, t0).subs(empty) - channel.initial)
-
-    return Proof(
-        argument,
-        display=r"\mathbf{x}(t) = \Phi(t, t_0)\mathbf{x}_0 + \int_{t_0}^t \Phi(t, \tau)"
-        r"[\mathbf{b}u(\tau) + \mathbf{f}(\tau)]\,d\tau",
-    )
+@claim.proof(
+    "(1.3)",
+    "Cauchy's formula solves (1.1) with x(t0) = x0",
+    display=r"\mathbf{x}(t) = \Phi(t, t_0)\mathbf{x}_0 + \int_{t_0}^t \Phi(t, \tau)"
+    r"[\mathbf{b}u(\tau) + \mathbf{f}(\tau)]\,d\tau",
+)
+def cauchy_formula() -> Steps:
+    path = channel.cauchy()
+    residual = path.diff(t) - channel.right_hand_side(path)
+    yield "it satisfies the state equations, for any u and f", vanishes(residual.applyfunc(sp.expand).doit())
+    empty = {
+        part: 0 for part in path.subs(t, t0).atoms(sp.Integral) if part.limits[0][1] == part.limits[0][2]
+    }
+    yield "and starts from x0", vanishes(path.subs(t, t0).subs(empty) - channel.initial)
 
 
 @claim("(1.4)", "transition matrix", verdict="holds")
@@ -73,7 +67,7 @@ def transition_matrix() -> Evidence:
     printed = sp.Matrix([[1, lapse, lapse**2 / 2], [0, 1, lapse], [0, 0, 1]])
     return Equality(
         {r"\Phi(t, t_0)": printed},
-        lambda: {r"\Phi(t, t_0)": transition(lapse)},
+        lambda: transition(lapse),
         display=r"\Phi(t, t_0) = \begin{bmatrix} 1 & t - t_0 & \tfrac12(t - t_0)^2 \\ 0 & 1 & t - t_0 \\ 0 "
         r"& 0 & 1 \end{bmatrix}",
     )
@@ -84,7 +78,7 @@ def response() -> Evidence:
     printed = sp.Matrix([to_go**2 / 2, to_go, 1])
     return Equality(
         {r"\Phi(t_f, \tau)\mathbf{b}": printed},
-        lambda: {r"\Phi(t_f, \tau)\mathbf{b}": transition(to_go) * INPUT},
+        lambda: transition(to_go) * INPUT,
         display=r"\Phi(t_f, \tau)\mathbf{b} = \begin{bmatrix} \tfrac12(t_f - \tau)^2 \\ t_f - \tau \\ 1 "
         r"\end{bmatrix}",
     )
@@ -94,10 +88,9 @@ def response() -> Evidence:
 def response_components() -> Evidence:
     printed = {r"h_1(\tau)": to_go**2 / 2, r"h_2(\tau)": to_go, r"h_3(\tau)": sp.S.One}
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # From rest: an impulse at tau, followed by the free motion.
-        after = channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
-        return dict(zip(printed, after, strict=True))
+        return channel.drive(channel.kick(sp.zeros(3, 1), sp.S.One), s, sp.S.Zero).subs(s, to_go)
 
     return Equality(
         printed,
@@ -119,7 +112,7 @@ def moments_of_the_manoeuvre() -> Evidence:
     printed = channel.final - transition(T) * channel.initial - g
     return Equality(
         {r"\mathbf{c}": printed},
-        lambda: {r"\mathbf{c}": channel.required_moments(force)},
+        lambda: channel.required_moments(force),
         display=r"\mathbf{c} = \mathbf{x}_f - \Phi(t_f, t_0)\mathbf{x}_0 - \mathbf{g}(t_f)",
     )
 
@@ -129,13 +122,9 @@ def forced_motion() -> Evidence:
     force, _ = ramp()
     kernel = transition(T - tau) * sp.Matrix([0, force, 0])
     printed = kernel.applyfunc(lambda entry: sp.integrate(sp.expand(entry), (tau, 0, T)))
-
-    def derived() -> Sides:
-        return {r"\mathbf{g}(t_f)": channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force)}
-
     return Equality(
         {r"\mathbf{g}(t_f)": printed},
-        derived,
+        lambda: channel.drive(sp.zeros(3, 1), T, sp.S.Zero, force),
         display=r"\mathbf{g}(t) = \int_{t_0}^t \Phi(t, \tau)\mathbf{f}(\tau)\,d\tau",
     )
 
@@ -160,24 +149,22 @@ def effect_of_the_disturbance() -> Evidence:
     return Proof(argument, Equality(printed, derived))
 
 
-@claim("(1.9)", "the control steers x0 to xf exactly when its moments are c", verdict="holds")
-def moment_equation() -> Evidence:
-    def argument() -> Steps:
-        coefficients = sp.symbols("u_0:5", real=True)
-        program = sum(u * tau**k for k, u in enumerate(coefficients))
-        force, _ = ramp()
-        end = channel.drive(channel.initial, T, program, force)
-        missed = channel.final - end
-        moments = moments_of(program.subs(tau, T - s))
-        gap = channel.required_moments(force) - moments
-        yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
-        solved = sp.solve(list(gap), coefficients[:3], dict=True)
-        yield "controls with the moments c exist", len(solved) == 1
-
-    return Proof(
-        argument,
-        display=r"\int_{t_0}^{t_f} \Phi(t_f, \tau)\mathbf{b}\,u(\tau)\,d\tau = \mathbf{c}",
-    )
+@claim.proof(
+    "(1.9)",
+    "the control steers x0 to xf exactly when its moments are c",
+    display=r"\int_{t_0}^{t_f} \Phi(t_f, \tau)\mathbf{b}\,u(\tau)\,d\tau = \mathbf{c}",
+)
+def moment_equation() -> Steps:
+    coefficients = sp.symbols("u_0:5", real=True)
+    program = sum(u * tau**k for k, u in enumerate(coefficients))
+    force, _ = ramp()
+    end = channel.drive(channel.initial, T, program, force)
+    missed = channel.final - end
+    moments = moments_of(program.subs(tau, T - s))
+    gap = channel.required_moments(force) - moments
+    yield "xf − x(tf) = c − moments, for any quartic control and quadratic f", vanishes(missed - gap)
+    solved = sp.solve(list(gap), coefficients[:3], dict=True)
+    yield "controls with the moments c exist", len(solved) == 1
 
 
 @claim("(1.10)", "the components of c", verdict="holds")
@@ -192,7 +179,7 @@ def moment_components() -> Evidence:
     }
     return Equality(
         printed,
-        lambda: dict(zip(printed, channel.required_moments(force), strict=True)),
+        lambda: channel.required_moments(force),
         display=r"c_1 = x_{1f} - x_{10} - (t_f - t_0)x_{20} - \tfrac12 (t_f - t_0)^2 x_{30} - g_1(t_f),\quad "
         r"c_2 = x_{2f} - x_{20} - (t_f - t_0)x_{30} - g_2(t_f),\quad c_3 = x_{3f} - x_{30}",
     )

@@ -10,11 +10,12 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Misprint,
     Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
-from pontryagin.triple_integrator.derivation import channel, energy, parabola
+from pontryagin.triple_integrator.claims.energy import gramian_is_definite
+from pontryagin.triple_integrator.derivation import channel, parabola
 from pontryagin.triple_integrator.derivation.channel import drive, t, tau, tf
 from pontryagin.triple_integrator.derivation.duality import (
     area_of,
@@ -52,32 +53,29 @@ def paired_with(moments: sp.Matrix) -> sp.Expr:
     return sp.expand((root_multipliers(T - first, T - second).T * moments)[0])
 
 
-@claim("before (3.1)", "the least L1 norm of h on l'c = 1 is ρ0", verdict="holds")
-def dual_norm_in_l1() -> Evidence:
-    def argument() -> Steps:
-        yield (
-            "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
-            vanishes(paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()),
-        )
-        sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
-        moments = two_switches(v, first, second, T).subs(sample)
-        others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
-        yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
-
-    return Proof(
-        argument,
-        display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_1} = \min_{l^T c = 1} \int_{t_0}^{t_f} "
-        r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0",
+@claim.proof(
+    "before (3.1)",
+    "the least L1 norm of h on l'c = 1 is ρ0",
+    display=r"\min_{h(\cdot) \in P} \lVert h(\cdot) \rVert_{L_1} = \min_{l^T c = 1} \int_{t_0}^{t_f} "
+    r"\left| \boldsymbol{\psi}^T(\tau)\mathbf{b} \right| d\tau = \rho_0",
+)
+def dual_norm_in_l1() -> Steps:
+    yield (
+        "every control with two switches meets its bound: l'c = v ∫|h| for h = (τ − a)(τ − b)",
+        vanishes(paired_with(two_switches(v, first, second, T)) - v * area_with_two_zeros()),
     )
+    sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
+    moments = two_switches(v, first, second, T).subs(sample)
+    others = [sp.Matrix([1, 0, 0]), sp.Matrix([3, -2, R(1, 4)]), root_multipliers(R(1, 3), R(1, 2))]
+    yield "no h has a smaller norm than 1/v", all(peak_bound(l, moments, sp.S.One) < 3 for l in others)
 
 
 @claim("(3.1)", "the dual problem is to minimise ∫|ψ3| on l'c = 1, where ψ3 = h", verdict="holds")
 def dual_problem() -> Evidence:
-    key = r"\psi_3(\tau)"
     printed = ((transition(tf - tau).T * multipliers).T * INPUT)[0]
     return Equality(
-        {key: printed},
-        lambda: {key: parabola.parabola()},
+        {r"\psi_3(\tau)": printed},
+        parabola.parabola,
         display=r"\min_{l^T c=1} \int_{t_0}^{t_f} \left| \psi_3(\tau) \right| d\tau = \rho_0,\quad "
         r"\psi_3(\tau) = h(\tau)",
     )
@@ -88,11 +86,11 @@ def third_costate() -> Evidence:
     end = sp.symbols("psi_1f psi_2f psi_3f", real=True)
     printed = (tf - tau) ** 2 / 2 * end[0] + (tf - tau) * end[1] + end[2]
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # Integrate (1.15) backwards from tf.
         clock = sp.Dummy("t")
         middle = end[1] + sp.integrate(end[0], (clock, tau, tf))
-        return {r"\psi_3(\tau)": end[2] + sp.integrate(middle.subs(tau, clock), (clock, tau, tf))}
+        return end[2] + sp.integrate(middle.subs(tau, clock), (clock, tau, tf))
 
     return Equality(
         {r"\psi_3(\tau)": printed},
@@ -121,7 +119,7 @@ def dual_problem_written_out() -> Evidence:
 
     return Misprint(
         {key: quadratic},
-        lambda: {key: sp.Abs(parabola.parabola())},
+        lambda: sp.Abs(parabola.parabola()),
         defect={key: quadratic - sp.Abs(parabola.parabola())},
         consequence=consequence,
         display=r"\rho_0 = \min_{l_1 c_1 + l_2 c_2 + l_3 c_3 = 1} \int_{t_0}^{t_f} "
@@ -132,41 +130,28 @@ def dual_problem_written_out() -> Evidence:
 @claim("(3.3)", "the minimising ψ3* with the coefficients l10, l20, l30", verdict="holds")
 def minimising_costate() -> Evidence:
     printed = (tf - t) ** 2 / 2 * l1 + (tf - t) * l2 + l3
-
-    def derived() -> Sides:
-        psi = transition(tf - t).T * multipliers
-        return {r"\psi_3^*(t)": psi[2]}
-
     return Equality(
         {r"\psi_3^*(t)": printed},
-        derived,
+        lambda: (transition(tf - t).T * multipliers)[2],
         display=r"\psi_3^*(t) = \tfrac12 (t_f - t)^2 l_{10} + (t_f - t) l_{20} + l_{30}",
     )
 
 
 @claim("after (3.3): end values", "l10, l20, l30 are the end values of ψ1*, ψ2*, ψ3*", verdict="holds")
 def end_values_of_the_costate() -> Evidence:
-    keys = [rf"\psi_{k}^*(t_f)" for k in (1, 2, 3)]
-
-    def derived() -> Sides:
-        end = (transition(tf - t).T * multipliers).subs(t, tf)
-        return dict(zip(keys, end, strict=True))
-
     return Equality(
-        dict(zip(keys, multipliers, strict=True)),
-        derived,
+        {rf"\psi_{k}^*(t_f)": l for k, l in enumerate(multipliers, start=1)},
+        lambda: (transition(tf - t).T * multipliers).subs(t, tf),
         display=r"l_{10} = \psi_1^*(t_f),\; l_{20} = \psi_2^*(t_f),\; l_{30} = \psi_3^*(t_f)",
     )
 
 
 @claim("before (3.4): conditions", "max ∫h0 u = 1 with max |u| = 1/ρ0, and u0 = 1/ρ0", verdict="holds")
 def conditions_on_the_optimum() -> Evidence:
-    key = "u_0"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         # The level of a control with two switches, from its moments and the h with the same zeros.
         moments = two_switches(v, first, second, T)
-        return {key: sp.cancel(paired_with(moments) / area_with_two_zeros())}
+        return sp.cancel(paired_with(moments) / area_with_two_zeros())
 
     def argument() -> Steps:
         norm = area_with_two_zeros() / paired_with(two_switches(v, first, second, T))
@@ -175,76 +160,62 @@ def conditions_on_the_optimum() -> Evidence:
 
     return Proof(
         argument,
-        Equality({key: v}, derived),
+        Equality({"u_0": v}, derived),
         display=r"\max_{u(\cdot)} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = 1;\quad "
         r"\max_{\tau} \left| u(\tau) \right| = \frac{1}{\rho_0};\quad u_0 = \frac{1}{\rho_0}",
     )
 
 
-@claim("before (3.4): uniqueness", "the maximum is attained only by u = sign h0 / ρ0", verdict="holds")
-def only_the_sign_attains_it() -> Evidence:
-    def argument() -> Steps:
-        yield (
-            "h0 is a polynomial and not zero, so it vanishes at two instants at most",
-            (sp.Poly(parabola.parabola(), tau).degree() == 2),
-        )
-        loss, weight = sp.symbols("delta h", positive=True)
-        bound = sp.Symbol("U", positive=True)
-        short = weight * bound - weight * (bound - loss)
-        yield "wherever u is less than U sign h0 by δ, the integral loses h δ > 0", short.expand().is_positive
+@claim.proof(
+    "before (3.4): uniqueness",
+    "the maximum is attained only by u = sign h0 / ρ0",
+    display=r"u(\tau) = \frac{1}{\rho_0} \operatorname{sign} h_0(\tau)",
+)
+def only_the_sign_attains_it() -> Steps:
+    yield (
+        "h0 is a polynomial and not zero, so it vanishes at two instants at most",
+        (sp.Poly(parabola.parabola(), tau).degree() == 2),
+    )
+    loss, weight = sp.symbols("delta h", positive=True)
+    bound = sp.Symbol("U", positive=True)
+    short = weight * bound - weight * (bound - loss)
+    yield "wherever u is less than U sign h0 by δ, the integral loses h δ > 0", short.expand().is_positive
 
-    return Proof(argument, display=r"u(\tau) = \frac{1}{\rho_0} \operatorname{sign} h_0(\tau)")
 
-
-@claim(
+@claim.proof(
     "(3.4)",
     "least-peak programme u* = sign ψ3* / ρ0",
-    verdict="holds",
     remark="ψ3*/|ψ3*| is 0/0 at the one or two switching instants, where the value of u does not matter.",
+    display=r"u^*(t) = \frac{1}{\rho_0} \frac{\psi_3^*(t)}{\left| \psi_3^*(t) \right|} = "
+    r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)",
 )
-def least_peak_programme() -> Evidence:
-    def argument() -> Steps:
-        x = sp.Symbol("x", real=True, nonzero=True)
-        yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
-        sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
-        moments = two_switches(v, first, second, T).subs(sample)
-        l = root_multipliers(R(4, 5), R(1, 3))
-        scale = (l.T * moments)[0]
-        h = dual_function_of(l / scale)
-        rho = area_of(h, sp.S.One)
-        levels = [sp.sign(h.subs(s, 1 - x)) / rho for x in (R(1, 10), R(1, 2), R(9, 10))]
-        pieces = list(zip((R(1, 5), R(7, 15), R(1, 3)), levels, strict=True))
-        yield "sign h0 / ρ0 has the moments c of that h0", piecewise_moments(pieces) == moments
-        yield "no control with these moments has a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
+def least_peak_programme() -> Steps:
+    x = sp.Symbol("x", real=True, nonzero=True)
+    yield "ψ/|ψ| is the sign where ψ is not zero", vanishes(sp.simplify(x / sp.Abs(x) - sp.sign(x)))
+    sample = {v: 3, first: R(1, 5), second: R(2, 3), T: 1}
+    moments = two_switches(v, first, second, T).subs(sample)
+    l = root_multipliers(R(4, 5), R(1, 3))
+    scale = (l.T * moments)[0]
+    h = dual_function_of(l / scale)
+    rho = area_of(h, sp.S.One)
+    levels = [sp.sign(h.subs(s, 1 - x)) / rho for x in (R(1, 10), R(1, 2), R(9, 10))]
+    pieces = list(zip((R(1, 5), R(7, 15), R(1, 3)), levels, strict=True))
+    yield "sign h0 / ρ0 has the moments c of that h0", piecewise_moments(pieces) == moments
+    yield "no control with these moments has a smaller peak", peak_bound(l, moments, sp.S.One) == 1 / rho
 
-    return Proof(
-        argument,
-        display=r"u^*(t) = \frac{1}{\rho_0} \frac{\psi_3^*(t)}{\left| \psi_3^*(t) \right|} = "
-        r"\frac{1}{\rho_0} \operatorname{sign} \psi_3^*(t)",
+
+@claim.proof(
+    "after (3.4): structure", "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout"
+)
+def general_structure() -> Steps:
+    zeros = sp.Poly(parabola.parabola(), tau).degree()
+    yield "h0 changes sign at most twice", zeros == 2
+    yield "h0 is not zero, so sign h0 is ±1 almost everywhere", gramian_is_definite()
+    determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
+    yield (
+        "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
+        (vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())),
     )
-
-
-@claim(
-    "after (3.4): structure",
-    "for arbitrary ends the least-peak control is bang-bang: ±u0 throughout",
-    verdict="holds",
-)
-def general_structure() -> Evidence:
-    def argument() -> Steps:
-        zeros = sp.Poly(parabola.parabola(), tau).degree()
-        yield "h0 changes sign at most twice", zeros == 2
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield (
-            "h0 is not zero, so sign h0 is ±1 almost everywhere",
-            all(minor.is_positive for minor in minors),
-        )
-        determinant = two_switches(v, first, second, T).jacobian([v, first, second]).det()
-        yield (
-            "level and switches fix the moments one to one: their Jacobian is −2v²(b − a)∫|(τ − a)(τ − b)|",
-            (vanishes(determinant - 2 * v**2 * (first - second) * area_with_two_zeros())),
-        )
-
-    return Proof(argument)
 
 
 @claim(
@@ -277,10 +248,9 @@ def one_to_one() -> Evidence:
             "initial equilibrium: 0 for the time w, then the control, performs the T + w manoeuvre",
             vanishes(later - moments(rest, channel.final, positive)),
         )
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
         yield (
             "so u0(T + w) ≤ u0(T), and it is less because no h vanishes during the wait: l'c < u0(T) ∫|h|",
-            all(minor.is_positive for minor in minors),
+            gramian_is_definite(),
         )
 
     def counterexample() -> Steps:

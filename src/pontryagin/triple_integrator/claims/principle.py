@@ -3,8 +3,16 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
-from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN, unit_turn
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, RightSides, Sides, Steps, vanishes
+from pontryagin.triple_integrator.claims.energy import gramian_is_definite, silent_control
+from pontryagin.triple_integrator.claims.turn import (
+    BANG_BANG,
+    IMPULSE_DUAL,
+    IMPULSES,
+    PEAK_DUAL,
+    TURN,
+    unit_turn,
+)
 from pontryagin.triple_integrator.derivation import chebyshev, energy
 from pontryagin.triple_integrator.derivation.channel import drive, kick
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
@@ -26,86 +34,68 @@ v1, v2 = levels
 T1, T2 = lengths
 
 
-@claim(
-    "after (1.11): minimal element",
-    "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖",
-    verdict="holds",
-)
-def minimal_element_exists() -> Evidence:
-    def argument() -> Steps:
-        minors = [energy.gramian()[:k, :k].det() for k in (1, 2, 3)]
-        yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", all(minor.is_positive for minor in minors)
-        yield "l = 0 is not on the plane l'c = 1: least positive there", (sp.zeros(1, 3) * c)[0] != 1
-        element = energy.minimal_element().subs(unit_turn())
-        size = sp.sqrt(sp.integrate(sp.expand(element**2), (s, 0, 1)))
-        yield "L2, unit turn: ρ0 = 1/√720", vanishes(size - 1 / sp.sqrt(720))
-        steered = piecewise_moments(BANG_BANG)
-        yield "L1: a control of peak 32 makes the turn, so no ‖h‖ is below 1/32", steered == TURN
-        yield "and one is 1/32", area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)
-        turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
-        yield "L∞: impulses of total 16 make it, so no ‖h‖ is below 1/16", turned == TURN
-        yield "and one is 1/16", peak_of(dual_function_of(IMPULSE_DUAL), sp.S.One) == R(1, 16)
-
-    return Proof(argument)
+@claim.proof("after (1.11): minimal element", "a minimal element h0 of P exists, with 0 < ρ0 = ‖h0‖ ≤ ‖h‖")
+def minimal_element_exists() -> Steps:
+    yield "h = 0 only for l = 0, so ‖l'h‖ is a norm of l", gramian_is_definite()
+    yield "l = 0 is not on the plane l'c = 1: least positive there", (sp.zeros(1, 3) * c)[0] != 1
+    element = energy.minimal_element().subs(unit_turn())
+    size = sp.sqrt(sp.integrate(sp.expand(element**2), (s, 0, 1)))
+    yield "L2, unit turn: ρ0 = 1/√720", vanishes(size - 1 / sp.sqrt(720))
+    steered = piecewise_moments(BANG_BANG)
+    yield "L1: a control of peak 32 makes the turn, so no ‖h‖ is below 1/32", steered == TURN
+    yield "and one is 1/32", area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)
+    turned = three_impulses(IMPULSES)
+    yield "L∞: impulses of total 16 make it, so no ‖h‖ is below 1/16", turned == TURN
+    yield "and one is 1/16", peak_of(dual_function_of(IMPULSE_DUAL), sp.S.One) == R(1, 16)
 
 
 @claim(
     "after (1.12): Φ on P", "a functional that solves the moment problem is 1 on all of P", verdict="holds"
 )
 def functional_on_the_dual_set() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         program = energy.minimum_energy_control()
         h = (multipliers.T * impulse_response())[0]
         paired = sp.expand(sp.integrate(sp.expand(h * program), (s, 0, T)))
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
-        return {r"\Phi(h(\cdot))": sp.simplify(paired.subs(multipliers[2], third))}
+        return sp.simplify(paired.subs(multipliers[2], third))
 
     return Equality({r"\Phi(h(\cdot))": sp.S.One}, derived)
 
 
-@claim("after (1.12): criterion", "the moment problem is solvable if and only if ρ0 > 0", verdict="holds")
-def solvable_where_norm_is_positive() -> Evidence:
-    def argument() -> Steps:
-        program = energy.minimum_energy_control()
-        yield "independent h_k: ρ0 > 0, and solvable", vanishes(moments_of(program) - c)
-        level, slope = sp.symbols("k_0 k_1", real=True)
-        dependent = sp.Matrix([s, 2 * s, 1])
-        moments = dependent.applyfunc(lambda h: sp.integrate(h * (level + slope * s), (s, 0, T)))
-        wrong = sp.Matrix([1, 1, 0])
-        witness = sp.Matrix([2, -1, 0])
-        yield (
-            "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0",
-            ((witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0),
-        )
-        yield "no control has the moments that belong to such h_k", vanishes((witness.T * moments)[0])
-
-    return Proof(argument)
+@claim.proof("after (1.12): criterion", "the moment problem is solvable if and only if ρ0 > 0")
+def solvable_where_norm_is_positive() -> Steps:
+    program = energy.minimum_energy_control()
+    yield "independent h_k: ρ0 > 0, and solvable", vanishes(moments_of(program) - c)
+    level, slope = sp.symbols("k_0 k_1", real=True)
+    dependent = sp.Matrix([s, 2 * s, 1])
+    moments = dependent.applyfunc(lambda h: sp.integrate(h * (level + slope * s), (s, 0, T)))
+    wrong = sp.Matrix([1, 1, 0])
+    witness = sp.Matrix([2, -1, 0])
+    yield (
+        "dependent h_k: an l with l'c = 1 whose h is zero, so ρ0 = 0",
+        ((witness.T * wrong)[0] == 1 and (witness.T * dependent)[0] == 0),
+    )
+    yield "no control has the moments that belong to such h_k", vanishes((witness.T * moments)[0])
 
 
-@claim(
+@claim.proof(
     "after (1.12): estimate",
     "‖Φ‖ ≥ 1/ρ0 for every functional that solves the moment problem",
-    verdict="holds",
+    display=r"\lVert \Phi \rVert_{L_p^*} \ge \frac{1}{\rho_0}",
 )
-def norm_estimate() -> Evidence:
-    def argument() -> Steps:
-        extra = sp.symbols("n_0:4", real=True)
-        noise = sum(a * s**k for k, a in enumerate(extra))
-        silent = sp.solve(list(moments_of(noise)), extra[:3], dict=True)[0]
-        noise = sp.expand(noise.subs(silent))
-        program = energy.minimum_energy_control()
-        cross = sp.integrate(sp.expand(noise * program), (s, 0, T))
-        yield "L2: any other control is u* + n with n orthogonal to u*", vanishes(cross) and noise != 0
-        own = sp.integrate(sp.expand(program**2), (s, 0, T))
-        yield "and ‖u*‖ = 1/ρ0", vanishes(own - 1 / energy.dual_norm() ** 2)
-        h1, h2 = sp.symbols("h_1 h_2", real=True)
-        room = (T1 * v1**2 + T2 * v2**2) * (T1 * h1**2 + T2 * h2**2) - (T1 * v1 * h1 + T2 * v2 * h2) ** 2
-        yield (
-            "in general 1 = Φ(h0) ≤ ‖Φ‖ρ0 by Hölder; on two levels ‖u‖²‖h‖² − (∫hu)² = T1T2(v1h2 − v2h1)²",
-            (vanishes(room - T1 * T2 * (v1 * h2 - v2 * h1) ** 2)),
-        )
-
-    return Proof(argument, display=r"\lVert \Phi \rVert_{L_p^*} \ge \frac{1}{\rho_0}")
+def norm_estimate() -> Steps:
+    program, noise = energy.minimum_energy_control(), silent_control()
+    cross = sp.integrate(sp.expand(noise * program), (s, 0, T))
+    yield "L2: any other control is u* + n with n orthogonal to u*", vanishes(cross) and noise != 0
+    own = sp.integrate(sp.expand(program**2), (s, 0, T))
+    yield "and ‖u*‖ = 1/ρ0", vanishes(own - 1 / energy.dual_norm() ** 2)
+    h1, h2 = sp.symbols("h_1 h_2", real=True)
+    room = (T1 * v1**2 + T2 * v2**2) * (T1 * h1**2 + T2 * h2**2) - (T1 * v1 * h1 + T2 * v2 * h2) ** 2
+    yield (
+        "in general 1 = Φ(h0) ≤ ‖Φ‖ρ0 by Hölder; on two levels ‖u‖²‖h‖² − (∫hu)² = T1T2(v1h2 − v2h1)²",
+        (vanishes(room - T1 * T2 * (v1 * h2 - v2 * h1) ** 2)),
+    )
 
 
 @claim("before (1.13): norm of Φ0", "the optimal functional has the norm 1/ρ0", verdict="holds")
@@ -163,7 +153,7 @@ def isometry() -> Evidence:
         yield "|h| = 1/16 at three instants only", set(touching) == {0, R(1, 2), 1}
         between = [room.subs(s, x) for x in (R(1, 4), R(3, 4))]
         yield "|h| is smaller between them: hence 1 < ‖u‖/16 for every integrable u", min(between) > 0
-        turned = three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4)))
+        turned = three_impulses(IMPULSES)
         yield "impulses of total 16 make the turn, and narrow pulses approach them", turned == TURN
         width = sp.Symbol("epsilon", positive=True)
         pulses = sum(
@@ -184,60 +174,52 @@ def isometry() -> Evidence:
     )
 
 
-@claim("(1.13)", "the dual problem: least norm of h = l'Φ(tf, τ)b on l'c = 1", verdict="holds")
-def dual_problem() -> Evidence:
-    def argument() -> Steps:
-        third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
-        square = sp.integrate(sp.expand((multipliers.T * impulse_response())[0] ** 2), (s, 0, T))
-        reduced = sp.expand(square.subs(multipliers[2], third))
-        free = list(multipliers[:2])
-        least = sp.solve([reduced.diff(l) for l in free], free, dict=True)[0]
-        control = sp.integrate(sp.expand(energy.minimum_energy_control() ** 2), (s, 0, T))
-        yield (
-            "L2: with l3 eliminated, the least ‖h‖² is 1/‖u*‖²",
-            vanishes(sp.simplify(1 / reduced.subs(least)) - control),
-        )
-        reached = piecewise_moments(BANG_BANG)
-        yield (
-            "L1, unit turn: ‖h‖ = 1/32 for a control of peak 32 with ∫ h u = 1",
-            ((PEAK_DUAL.T * reached)[0] == 1 and area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)),
-        )
-
-    return Proof(
-        argument,
-        display=r"\min_{l^T c = 1} \lVert l^T \Phi(t_f, \cdot)\mathbf{b} \rVert_{L_p} = \rho_0",
+@claim.proof(
+    "(1.13)",
+    "the dual problem: least norm of h = l'Φ(tf, τ)b on l'c = 1",
+    display=r"\min_{l^T c = 1} \lVert l^T \Phi(t_f, \cdot)\mathbf{b} \rVert_{L_p} = \rho_0",
+)
+def dual_problem() -> Steps:
+    third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
+    square = sp.integrate(sp.expand((multipliers.T * impulse_response())[0] ** 2), (s, 0, T))
+    reduced = sp.expand(square.subs(multipliers[2], third))
+    free = list(multipliers[:2])
+    least = sp.solve([reduced.diff(l) for l in free], free, dict=True)[0]
+    control = sp.integrate(sp.expand(energy.minimum_energy_control() ** 2), (s, 0, T))
+    yield (
+        "L2: with l3 eliminated, the least ‖h‖² is 1/‖u*‖²",
+        vanishes(sp.simplify(1 / reduced.subs(least)) - control),
+    )
+    reached = piecewise_moments(BANG_BANG)
+    yield (
+        "L1, unit turn: ‖h‖ = 1/32 for a control of peak 32 with ∫ h u = 1",
+        ((PEAK_DUAL.T * reached)[0] == 1 and area_of(dual_function_of(PEAK_DUAL), sp.S.One) == R(1, 32)),
     )
 
 
-@claim(
+@claim.proof(
     "(1.14)",
     "Krasovskii's principle: a unique u of norm 1/ρ0 with the largest ∫h0 u is optimal",
-    verdict="holds",
+    display=r"\max_{\lVert u(\cdot) \rVert_{L_q} = 1/\rho_0} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = "
+    r"1",
 )
-def krasovskii_principle() -> Evidence:
-    def argument() -> Steps:
-        p, q = sp.S(3), R(3, 2)
-        size = T1 * sp.Abs(v1) ** p + T2 * sp.Abs(v2) ** p
-        best = [sp.Abs(v) ** (p - 1) * sp.sign(v) / size for v in levels]
-        numbers = {v1: 2, v2: -3, T1: 1, T2: 2}
-        paired = (T1 * v1 * best[0] + T2 * v2 * best[1]).subs(numbers)
-        yield "u = ρ0^(−p) |h0|^(p−1) sign h0 has ∫ h0 u = 1 (h0 of two levels, p = 3)", paired == 1
-        powers = sum(n * sp.Abs(u) ** q for n, u in zip(lengths, best, strict=True)).subs(numbers)
-        yield "its norm is 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
-        paired = energy.stationary()[1].T * moments_of(energy.minimum_energy_control())
-        yield "q = 2: ∫ h0 u* = 1", vanishes(paired[0] - 1)
-        yield "u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
-        h = dual_function_of(PEAK_DUAL)
-        signs = [sp.sign(h.subs(s, x)) for x in (R(1, 8), R(1, 2), R(7, 8))]
-        yield (
-            "q = ∞, unit turn: 32 sign h0 is the control that makes it",
-            signs == [sp.sign(v) for _, v in BANG_BANG] and piecewise_moments(BANG_BANG) == TURN,
-        )
-
-    return Proof(
-        argument,
-        display=r"\max_{\lVert u(\cdot) \rVert_{L_q} = 1/\rho_0} \int_{t_0}^{t_f} h_0(\tau)u(\tau)\,d\tau = "
-        r"1",
+def krasovskii_principle() -> Steps:
+    p, q = sp.S(3), R(3, 2)
+    size = T1 * sp.Abs(v1) ** p + T2 * sp.Abs(v2) ** p
+    best = [sp.Abs(v) ** (p - 1) * sp.sign(v) / size for v in levels]
+    numbers = {v1: 2, v2: -3, T1: 1, T2: 2}
+    paired = (T1 * v1 * best[0] + T2 * v2 * best[1]).subs(numbers)
+    yield "u = ρ0^(−p) |h0|^(p−1) sign h0 has ∫ h0 u = 1 (h0 of two levels, p = 3)", paired == 1
+    powers = sum(n * sp.Abs(u) ** q for n, u in zip(lengths, best, strict=True)).subs(numbers)
+    yield "its norm is 1/ρ0: with p = 2q, (∫ |u|^q)² ∫ |h0|^p = 1", powers**2 * size.subs(numbers) == 1
+    paired = energy.stationary()[1].T * moments_of(energy.minimum_energy_control())
+    yield "q = 2: ∫ h0 u* = 1", vanishes(paired[0] - 1)
+    yield "u* has the moments c", vanishes(moments_of(energy.minimum_energy_control()) - c)
+    h = dual_function_of(PEAK_DUAL)
+    signs = [sp.sign(h.subs(s, x)) for x in (R(1, 8), R(1, 2), R(7, 8))]
+    yield (
+        "q = ∞, unit turn: 32 sign h0 is the control that makes it",
+        signs == [sp.sign(v) for _, v in BANG_BANG] and piecewise_moments(BANG_BANG) == TURN,
     )
 
 

@@ -3,8 +3,8 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
-from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, PEAK_DUAL, TURN
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, RightSides, Steps, vanishes
+from pontryagin.triple_integrator.claims.turn import BANG_BANG, IMPULSE_DUAL, IMPULSES, PEAK_DUAL, TURN
 from pontryagin.triple_integrator.derivation.channel import t, tau, tf
 from pontryagin.triple_integrator.derivation.chebyshev import three_impulses
 from pontryagin.triple_integrator.derivation.duality import (
@@ -37,9 +37,7 @@ T1, T2 = lengths
     "before (1.15)", "ψ(τ) = Φ'(tf, τ) l, whose third component is h; (1.15): dψ/dt = −A'ψ", verdict="holds"
 )
 def adjoint_vector() -> Evidence:
-    key = r"\boldsymbol{\psi}(\tau)"
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         names = sp.symbols("k_1:4")
         # Integrate dpsi/dt = -A' psi backwards from psi(tf) = l: psi1 const, psi2' = -psi1, psi3' = -psi2.
         first = multipliers[0]
@@ -47,10 +45,10 @@ def adjoint_vector() -> Evidence:
         second = second.subs(names[1], sp.solve(second.subs(tau, tf) - multipliers[1], names[1])[0])
         third = names[2] + sp.integrate(-second, tau)
         third = third.subs(names[2], sp.solve(third.subs(tau, tf) - multipliers[2], names[2])[0])
-        return {key: sp.Matrix([first, second, third])}
+        return sp.Matrix([first, second, third])
 
     return Equality(
-        {key: transition(tf - tau).T * multipliers},
+        {r"\boldsymbol{\psi}(\tau)": transition(tf - tau).T * multipliers},
         derived,
         display=r"\boldsymbol{\psi}(\tau) = \Phi^T(t_f, \tau)\, l",
     )
@@ -58,9 +56,9 @@ def adjoint_vector() -> Evidence:
 
 @claim("(1.15)", "adjoint equation dψ/dt = −A'ψ", verdict="holds")
 def adjoint_equation() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         psi = transition(tf - t).T * multipliers
-        return {r"\dot{\boldsymbol{\psi}}(t)": psi.diff(t)}
+        return psi.diff(t)
 
     printed = -CHAIN.T * transition(tf - t).T * multipliers
     return Equality(
@@ -72,25 +70,20 @@ def adjoint_equation() -> Evidence:
 
 @claim("(1.16)", "the final condition of the adjoint equation: ψ'(tf) c = l'c = 1", verdict="holds")
 def adjoint_end() -> Evidence:
-    def derived() -> Sides:
+    def derived() -> RightSides:
         psi = (transition(tf - t).T * multipliers).subs(t, tf)
         third = sp.solve((multipliers.T * c)[0] - 1, multipliers[2])[0]
-        return {r"\boldsymbol{\psi}^T(t_f)c": sp.simplify((psi.T * c)[0].subs(multipliers[2], third))}
+        return sp.simplify((psi.T * c)[0].subs(multipliers[2], third))
 
     return Equality({r"\boldsymbol{\psi}^T(t_f)c": sp.S.One}, derived)
 
 
 @claim("(1.17)", "the dual problem in the costate; ψ'b = ψ3 = h", verdict="holds")
 def dual_problem_in_the_costate() -> Evidence:
-    key = r"\boldsymbol{\psi}^T(t)\mathbf{b}"
     psi = transition(tf - t).T * multipliers
-
-    def derived() -> Sides:
-        return {key: (multipliers.T * impulse_response())[0].subs(s, tf - t)}
-
     return Equality(
-        {key: (psi.T * INPUT)[0]},
-        derived,
+        {r"\boldsymbol{\psi}^T(t)\mathbf{b}": (psi.T * INPUT)[0]},
+        lambda: (multipliers.T * impulse_response())[0].subs(s, tf - t),
         display=r"\min_{\psi^T(t_f)c=1} \lVert \psi^T(\cdot)\mathbf{b} \rVert_{L_p} = "
         r"\lVert \psi_0^T(\cdot)\mathbf{b} \rVert_{L_p} = \rho_0,\quad \psi^T(t)\mathbf{b} = \psi_3(t)",
     )
@@ -100,7 +93,7 @@ def dual_problem_in_the_costate() -> Evidence:
 def problem_1() -> Evidence:
     return Equality(
         {"J(u)": T1 * v1**2 + T2 * v2**2},
-        lambda: {"J(u)": conjugate_norm(sp.S(2)) ** 2},
+        lambda: conjugate_norm(sp.S(2)) ** 2,
         display=r"J(u(\cdot)) = \left(\lVert u(\cdot) \rVert_{L_2}\right)^2 = \int_{t_0}^{t_f} "
         r"u^2(\tau)\,d\tau",
     )
@@ -110,26 +103,23 @@ def problem_1() -> Evidence:
 def problem_2() -> Evidence:
     return Equality(
         {"J(u)": sp.Max(sp.Abs(v1), sp.Abs(v2))},
-        lambda: {"J(u)": conjugate_norm(sp.oo)},
+        lambda: conjugate_norm(sp.oo),
         display=r"J(u(\cdot)) = \lVert u(\cdot) \rVert_{L_\infty} = "
         r"\operatorname{vrai\,max}_{t \in [t_0, t_f]} \left| u(t) \right|",
     )
 
 
-@claim("after (1.19)", "problem 2 finds the least u0 for which (0.7) can be kept", verdict="holds")
-def least_bound() -> Evidence:
-    def argument() -> Steps:
-        yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
-        yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
-
-    return Proof(argument)
+@claim.proof("after (1.19)", "problem 2 finds the least u0 for which (0.7) can be kept")
+def least_bound() -> Steps:
+    yield "unit turn: u0 = 32 is enough", piecewise_moments(BANG_BANG) == TURN
+    yield "no smaller u0 is: the bound by h", peak_bound(PEAK_DUAL, TURN, sp.S.One) == 32
 
 
 @claim("(1.20)", "problem 3: J = ‖u‖ in L_1, the total impulse", verdict="holds")
 def problem_3() -> Evidence:
     return Equality(
         {"J(u)": T1 * sp.Abs(v1) + T2 * sp.Abs(v2)},
-        lambda: {"J(u)": conjugate_norm(sp.S.One)},
+        lambda: conjugate_norm(sp.S.One),
         display=r"J(u(\cdot)) = \lVert u(\cdot) \rVert_{L_1} = \int_{t_0}^{t_f} \left| u(\tau) \right| d\tau",
     )
 
@@ -161,7 +151,7 @@ def minimiser_in_l1() -> Evidence:
         yield "hence ‖u‖ > 16 for every integrable u", min(room.subs(s, R(k, 4)) for k in (1, 3)) > 0
         yield (
             "narrow pulses approach 16",
-            three_impulses((sp.Integer(4), sp.Integer(-8), sp.Integer(4))) == TURN,
+            three_impulses(IMPULSES) == TURN,
         )
 
     return Conditional(argument, counterexample=counterexample)

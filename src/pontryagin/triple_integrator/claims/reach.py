@@ -9,10 +9,12 @@ from pontryagin.ledger.evidence import (
     Evidence,
     Proof,
     Refutation,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
+from pontryagin.triple_integrator.claims.chebyshev import F
+from pontryagin.triple_integrator.claims.turn import BANG_BANG, EXAMPLE_1, in_unit_time, turn
 from pontryagin.triple_integrator.derivation import chebyshev
 from pontryagin.triple_integrator.derivation.channel import drive
 from pontryagin.triple_integrator.derivation.chebyshev import impulses_for, sign, three_impulses
@@ -24,8 +26,6 @@ claim = Page("Gorelov & Morozova 2012")
 R = sp.Rational
 c1, c2, c3 = c
 a0, am, aT = chebyshev.impulses
-turn = sp.Symbol("gamma_T", positive=True)
-F = 16 * c1 - 8 * T * c2 + T**2 * c3
 
 PULSE = [(R(5, 8), 0), (R(1, 4), 4), (R(1, 8), 0)]
 """A control of one sign in unit time: 4 on [5/8, 7/8], else 0; its total impulse is 1."""
@@ -68,12 +68,12 @@ def sum_of_the_impulses() -> Evidence:
     def counterexample() -> Steps:
         yield from pulse_certificate()
         moments = piecewise_moments(PULSE)
-        claimed = abs(F.subs({T: 1, **dict(zip(c, moments, strict=True))}))
+        claimed = abs(F.subs(in_unit_time(moments)))
         yield "|F|/T² = 11/24 is below both", claimed == R(11, 24)
 
     return Conditional(
         argument,
-        Equality({r"\rho_0": T**2 / (sign * F)}, lambda: {r"\rho_0": 1 / chebyshev.total()}),
+        Equality({r"\rho_0": T**2 / (sign * F)}, lambda: 1 / chebyshev.total()),
         counterexample=counterexample,
         display=r"\rho_0 = \frac{T^2}{s_0 F}",
     )
@@ -98,7 +98,7 @@ def sign_of_the_first_impulse() -> Evidence:
         impulses = impulses_for(moments)
         yield "c = (0, 1, 20), T = 1: (4.10) gives −1, 4, 17", impulses == (-1, 4, 17)
         yield "those impulses reach the target", three_impulses(impulses) == moments
-        yield "with F = 12 > 0", F.subs({T: 1, **dict(zip(c, moments, strict=True))}) == 12
+        yield "with F = 12 > 0", F.subs(in_unit_time(moments)) == 12
 
     return Conditional(argument, counterexample=counterexample)
 
@@ -115,7 +115,7 @@ def sign_of_the_first_impulse() -> Evidence:
 def free_motion_where_f_is_zero() -> Evidence:
     def counterexample() -> Steps:
         target = sp.Matrix([1, 2, 0])
-        yield "c = (1, 2, 0), T = 1: F = 0", F.subs({T: 1, **dict(zip(c, target, strict=True))}) == 0
+        yield "c = (1, 2, 0), T = 1: F = 0", F.subs(in_unit_time(target)) == 0
         free = drive(sp.zeros(3, 1), sp.S.One, sp.S.Zero)
         yield "from rest at 0 the free motion ends at 0, not at (1, 2, 0)", free == sp.zeros(3, 1) != target
         yield (
@@ -146,10 +146,7 @@ def complete_solution() -> Evidence:
     verdict="holds",
 )
 def impulse_of_the_turn() -> Evidence:
-    turned = {c1: turn, c2: 0, c3: 0, sign: 1}
-
-    def derived() -> Sides:
-        return {"R": sp.expand(sum(sp.Abs(value.subs(turned)) for value in chebyshev.amplitudes().values()))}
+    turned = {**EXAMPLE_1, sign: 1}
 
     def argument() -> Steps:
         amplitudes = [chebyshev.amplitudes()[a].subs(turned) for a in (a0, am, aT)]
@@ -159,7 +156,13 @@ def impulse_of_the_turn() -> Evidence:
         bound = impulse_bound(sp.Matrix([16, -8, 1]), sp.Matrix([1, 0, 0]), sp.S.One)
         yield "16 is a lower bound for γ = T = 1", bound == 16
 
-    return Proof(argument, Equality({"R": 16 * turn / T**2}, derived))
+    return Proof(
+        argument,
+        Equality(
+            {"R": 16 * turn / T**2},
+            lambda: sp.expand(sum(sp.Abs(value.subs(turned)) for value in chebyshev.amplitudes().values())),
+        ),
+    )
 
 
 @claim(
@@ -168,12 +171,10 @@ def impulse_of_the_turn() -> Evidence:
     verdict="holds",
 )
 def half_of_example_2() -> Evidence:
-    def derived() -> Sides:
-        bang_bang = sum(
-            duration * abs(level) for duration, level in [(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)]
-        )
+    def derived() -> RightSides:
+        bang_bang = sum(duration * abs(level) for duration, level in BANG_BANG)
         impulses = sum(abs(a) for a in impulses_for(sp.Matrix([1, 0, 0])))
-        return {"R_3/R_2": impulses / bang_bang}
+        return impulses / bang_bang
 
     return Equality({"R_3/R_2": R(1, 2)}, derived)
 

@@ -9,12 +9,14 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     Misprint,
-    Proof,
+    RightSides,
     Sides,
     Steps,
     vanishes,
 )
+from pontryagin.triple_integrator.claims.areas import conjugate
 from pontryagin.triple_integrator.claims.peak import two_switches
+from pontryagin.triple_integrator.claims.turn import BANG_BANG, EXAMPLE_1, in_unit_time
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.duality import piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c
@@ -24,10 +26,6 @@ claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
 c1, c2, c3 = c
-conjugate = T - apex
-turn = sp.Symbol("gamma_T", positive=True)
-peak = sp.Symbol("u_0", positive=True)
-TURN = {c1: turn, c2: sp.S.Zero, c3: sp.S.Zero}
 
 
 def cubic() -> sp.Expr:
@@ -37,11 +35,10 @@ def cubic() -> sp.Expr:
 
 @claim("after (3.14): ∂/∂τ_m", "derivative with respect to τ_m", verdict="holds")
 def derivative_by_apex() -> Evidence:
-    key = r"\partial\tilde F/\partial\tau_m"
     printed = alpha * (apex**2 - conjugate**2) + 2 * price * (c2 - conjugate * c3)
     return Equality(
-        {key: printed},
-        lambda: {key: parabola.gradient()[apex]},
+        {r"\partial\tilde F/\partial\tau_m": printed},
+        lambda: parabola.gradient()[apex],
         display=r"\frac{\partial\tilde F}{\partial\tau_m} = \alpha_m(\tau_m^2 - \tilde{\tau}_m^2) + "
         r"2\lambda(c_2 - \tilde{\tau}_m c_3)",
     )
@@ -49,11 +46,10 @@ def derivative_by_apex() -> Evidence:
 
 @claim("after (3.14): ∂/∂α_m", "derivative with respect to α_m", verdict="holds")
 def derivative_by_curvature() -> Evidence:
-    key = r"\partial\tilde F/\partial\alpha_m"
     printed = (apex**3 + conjugate**3) / 3 - T * half_width**2 + R(8, 3) * half_width**3 + price / alpha**2
     return Equality(
-        {key: printed},
-        lambda: {key: parabola.gradient()[alpha]},
+        {r"\partial\tilde F/\partial\alpha_m": printed},
+        lambda: parabola.gradient()[alpha],
         display=r"\frac{\partial\tilde F}{\partial\alpha_m} = \tfrac13(\tau_m^3 + \tilde{\tau}_m^3) - "
         r"T\Delta_m^2 + \tfrac83\Delta_m^3 + "
         r"\frac{\lambda}{\alpha_m^2} = 0",
@@ -62,11 +58,10 @@ def derivative_by_curvature() -> Evidence:
 
 @claim("after (3.14): ∂/∂Δ_m", "derivative with respect to Δ_m", verdict="holds")
 def derivative_by_width() -> Evidence:
-    key = r"\partial\tilde F/\partial\Delta_m"
     printed = 2 * half_width * (4 * alpha * half_width - alpha * T - price * c3)
     return Equality(
-        {key: printed},
-        lambda: {key: parabola.gradient()[half_width]},
+        {r"\partial\tilde F/\partial\Delta_m": printed},
+        lambda: parabola.gradient()[half_width],
         display=r"\frac{\partial\tilde F}{\partial\Delta_m} = 2\Delta_m(4\alpha_m\Delta_m - \alpha_m T - "
         r"\lambda c_3) = 0",
     )
@@ -82,9 +77,9 @@ def transformed_conditions() -> Evidence:
         - price * c3,
     }
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         by_apex, by_curvature, by_width = parabola.gradient().values()
-        return dict(zip(printed, (by_apex, by_curvature, by_width / (2 * half_width)), strict=True))
+        return by_apex, by_curvature, by_width / (2 * half_width)
 
     return Equality(
         printed,
@@ -101,7 +96,7 @@ def stationary_in_the_apex() -> Evidence:
     printed = T * (2 * apex - T) + 2 * slope * (c2 - (T - apex) * c3)
     return Equality(
         {"0": printed},
-        lambda: {"0": parabola.stationarity()[0]},
+        lambda: parabola.stationarity()[0],
         display=r"T(2\tau_m - T) + 2\tilde\lambda[c_2 - (T - \tau_m)c_3] = 0",
     )
 
@@ -110,7 +105,7 @@ def stationary_in_the_apex() -> Evidence:
 def stationary_in_the_curvature() -> Evidence:
     return Equality(
         {"0": cubic() + slope / alpha},
-        lambda: {"0": parabola.stationarity()[1]},
+        lambda: parabola.stationarity()[1],
         display=r"\tfrac13 T^3 - T(T - \tau_m)\tau_m - T\Delta_m^2 + \tfrac83\Delta_m^3 + "
         r"\frac{\tilde\lambda}{\alpha_m} = 0",
     )
@@ -120,7 +115,7 @@ def stationary_in_the_curvature() -> Evidence:
 def stationary_in_the_width() -> Evidence:
     return Equality(
         {"0": 4 * half_width - T - slope * c3},
-        lambda: {"0": parabola.stationarity()[2]},
+        lambda: parabola.stationarity()[2],
         display=r"4\Delta_m - T - \tilde\lambda c_3 = 0",
     )
 
@@ -144,7 +139,7 @@ def apex_on_the_curve() -> Evidence:
 def width_on_the_curve() -> Evidence:
     return Equality(
         {r"\Delta_m": (T + slope * c3) / 4},
-        lambda: {r"\Delta_m": parabola.curve()[half_width]},
+        lambda: parabola.curve()[half_width],
         display=r"\Delta_m = \tfrac14(T + \tilde\lambda c_3)",
     )
 
@@ -200,7 +195,7 @@ def one_dimensional_search() -> Evidence:
             "c = (0, 0, 1), T = 1: a control of peak below 9/2, so ρ0 > 2/9",
             (piecewise_moments(pieces) == moments and max(abs(u) for _, u in pieces) < R(9, 2)),
         )
-        at = {T: 1, **dict(zip(c, moments, strict=True)), slope: -R(31, 10)}
+        at = {**in_unit_time(moments), slope: -R(31, 10)}
         middle, half = (parabola.curve()[key].subs(at) for key in (apex, half_width))
         value = parabola.objective((middle - half, middle + half), moments, sp.S.One)
         yield "λ~ = −31/10 on the curve has |S1 − S2 + S3| < 2/9", abs(value) < R(2, 9)
@@ -215,7 +210,7 @@ def one_dimensional_search() -> Evidence:
             "there is a local minimum above 1 between λ~ = 1.1 and 1.3",
             (along(R(11, 10)) > along(R(6, 5)) < along(R(13, 10)) and along(R(6, 5)) > 1),
         )
-        turned = {key: value.subs(TURN) for key, value in parabola.curve().items()}
+        turned = {key: value.subs(EXAMPLE_1) for key, value in parabola.curve().items()}
         yield (
             "example 2: t1 and t2 do not depend on λ~",
             not any(value.has(slope) for value in turned.values()),
@@ -257,7 +252,7 @@ def curvature_from_the_search() -> Evidence:
 
     def consequence() -> Consequence:
         least = sp.Matrix([1, -R(1, 2), R(3, 32)])
-        moments = piecewise_moments([(R(1, 4), 32), (R(1, 2), -32), (R(1, 4), 32)])
+        moments = piecewise_moments(BANG_BANG)
         scale = (least.T * moments)[0]
         return Consequence(
             "α_m of the unit turn, l10/2", (-slope * cubic()).subs(numbers), least[0] / (2 * scale)
@@ -265,7 +260,7 @@ def curvature_from_the_search() -> Evidence:
 
     return Misprint(
         {key: -slope * cubic()},
-        lambda: {key: parabola.curvature_on_the_curve()},
+        parabola.curvature_on_the_curve,
         defect={key: -slope * cubic() + slope / cubic()},
         consequence=consequence,
         display=r"\alpha_m = -\tilde\lambda^*\left[\tfrac13 T^3 - T(T - \tau_m^*)\tau_m^* - T(\Delta_m^*)^2 "
@@ -274,32 +269,25 @@ def curvature_from_the_search() -> Evidence:
     )
 
 
-@claim(
+@claim.proof(
     "after (3.19): closed form",
     "(3.15) to (3.17) have an analytic solution, too bulky to print",
-    verdict="holds",
     remark="With (3.13) they leave the quartic 3v⁴ + (48c2 − 96c1 − 12c3)v³ + (96c1c3 − 48c2² − 6c3²)v² + "
     "4c3³v − c3⁴ = 0 (T = 1) in the level v = −1/λ~; u0 is its real root of largest modulus.",
 )
-def closed_form() -> Evidence:
-    def argument() -> Steps:
-        quartic = sp.Poly(parabola.level_polynomial(), level)
-        yield (
-            "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals",
-            quartic.degree() == 4,
-        )
-        v, early, late = sp.symbols("v a b", positive=True)
-        at = dict(zip(c, two_switches(v, early, late, T), strict=True))
-        yield (
-            "v is a root for the moments of every control with two switches",
-            vanishes(quartic.as_expr().subs(level, v).subs(at)),
-        )
-        yield (
-            "−v is a root for the moments of its negative",
-            vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
-        )
-        remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3
-        remembered += (96 * c1 * c3 - 48 * c2**2 - 6 * c3**2) * level**2 + 4 * c3**3 * level - c3**4
-        yield "for T = 1 it is the quartic of the remark", vanishes(quartic.as_expr().subs(T, 1) - remembered)
-
-    return Proof(argument)
+def closed_form() -> Steps:
+    quartic = sp.Poly(parabola.level_polynomial(), level)
+    yield "eliminating τ_m, Δ_m and α_m leaves a quartic in v, solvable in radicals", quartic.degree() == 4
+    v, early, late = sp.symbols("v a b", positive=True)
+    at = dict(zip(c, two_switches(v, early, late, T), strict=True))
+    yield (
+        "v is a root for the moments of every control with two switches",
+        vanishes(quartic.as_expr().subs(level, v).subs(at)),
+    )
+    yield (
+        "−v is a root for the moments of its negative",
+        vanishes(quartic.as_expr().subs(level, -v).subs({key: -value for key, value in at.items()})),
+    )
+    remembered = 3 * level**4 + (48 * c2 - 96 * c1 - 12 * c3) * level**3
+    remembered += (96 * c1 * c3 - 48 * c2**2 - 6 * c3**2) * level**2 + 4 * c3**3 * level - c3**4
+    yield "for T = 1 it is the quartic of the remark", vanishes(quartic.as_expr().subs(T, 1) - remembered)

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from pontryagin.ledger import Page
-from pontryagin.ledger.evidence import Conditional, Equality, Evidence, Proof, Sides, Steps, vanishes
+from pontryagin.ledger.evidence import Conditional, Equality, Evidence, RightSides, Sides, Steps, vanishes
 from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import (
     drive,
@@ -23,17 +23,15 @@ claim = Page("Gorelov & Morozova 2012")
 R = sp.Rational
 c1, c2, c3 = c
 l1, l2, l3 = multipliers
-conjugate = T - apex
-"""The paper's conjugate parameter, written tau_m with a tilde."""
 
 
 @claim("(3.8)", "vertex form of the parabola", verdict="holds")
 def vertex_form() -> Evidence:
     printed = alpha * (tau - apex) ** 2 - beta
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         inverse = dict(zip(multipliers, parabola.multipliers_from_vertex(), strict=True))
-        return {r"\psi_3^*(\tau)": parabola.parabola().subs(tf, T).subs(inverse)}
+        return parabola.parabola().subs(tf, T).subs(inverse)
 
     return Equality(
         {r"\psi_3^*(\tau)": printed},
@@ -62,7 +60,7 @@ def depth_of_the_parabola() -> Evidence:
     printed = -parabola.parabola().subs(tau, tf + l2 / l1)
     return Equality(
         {r"\beta_m": printed},
-        lambda: {r"\beta_m": parabola.vertex()[beta]},
+        lambda: parabola.vertex()[beta],
         display=r"\beta_m = -\psi_3^*(\tau_m)",
     )
 
@@ -107,40 +105,40 @@ def zeros_of_the_parabola() -> Evidence:
     root = sp.sqrt(beta / alpha)
     return Equality(
         {"t_1": apex - root, "t_2": apex + root},
-        lambda: dict(zip(("t_1", "t_2"), parabola.zeros(), strict=True)),
+        parabola.zeros,
         display=r"t_{1,2} = \tau_m \mp \sqrt{\frac{\beta_m}{\alpha_m}} = \tau_m \mp \Delta_m",
     )
 
 
-@claim("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T", verdict="holds")
-def time_from_zero() -> Evidence:
-    def argument() -> Steps:
-        shift, force = sp.symbols("t_s f_0", real=True)
-        h = parabola.parabola()
-        yield (
-            "h depends on tf − τ only",
-            vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True)),
-        )
-        ramp = force * (tau + t0)
-        moved = drive(initial, T, sp.S.Zero, ramp)
-        needed = final - moved
-        yield (
-            "a disturbance f(t) is to be read as f(t0 + t): then c is the same",
-            vanishes(required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)) and needed.has(t0),
-        )
-
-    return Proof(argument)
+@claim.proof("after (3.8): t0 = 0", "without loss of generality t0 = 0, tf = T")
+def time_from_zero() -> Steps:
+    shift, force = sp.symbols("t_s f_0", real=True)
+    h = parabola.parabola()
+    yield (
+        "h depends on tf − τ only",
+        vanishes(h - h.subs({tau: tau + shift, tf: tf + shift}, simultaneous=True)),
+    )
+    ramp = force * (tau + t0)
+    moved = drive(initial, T, sp.S.Zero, ramp)
+    needed = final - moved
+    yield (
+        "a disturbance f(t) is to be read as f(t0 + t): then c is the same",
+        vanishes(required_moments(force * tau).subs(t0, 0) - needed.subs(t0, 0)) and needed.has(t0),
+    )
 
 
 @claim("(3.9)", "vertex form from the multipliers (t0 = 0)", verdict="holds")
 def vertex_from_multipliers() -> Evidence:
-    keys = (r"\alpha_m", r"2\alpha_m\tau_m", r"\alpha_m\tau_m^2 - \beta_m")
-    printed = dict(zip(keys, (l1 / 2, l1 * T + l2, l1 * T**2 / 2 + l2 * T + l3), strict=True))
+    printed = {
+        r"\alpha_m": l1 / 2,
+        r"2\alpha_m\tau_m": l1 * T + l2,
+        r"\alpha_m\tau_m^2 - \beta_m": l1 * T**2 / 2 + l2 * T + l3,
+    }
 
-    def derived() -> Sides:
+    def derived() -> RightSides:
         found = {symbol: value.subs(tf, T) for symbol, value in parabola.vertex().items()}
         sides = (alpha, 2 * alpha * apex, alpha * apex**2 - beta)
-        return dict(zip(keys, (side.subs(found) for side in sides), strict=True))
+        return [side.subs(found) for side in sides]
 
     return Equality(
         printed,
@@ -159,7 +157,7 @@ def multipliers_from_the_vertex() -> Evidence:
     }
     return Equality(
         printed,
-        lambda: dict(zip(printed, parabola.multipliers_from_vertex(), strict=True)),
+        parabola.multipliers_from_vertex,
         display=r"l_{10} = 2\alpha_m;\quad l_{20} = 2\alpha_m(\tau_m - T);\quad l_{30} = \alpha_m(\tau_m - "
         r"T)^2 - \beta_m",
     )
@@ -170,6 +168,6 @@ def condition_on_the_vertex() -> Evidence:
     printed = 2 * alpha * c1 + 2 * alpha * (apex - T) * c2 + (alpha * (apex - T) ** 2 - beta) * c3
     return Equality(
         {"1": printed},
-        lambda: {"1": parabola.normalisation()},
+        parabola.normalisation,
         display=r"2\alpha_m c_1 + 2\alpha_m(\tau_m - T)c_2 + [\alpha_m(\tau_m - T)^2 - \beta_m]c_3 = 1",
     )

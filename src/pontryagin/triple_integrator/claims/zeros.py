@@ -11,8 +11,7 @@ from pontryagin.ledger.evidence import (
     Equality,
     Evidence,
     LinearSystem,
-    Proof,
-    Sides,
+    RightSides,
     Steps,
     vanishes,
 )
@@ -28,15 +27,13 @@ from pontryagin.triple_integrator.derivation import parabola
 from pontryagin.triple_integrator.derivation.channel import t0, tau, tf
 from pontryagin.triple_integrator.derivation.duality import peak_bound, piecewise_moments
 from pontryagin.triple_integrator.derivation.model import T, c, multipliers
-from pontryagin.triple_integrator.derivation.parabola import apex, lower, t1, t2, upper
+from pontryagin.triple_integrator.derivation.parabola import lower, t1, t2, upper
 
 claim = Page("Gorelov & Morozova 2012")
 
 R = sp.Rational
 c1, c2, c3 = c
 l1, l2, l3 = multipliers
-conjugate = T - apex
-"""The paper's conjugate parameter, written tau_m with a tilde."""
 
 
 @claim(
@@ -113,7 +110,7 @@ def multipliers_from_the_zeros() -> Evidence:
     }
     return Equality(
         printed,
-        lambda: dict(zip(printed, parabola.multipliers_from_zeros(), strict=True)),
+        parabola.multipliers_from_zeros,
         display=r"l_{10} = \frac{1}{c_0};\quad l_{20} = -\frac{1}{c_0}\left(t_f - \frac{t_1 + t_2}{2}\right);"
         r"\quad l_{30} = \frac{(t_f - t_1)(t_f - t_2)}{2c_0}",
     )
@@ -123,99 +120,90 @@ def multipliers_from_the_zeros() -> Evidence:
 def denominator_of_the_multipliers() -> Evidence:
     return Equality(
         {"c_0": denominator()},
-        lambda: {"c_0": 1 / parabola.multipliers_from_zeros()[0]},
+        lambda: 1 / parabola.multipliers_from_zeros()[0],
         display=r"c_0 = c_1 - c_2\left(t_f - \frac{t_1 + t_2}{2}\right) + \frac12 c_3 (t_f - t_1)(t_f - t_2)",
     )
 
 
-@claim(
+def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
+    """Integral over [lo, hi] of h = (tau - early)(tau - late)."""
+    return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
+
+
+def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
+    """S1 - S2 + S3 of h = (tau - early)(tau - late) on [0, T]."""
+    first_area, second_area, third_area = (
+        between(early, late, *ends) for ends in ((0, early), (early, late), (late, T))
+    )
+    return sp.expand(first_area - second_area + third_area)
+
+
+@claim.proof(
     "before (3.6): unconstrained",
     "without the constraints t0 ≤ t1 and t2 ≤ tf the minimum of (3.6) is the same, so that the "
     "problem is unconstrained",
-    verdict="holds",
     remark="The paper assumes that the two bounds are not active. They may be; the claim holds all the same, "
     "for a zero outside only adds to S1 − S2 + S3. The order t1 < t2 must be kept.",
 )
-def bounds_may_be_dropped() -> Evidence:
-    def argument() -> Steps:
-        outside, other = sp.symbols("x y", positive=True)
+def bounds_may_be_dropped() -> Steps:
+    outside, other = sp.symbols("x y", positive=True)
 
-        def signed(early: sp.Expr, late: sp.Expr) -> sp.Expr:
-            h = sp.expand((tau - early) * (tau - late))
-            parts = [sp.integrate(h, (tau, *ends)) for ends in ((0, early), (early, late), (late, T))]
-            return sp.expand(parts[0] - parts[1] + parts[2])
-
-        def between(early: sp.Expr, late: sp.Expr, lo: sp.Expr, hi: sp.Expr) -> sp.Expr:
-            return sp.integrate(sp.expand((tau - early) * (tau - late)), (tau, lo, hi))
-
-        early, late = -outside, second
-        inside = between(early, late, late, T) - between(early, late, 0, late)
-        extra = signed(early, late) - inside
-        beyond = -2 * between(early, late, early, 0)
-        yield "t1 before t0: S1 − S2 + S3 = ∫|h| + 2∫|h| over [t1, t0]", vanishes(extra - beyond)
-        early, late = -outside - other, -outside
-        extra = signed(early, late) - between(early, late, 0, T)
-        yield (
-            "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
-            vanishes(extra + 2 * between(early, late, early, late)),
-        )
-        yield "that integral is positive", sp.expand(extra).is_positive
-        early, late = first, T + outside
-        inside = between(early, late, 0, early) - between(early, late, early, T)
-        extra = signed(early, late) - inside
-        yield (
-            "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
-            vanishes(extra + 2 * between(early, late, T, late)),
-        )
-        early, late = -outside, T + other
-        extra = signed(early, late) + between(early, late, 0, T)
-        ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
-        yield "t1 before t0 and t2 after tf: both excesses", vanishes(extra - ends)
-
-    return Proof(argument)
+    early, late = -outside, second
+    inside = between(early, late, late, T) - between(early, late, 0, late)
+    extra = signed(early, late) - inside
+    beyond = -2 * between(early, late, early, 0)
+    yield "t1 before t0: S1 − S2 + S3 = ∫|h| + 2∫|h| over [t1, t0]", vanishes(extra - beyond)
+    early, late = -outside - other, -outside
+    extra = signed(early, late) - between(early, late, 0, T)
+    yield (
+        "both before t0: ∫|h| + 2∫|h| over [t1, t2]",
+        vanishes(extra + 2 * between(early, late, early, late)),
+    )
+    yield "that integral is positive", sp.expand(extra).is_positive
+    early, late = first, T + outside
+    inside = between(early, late, 0, early) - between(early, late, early, T)
+    extra = signed(early, late) - inside
+    yield (
+        "t2 after tf: S1 − S2 + S3 = ∫|h| + 2∫|h| over [tf, t2]",
+        vanishes(extra + 2 * between(early, late, T, late)),
+    )
+    early, late = -outside, T + other
+    extra = signed(early, late) + between(early, late, 0, T)
+    ends = -2 * between(early, late, early, 0) - 2 * between(early, late, T, late)
+    yield "t1 before t0 and t2 after tf: both excesses", vanishes(extra - ends)
 
 
-@claim(
+@claim.proof(
     "(3.6)",
     "ρ0 is the least |S1 − S2 + S3| over t0 ≤ t1 < t2 ≤ tf",
-    verdict="holds",
     remark="Where the optimum has fewer than two switches the minimum lies on the boundary: at t1 = t0 or "
     "t2 = tf for one switch, at both for a constant control.",
+    display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|",
 )
-def least_signed_area() -> Evidence:
-    def argument() -> Steps:
-        h = (tau - first) * (tau - second)
-        signed = [sp.integrate(h, (tau, *ends)) for ends in ((0, first), (first, second), (second, T))]
-        total = sp.expand(signed[0] - signed[1] + signed[2])
-        yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
-        moments = two_switches(v, first, second, T)
-        yield (
-            "at the switches of the optimum it is 1/v, its least value",
-            vanishes(total * v - paired_with(moments)),
-        )
-        constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
-        norm = area_with_two_zeros().subs({first: 0, second: T})
-        yield (
-            "a constant control is −v between t1 = t0 and t2 = tf: attained there",
-            vanishes(constant + norm * v),
-        )
-
-    return Proof(
-        argument, display=r"\rho_0 = \min_{t_0 \le t_1 < t_2 \le t_f} \left| S_1 - S_2 + S_3 \right|"
+def least_signed_area() -> Steps:
+    total = signed(first, second)
+    yield "|S1 − S2 + S3| is ∫|h| where the zeros are inside", vanishes(total - area_with_two_zeros())
+    moments = two_switches(v, first, second, T)
+    yield (
+        "at the switches of the optimum it is 1/v, its least value",
+        vanishes(total * v - paired_with(moments)),
+    )
+    constant = paired_with(two_switches(-v, sp.S.Zero, T, T)).subs({first: 0, second: T})
+    norm = area_with_two_zeros().subs({first: 0, second: T})
+    yield (
+        "a constant control is −v between t1 = t0 and t2 = tf: attained there",
+        vanishes(constant + norm * v),
     )
 
 
 @claim("after (3.6): limits", "the three pieces are [t0, t1], [t1, t2], [t2, tf]", verdict="holds")
 def limits_of_the_pieces() -> Evidence:
-    keys = (r"b_1 - a_1", r"b_2 - a_2", r"b_3 - a_3")
-    printed = dict(zip(keys, (t1 - t0, t2 - t1, tf - t2), strict=True))
-
-    def derived() -> Sides:
+    def derived() -> RightSides:
         cuts = (t0, *sorted((t1, t2), key=str), tf)
-        return dict(zip(keys, (b - a for a, b in itertools.pairwise(cuts)), strict=True))
+        return [b - a for a, b in itertools.pairwise(cuts)]
 
     return Equality(
-        printed,
+        {"b_1 - a_1": t1 - t0, "b_2 - a_2": t2 - t1, "b_3 - a_3": tf - t2},
         derived,
         display=r"S_k = \int_{a_k}^{b_k} \psi_3^*(\tau)\,d\tau,\quad (a_1, b_1) = (t_0, t_1),\; (a_2, b_2) "
         r"= (t_1, t_2),\; "
@@ -231,7 +219,7 @@ def piece_of_the_integral() -> Evidence:
     )
     return Equality(
         {"S_k": printed},
-        lambda: {"S_k": parabola.piece()},
+        parabola.piece,
         display=r"S_k = (b_k - a_k)\left[\left(\tfrac12 l_{10} t_f^2 + l_{20} t_f + l_{30}\right) - "
         r"\tfrac12 (l_{10} t_f + l_{20})(b_k + a_k) + \tfrac16 l_{10}(b_k^2 + b_k a_k + a_k^2)\right]",
     )

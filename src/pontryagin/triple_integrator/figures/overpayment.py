@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import INK, WIDTH, styled
+from pontryagin.display.plotting import INK, styled, subplots
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.norms.impulse import minimum_impulse
@@ -22,8 +22,7 @@ def printed_impulses() -> Figure:
     Both are drawn over half the sphere of directions. The value is a lower bound and falls to zero. The
     impulses reach the target everywhere, but cost up to a quarter more than the least total impulse.
     """
-    figure = Figure(figsize=(WIDTH, 3.9), layout="constrained")
-    axes = figure.subplots(1, 2)
+    figure, axes = subplots(1, 2, height=3.9)
     directions, inside = sphere.grid(SIZE)
     maneuvers = sphere.maneuvers(directions)
     least = minimum_impulse(maneuvers).norm

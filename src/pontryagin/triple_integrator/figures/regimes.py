@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from pontryagin.arrays import Array
-from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, WIDTH, styled
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, styled, subplots
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.norms.impulse import REGIMES, minimum_impulse
 
@@ -34,8 +34,7 @@ def impulse_regimes() -> Figure:
 
     A pictogram in each region shows the impulses against time, for the direction in its middle.
     """
-    figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
-    ax, aside = figure.subplots(1, 2, width_ratios=(2.1, 1))
+    figure, (ax, aside) = subplots(1, 2, height=4.6, width_ratios=(2.1, 1))
     directions, inside = sphere.grid(SIZE)
     solution = minimum_impulse(sphere.maneuvers(directions))
     regime = np.where(inside, solution.regime_index, np.nan)

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, WIDTH, styled
+from pontryagin.display.plotting import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, styled, subplots
 from pontryagin.triple_integrator.figures import sphere
 from pontryagin.triple_integrator.search import Survey
 
@@ -34,8 +34,8 @@ def search_routes(survey: Survey) -> Figure:
     survey : Survey
         Returned by `search.survey`.
     """
-    figure = Figure(figsize=(WIDTH, 5.3), layout="constrained")
-    axes = figure.subplots(2, 3).ravel()
+    figure, grid = subplots(2, 3, height=5.3)
+    axes = grid.ravel()
     front = np.sign(survey.directions @ sphere.frame()[2])
     points = sphere.to_disc(survey.directions * front[:, None])
     for ax, (route, results) in zip(axes, survey.results.items(), strict=False):
