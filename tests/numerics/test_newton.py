@@ -91,6 +91,7 @@ def test_the_expected_correction_is_that_of_quadratic_convergence():
     assert expected(1e-4, np.inf) == 1e-4
     assert expected(1e-4, 1e-2) == pytest.approx(1e-8)
     assert expected(1e-2, 1e-4) == 1e-2
+    assert expected(1e-12, 0.0) == 1e-12 and expected(0.0, 0.0) == 0.0
 
 
 def roots_of(targets):

@@ -187,7 +187,7 @@ def newton_step(here: Linearised) -> Array | None:
 
 def expected(correction: float, last: float) -> float:
     """The next correction, predicted from two by quadratic convergence; with only one, that one itself."""
-    return correction * min(1.0, (correction / last) ** 2) if last < np.inf else correction
+    return correction * min(1.0, (correction / last) ** 2) if 0 < last < np.inf else correction
 
 
 def _damped(
