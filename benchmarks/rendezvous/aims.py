@@ -15,7 +15,7 @@ from pontryagin.rendezvous.problem.cases import (
     cases,
 )
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING
 from pontryagin.rendezvous.reduced.start import unbounded
 from pontryagin.rendezvous.root import Root
@@ -30,7 +30,7 @@ def homotopy(problem: Rendezvous) -> Root[Flight]:
     """One homotopy: coasting, least energy at a fixed time, the mixed problem, the bound, least time."""
     setting = problems.setting(problem)
     loose = setting.replace(peak=float("inf"), ratio=loose_ratios(setting.ratio, setting.peak)[0])
-    return bounded(SHOOTING, setting, loose, unbounded(loose, Search()))
+    return bounded(SHOOTING, setting, loose, unbounded(loose, SearchLog()))
 
 
 def warm(quick: bool) -> dict[str, list]:

@@ -1,8 +1,10 @@
 """Value classes: frozen dataclasses of arrays that compare, hash, pickle and copy by value."""
 
+import sys
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import cached_property, partial, wraps
+from types import FunctionType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -23,9 +25,11 @@ def value_class(cls: type[Class]) -> type[Class]:
 
     Arrays in fields, in tuples and mappings in fields, and in cached properties become read-only, without a
     copy: a class that takes arrays from a user copies them in ``__post_init__``. Pickles and copies hold the
-    fields alone; cached properties are then computed again, and are read-only again. Methods ``__eq__``,
-    ``__hash__``, ``__getstate__`` and ``__setstate__`` that a class defines itself are kept. So is the
-    ``__init__`` of a dataclass with ``init=False``, which must make its arrays read-only by `freeze`.
+    fields alone; cached properties are then computed again, and are read-only again. A deep copy shares what
+    the fields hold. Plain pickle refuses a lambda or an inner function in a field with a message that names
+    the field; cloudpickle takes it. Methods ``__eq__``, ``__hash__``, ``__getstate__`` and ``__setstate__``
+    that a class defines itself are kept. So is the ``__init__`` of a dataclass with ``init=False``, which
+    must make its arrays read-only by `freeze`.
 
     Examples
     --------
@@ -42,7 +46,14 @@ def value_class(cls: type[Class]) -> type[Class]:
     for attribute in (attribute for base in cls.__mro__ for attribute in vars(base).values()):
         if isinstance(attribute, cached_property) and not hasattr(attribute.func, "freezes"):
             attribute.func = _read_only(attribute.func)
-    methods = {"__eq__": _equal, "__hash__": _hash, "__getstate__": _state, "__setstate__": _restore}
+    methods = {
+        "__eq__": _equal,
+        "__hash__": _hash,
+        "__getstate__": _state,
+        "__setstate__": _restore,
+        "__copy__": _copy,
+        "__deepcopy__": _copy,
+    }
     for name in methods.keys() - vars(cls).keys():
         setattr(cls, name, methods[name])
     if cls.__dataclass_params__.init:  # type: ignore[attr-defined]
@@ -125,13 +136,64 @@ def _hash(self: Any) -> int:
     return hash(_key(self))
 
 
-def _state(self: Any) -> dict[str, Any]:
+def _held(self: Any) -> dict[str, Any]:
     return {entry.name: getattr(self, entry.name) for entry in fields(self)}
+
+
+def _state(self: Any) -> dict[str, Any]:
+    return {
+        name: UsersFunction(f"{type(self).__name__}.{name}", value)
+        if isinstance(value, FunctionType)
+        else value
+        for name, value in _held(self).items()
+    }
 
 
 def _restore(self: Any, state: dict[str, Any]) -> None:
     freeze(state)
     self.__dict__.update(state)
+
+
+def _copy(self: Any, memo: object = None) -> Any:
+    copied = object.__new__(type(self))
+    copied.__dict__.update(_held(self))
+    return copied
+
+
+class UsersFunction:
+    """A function in the pickled state of a value, with the name of the field that holds it.
+
+    Pickle finds a function by its name. Where it does not, a copy of the function is handed to it under a
+    name that says which argument it refuses and why: its message contains the name. cloudpickle takes the
+    copy by value, and the name is put back when it is loaded.
+    """
+
+    def __init__(self, argument: str, function: FunctionType) -> None:
+        self.argument, self.function = argument, function
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        function = self.function
+        found: object = sys.modules.get(function.__module__)
+        for part in function.__qualname__.split("."):
+            found = getattr(found, part, None)
+        return renamed, (function if found is function else self._explained(), function.__qualname__)
+
+    def _explained(self) -> FunctionType:
+        given = self.function
+        copied = FunctionType(
+            given.__code__, given.__globals__, given.__name__, given.__defaults__, given.__closure__
+        )
+        copied.__dict__.update(given.__dict__)
+        copied.__kwdefaults__, copied.__module__ = given.__kwdefaults__, given.__module__
+        copied.__qualname__ = f"{self.argument}: pickle takes no lambda or inner function, cloudpickle does"
+        return copied
+
+
+def renamed(function: FunctionType, name: str) -> FunctionType:
+    """The function under its qualified name, which `UsersFunction` replaced."""
+    if function.__qualname__ != name:
+        function.__qualname__, function.__name__ = name, name.rpartition(".")[2]
+    return function
 
 
 def _key(value: Any) -> Any:

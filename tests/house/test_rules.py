@@ -24,6 +24,8 @@ PARTICIPLES = frozenset(
     ("asked", "searched", "turned", "misled", "told", "held", "loud", "apart", "whole", "first")
 )
 """Names of modules that do not say what is in them."""
+OF_A_WHOLE_PAPER = frozenset(("values",))
+"""What is tested for all problems and solutions of a paper together."""
 OF_TEXTS = ("pontryagin.report", "pontryagin.io", "pontryagin.numerics.compile")
 """Modules whose errors are about a text or a formula; the caller knows which argument it came from."""
 EVALUATING = ("pontryagin.numerics.jit", "pontryagin.numerics.compile", "pontryagin.value")
@@ -199,6 +201,20 @@ def test_tests_mirror_the_source():
     rooms = {path.name for path in SOURCE.iterdir() if path.is_dir() and path.name != "__pycache__"}
     assert folders - rooms <= {"properties", "house", "benchmarks"}
     assert rooms - folders <= {"terminal"}
+
+
+@pytest.mark.parametrize("package", dict.fromkeys(paper.package for paper in PAPERS))
+def test_tests_of_a_paper_mirror_its_rooms(package):
+    """A file tests the module or the room that it is named after, `test_init.py` the package itself."""
+    folder = ROOT / "tests" / package
+    strays = []
+    for file in sorted(folder.rglob("test_*.py")):
+        name, room = file.stem.removeprefix("test_"), SOURCE / file.parent.relative_to(ROOT / "tests")
+        mirrored = [room / f"{name}.py", room / name / "__init__.py", room / f"__{name}__.py"]
+        whole = file.parent == folder and name in OF_A_WHOLE_PAPER
+        if not whole and not any(path.is_file() for path in mirrored):
+            strays.append(str(file.relative_to(ROOT)))
+    assert not strays
 
 
 def test_contracts_on_imports_are_kept():

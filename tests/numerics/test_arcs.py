@@ -9,12 +9,10 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid, places, sample
 from pontryagin.numerics.equations import Kernel
 from pontryagin.numerics.flow import has_heyoka, integrator
-from pontryagin.numerics.lanes import Lanes
 from pontryagin.numerics.symbolic import Symbolic
 
 x, v, u = sp.symbols("x v u", real=True)
 KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]
-HEYOKA = pytest.mark.skipif(not has_heyoka(), reason="heyoka is not installed")
 
 
 def relay(taylor):
@@ -136,22 +134,3 @@ def test_switches_without_end_are_given_up(taylor):
         follow(few, start(flow, 1.0, [0.01, 0.0]), 1.0, 0.0, 50.0)
     with pytest.raises(NotConverged, match="switches more than 5 times"):
         follow_on_grid(few, start(flow, 1.0, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
-
-
-@HEYOKA
-def test_lanes_switch_each_in_its_own_time():
-    """Ramps x' = u of different slopes side by side; each changes u to -u at x = 1."""
-    turning = Kernel(("x",), lambda of, t, z, p: [p[0] + 0.0 * z[0]], 1, (0,), (one_passed,), 1e-14)
-    slopes = np.linspace(0.5, 3.0, 11)
-    ends = np.linspace(3.0, 1.0, 11)
-    found = Lanes(turning).carry(
-        np.zeros((11, 1)), np.zeros(11), ends, slopes[:, None], np.full(11, 1000), lambda _, p: -p, 5
-    )
-    turned = slopes * ends > 1
-    assert_allclose(found.states[:, 0], np.where(turned, 2 - slopes * ends, slopes * ends), atol=1e-12)
-    assert found.switches.tolist() == turned.astype(int).tolist()
-    assert (found.left == 0).all() and (found.slopes == 1).all()
-
-
-def one_passed(of, t, z, p):
-    return z[0] - 1.0

@@ -13,11 +13,8 @@ from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.io.files import repository
 from pontryagin.rendezvous import (
-    Chaser,
     Orbit,
-    Rendezvous,
     schema,
-    solve,
     transcript,
 )
 from pontryagin.rendezvous.problem.cases import (
@@ -62,13 +59,6 @@ def write(tmp_path):
     return written
 
 
-@pytest.fixture(scope="module")
-def leap():
-    target = Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
-    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
-    return solve(Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=6.0))
-
-
 class TestAnswers:
     @pytest.mark.slow
     def test_json_holds_every_digit_of_the_solver_s_numbers(self, write, leap):
@@ -87,7 +77,7 @@ class TestAnswers:
         assert output["others"]["cost"] == [other.cost for other in leap.others]
         assert output["searched"]["durations"] == pytest.approx([6.0], rel=1e-15)
         assert output["searched"]["revolutions"] == sorted(set(leap.searched.revolutions))
-        assert output["searched"]["ends"] == leap.searched.ends and len(leap.searched.ends) == 2
+        assert output["searched"]["ends"] == list(leap.searched.ends) and len(leap.searched.ends) == 2
         t = np.linspace(0, 6, 5)
         assert output["samples"]["t"] == t.tolist()
         for name in ("state", "costate", "control"):

@@ -10,7 +10,7 @@ from .examples.spin_down import spin_down as spin_down
 from .system.control_sets import Ball as Ball
 from .system.control_sets import BoundedQuadratic as BoundedQuadratic
 from .system.control_sets import Box as Box
-from .system.control_sets import Custom as Custom
 from .system.control_sets import Ellipsoid as Ellipsoid
 from .system.control_sets import Quadratic as Quadratic
+from .system.custom_set import Custom as Custom
 from .system.phase_system import PhaseSystem as PhaseSystem

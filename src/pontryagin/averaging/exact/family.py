@@ -15,6 +15,7 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.exact.members import FAR, chord, march, members
 from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
+from pontryagin.value import value_class
 
 FEWEST, MOST = 8, 64
 """Least and largest number of members in a turn."""
@@ -39,7 +40,8 @@ Member = tuple[Array, Array, Shot, Array]
 """theta, unknowns, shot and Jacobian of one member, (1, ...) each."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Family:
     """Members (s) of the family, by rising theta.
 

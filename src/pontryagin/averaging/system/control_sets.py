@@ -1,14 +1,14 @@
 """Convex sets of controls, each given by sigma(s) = max over its controls u of (s'u - cost of u)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
 import numpy as np
 import sympy as sp
 
-from pontryagin.averaging.system.control_checks import Numbers, listed, numeric, refusal, require_positive
-from pontryagin.numerics import compile as compiler
+from pontryagin.averaging.system.control_checks import Numbers, numeric, refusal, require_positive
+from pontryagin.value import value_class
 
 Number: TypeAlias = "float | sp.Expr"
 
@@ -29,7 +29,8 @@ class ControlSet(Protocol):
         """Raise ValueError unless the set has this dimension, is convex, and bounds or prices controls."""
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Quadratic:
     """Unbounded controls that cost u'Ru.
 
@@ -47,9 +48,13 @@ class Quadratic:
 
     weight: object = 1
 
-    def _matrix(self, dimension: int) -> sp.Matrix:
+    def __post_init__(self) -> None:
         if hasattr(self.weight, "__len__") or hasattr(self.weight, "shape"):
-            return sp.ImmutableMatrix(self.weight)
+            object.__setattr__(self, "weight", sp.ImmutableMatrix(self.weight))
+
+    def _matrix(self, dimension: int) -> sp.Matrix:
+        if isinstance(self.weight, sp.ImmutableMatrix):
+            return self.weight
         return sp.ImmutableMatrix(sp.sympify(self.weight) * sp.eye(dimension))
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
@@ -90,7 +95,8 @@ class Bounded:
         return sp.Integer(0)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Ball(Bounded):
     """|u| <= radius.
 
@@ -116,7 +122,8 @@ class Ball(Bounded):
         require_positive("Ball: radius", [self.radius], numbers)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Ellipsoid(Bounded):
     """sum of (u_i / l_i)^2 <= 1.
 
@@ -133,6 +140,9 @@ class Ellipsoid(Bounded):
     """
 
     semiaxes: Sequence[Number]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "semiaxes", tuple(self.semiaxes))
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sqrt(sum of l_i^2 s_i^2)."""
@@ -151,7 +161,8 @@ class Ellipsoid(Bounded):
         require_positive("Ellipsoid: semiaxes", self.semiaxes, numbers, dimension)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class Box(Bounded):
     """|u_i| <= l_i.
 
@@ -169,6 +180,9 @@ class Box(Bounded):
 
     bounds: Sequence[Number]
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "bounds", tuple(self.bounds))
+
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
         return sp.Add(*self._each(sp.Abs, s))
@@ -185,7 +199,8 @@ class Box(Bounded):
         require_positive("Box: bounds", self.bounds, numbers, dimension)
 
 
-@dataclass(frozen=True)
+@value_class
+@dataclass(frozen=True, eq=False)
 class BoundedQuadratic:
     """|u| <= radius, at the cost weight |u|^2.
 
@@ -227,70 +242,6 @@ class BoundedQuadratic:
         """Radius and weight must be positive."""
         require_positive("BoundedQuadratic: radius", [self.radius], numbers)
         require_positive("BoundedQuadratic: weight", [self.weight], numbers)
-
-
-@dataclass(frozen=True)
-class Custom(Bounded):
-    """Any compact convex set, given by its support function.
-
-    Parameters
-    ----------
-    of : callable
-        From m SymPy expressions s to sigma(s) as a SymPy expression, convex and homogeneous of degree one.
-        Write its kinks with Abs, Max or Piecewise: the average is split there.
-
-    Examples
-    --------
-    The cylinder of the paper's third example, a disc in x, y times an interval in z:
-
-    >>> p, q, r = sp.symbols("p q r", real=True)
-    >>> cylinder = Custom(lambda s: sp.sqrt(s[0]**2 + s[1]**2) + 2 * sp.Abs(s[2]))
-    >>> list(cylinder.maximiser([p, q, r]))
-    [p/sqrt(p**2 + q**2), q/sqrt(p**2 + q**2), 2*sign(r)]
-    """
-
-    of: Callable[[Sequence[sp.Expr]], sp.Expr]
-
-    def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
-        """The given support function."""
-        return sp.sympify(self.of([*s]))
-
-    def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
-        """The gradient of the support function, by the envelope theorem."""
-        free = [sp.Dummy(f"s{i}", real=True) for i in range(len(s))]
-        value = self.support(free)
-        at = dict(zip(free, s, strict=True))
-        return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
-
-    def require_convex(self, dimension: int, numbers: Numbers) -> None:
-        """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""
-        free = [sp.Dummy(f"s{i}", real=True) for i in range(dimension)]
-        value = self.support(free)
-        unknown = value.free_symbols - set(free) - set(numbers)
-        if unknown:
-            raise refusal(
-                f"Custom: the support function holds unknown symbols {listed(unknown)}; beside its "
-                f"arguments it may hold {listed(numbers) or 'numbers only'}"
-            )
-        symbols = sorted(value.free_symbols & set(numbers), key=str)
-        evaluate = compiler.function("support", [*free, *symbols], {"sigma": value})
-        constants = [np.asarray(numbers[symbol], dtype=float)[..., None] for symbol in symbols]
-        pairs = np.random.default_rng(1977).standard_normal((2, dimension, 512))
-        first, second, both, tripled, opposite = (
-            evaluate(*s, *constants)[0]
-            for s in (pairs[0], pairs[1], pairs[0] + pairs[1], 3 * pairs[0], -pairs[0])
-        )
-        scale = 1e-12 * (np.abs(first) + np.abs(second) + np.abs(both))
-        if not (np.abs(tripled - 3 * first) <= 3 * scale).all():
-            raise refusal(
-                "Custom: the support function must be homogeneous of degree one, got a sigma with "
-                "sigma(3 s) other than 3 sigma(s)"
-            )
-        if not (both <= first + second + scale).all() or not (first + opposite >= -scale).all():
-            raise refusal(
-                "Custom: the support function must be convex, as that of every convex set is, "
-                "got one that is not"
-            )
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:

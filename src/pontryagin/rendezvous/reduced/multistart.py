@@ -235,8 +235,8 @@ def multistart(problem: Rendezvous, costates: ArrayLike) -> tuple[Extremal, ...]
     if best is None:
         return ()
     lost = f"no meeting was reached from {len(starts) - len(found)} of the {len(starts)} starts"
-    log = Search(durations=[setting.duration or 0.0], given_up=[lost])
-    return (replace(best, others=tuple(others), searched=log), *others)
+    searched = Search(durations=(setting.duration or 0.0,), given_up=(lost,))
+    return (replace(best, others=tuple(others), searched=searched), *others)
 
 
 def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ from pontryagin.numerics.continuation import Point, between
 from pontryagin.rendezvous.reduced.conditions import ReducedEquations, Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shooting import curve, meet
 from pontryagin.rendezvous.root import Root
 
@@ -40,7 +40,7 @@ class UnboundedExtremal:
         return self.ratio * flight.duration + energy(flight)
 
 
-def through_revolutions(setting: Setting, first: Root[Flight], log: Search) -> list[UnboundedExtremal]:
+def through_revolutions(setting: Setting, first: Root[Flight], log: SearchLog) -> list[UnboundedExtremal]:
     """The first extremal, and those with more and with fewer revolutions on the curve through it."""
     found = [UnboundedExtremal(first, 0.0, setting.ratio)]
     log.revolutions.append(0)
@@ -50,7 +50,7 @@ def through_revolutions(setting: Setting, first: Root[Flight], log: Search) -> l
 
 
 def _walk(
-    setting: Setting, first: Root[Flight], sign: int, log: Search, best: float
+    setting: Setting, first: Root[Flight], sign: int, log: SearchLog, best: float
 ) -> list[UnboundedExtremal]:
     found: list[UnboundedExtremal] = []
     last: Point[ReducedEquations] | None = None

@@ -3,25 +3,39 @@
 from dataclasses import dataclass, field
 
 
-@dataclass
+@dataclass(frozen=True)
 class Search:
-    """Where extremals were sought, and with what result; filled in during the search.
+    """Where extremals were sought, and with what result.
 
     It shows where a better extremal may have been missed.
 
     Attributes
     ----------
-    durations : list of float
+    durations : tuple of float
         Durations at which a first extremal was sought, in the solver's unit.
-    revolutions : list of int
+    revolutions : tuple of int
         Revolutions of the extremals of the unbounded problem, counted from those of the first.
-    ends : list of str
+    ends : tuple of str
         Where the curve over the revolutions was left in each direction, and why.
-    given_up : list of str
+    given_up : tuple of str
         Extremals that could not be reached or were not continued, and why.
     """
+
+    durations: tuple[float, ...] = ()
+    revolutions: tuple[int, ...] = ()
+    ends: tuple[str, ...] = ()
+    given_up: tuple[str, ...] = ()
+
+
+@dataclass
+class SearchLog:
+    """The same as lists, which a search under way fills."""
 
     durations: list[float] = field(default_factory=list)
     revolutions: list[int] = field(default_factory=list)
     ends: list[str] = field(default_factory=list)
     given_up: list[str] = field(default_factory=list)
+
+    def closed(self) -> Search:
+        """What was logged, as it hangs on a solution."""
+        return Search(*(tuple(entries) for entries in vars(self).values()))

@@ -57,7 +57,7 @@ class Extremal:
     >>> best.state([0.0, 6.0]).shape, best.costate([0.0, 6.0]).shape, best.control([0.0, 6.0]).shape
     ((2, 8), (2, 6), (2, 3))
     >>> len(best.others), best.modes, best.searched.revolutions
-    (1, ('unsaturated',), [0, 1])
+    (1, ('unsaturated',), (0, 1))
     """
 
     problem: Rendezvous

@@ -17,7 +17,7 @@ from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
-from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
 from pontryagin.rendezvous.reduced.start import unbounded
@@ -79,10 +79,10 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     if start is not None:
         require_extremal("start", start)
         return Extremal(problem, meet(setting, _unknowns(start, problem)))
-    log = Search()
+    log = SearchLog()
     found = [Extremal(problem, root) for root in extremals(setting, log)]
     best, *others = distinct(found)
-    return replace(best, others=tuple(others), searched=log)
+    return replace(best, others=tuple(others), searched=log.closed())
 
 
 def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
@@ -92,7 +92,7 @@ def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
     return np.append(costates, start.duration / scaled.time) if problem.free else costates
 
 
-def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
+def extremals(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
     """All extremals found of a problem, in no particular order.
 
     Raises
@@ -120,7 +120,7 @@ def extremals(setting: Setting, log: Search) -> list[Root[Flight]]:
     raise NotConverged(f"no extremal was found: {reasons}", float("inf"))
 
 
-def _without_bound(setting: Setting, loose: Setting, log: Search) -> list[UnboundedExtremal]:
+def _without_bound(setting: Setting, loose: Setting, log: SearchLog) -> list[UnboundedExtremal]:
     """The extremals without bound that are continued to the bound, cheapest first; all if there is none."""
     try:
         found = sorted(through_revolutions(loose, unbounded(loose, log), log), key=lambda one: one.cost)

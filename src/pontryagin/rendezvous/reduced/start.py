@@ -23,7 +23,7 @@ from pontryagin.rendezvous.reduced.flight import (
     Flight,
     fly,
 )
-from pontryagin.rendezvous.reduced.search_log import Search
+from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.root import Root
 
@@ -47,7 +47,7 @@ MORE_TURNS = (0, 1, -1, 2, -2)
 """Revolutions tried in addition to the number that makes up half of the target's lead."""
 
 
-def unbounded(setting: Setting, log: Search) -> Root[Flight]:
+def unbounded(setting: Setting, log: SearchLog) -> Root[Flight]:
     """An extremal of the unbounded problem, with the fixed duration or a free one.
 
     Raises

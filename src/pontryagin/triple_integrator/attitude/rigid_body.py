@@ -150,6 +150,7 @@ class Motion:
         return self.at(t)[:, 7:]
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Commands:
     """Commands to the actuators: n numbers z with z' = `rate`(t, z), smooth except at the events.
@@ -172,6 +173,13 @@ class Commands:
     scales: Array
     breakpoints: Sequence[float] = ()
     impulses: Sequence[tuple[float, Array]] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("start", "scales"):
+            object.__setattr__(self, name, np.array(getattr(self, name), dtype=float))
+        object.__setattr__(self, "breakpoints", tuple(self.breakpoints))
+        jumps = tuple((time, np.array(jump, dtype=float)) for time, jump in self.impulses)
+        object.__setattr__(self, "impulses", jumps)
 
 
 def simulate(

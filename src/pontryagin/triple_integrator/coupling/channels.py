@@ -57,6 +57,7 @@ class Coupling:
         return np.asarray(chebyshev.chebval(place, np.moveaxis(self.series[index], -1, 0), tensor=False))
 
 
+@value_class
 @dataclass(frozen=True, eq=False)
 class Channels:
     """The body under three programmes: the channels S are programmed, the motion of the channels G is given.

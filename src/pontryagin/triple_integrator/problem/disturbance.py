@@ -1,11 +1,9 @@
 """The disturbance f(t) and its integrals g2 = int f and g1 = int (t - tau) f of (1.8)."""
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from types import FunctionType
 from typing import Any, Protocol
 
 import numpy as np
@@ -36,30 +34,6 @@ Disturbance = ArrayLike | Callable[[Any], Any] | Expression | None
 
 Integrals = Callable[[Array, Array], Array]
 """A function from the times (t, t0), broadcast, to g1 and g2 from t0 to t, (..., 2)."""
-
-
-def named_after(argument: str, function: FunctionType) -> FunctionType:
-    """The function if pickle finds it by its name, else a copy whose name says why pickle refuses it.
-
-    Plain pickle refuses the copy with a message that contains this name, and so the argument; cloudpickle,
-    which pickles such functions by value, accepts it.
-    """
-    found: object = sys.modules.get(function.__module__)
-    for part in function.__qualname__.split("."):
-        found = getattr(found, part, None)
-    if found is function:
-        return function
-    named = FunctionType(
-        function.__code__,
-        function.__globals__,
-        function.__name__,
-        function.__defaults__,
-        function.__closure__,
-    )
-    named.__dict__.update(function.__dict__)
-    named.__kwdefaults__, named.__module__ = function.__kwdefaults__, function.__module__
-    named.__qualname__ = f"{argument}: pickle takes no lambda or inner function, cloudpickle does"
-    return named
 
 
 def integrals(disturbance: Disturbance, start: Array, end: Array) -> Integrals:

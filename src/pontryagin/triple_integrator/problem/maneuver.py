@@ -1,10 +1,7 @@
 """The manoeuvre, (0.6) to (0.9): both states, both times, the disturbance, and the moments c of (1.10)."""
 
-from copy import copy
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
-from types import FunctionType
-from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +10,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
-from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals, named_after
+from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals
 from pontryagin.validation import common_shape, finite, times, vectors
 from pontryagin.value import freeze, value_class
 
@@ -91,30 +88,6 @@ class Maneuver:
             array.setflags(write=False)
         freeze(disturbance)
         _ = self._integrals  # Raises if the disturbance is of the wrong kind.
-
-    def __getstate__(self) -> dict[str, Any]:
-        """The fields; the disturbance as by `named_after`, so that pickle's refusal of it explains why."""
-        force = self.disturbance
-        named = named_after("disturbance", force) if isinstance(force, FunctionType) else force
-        return {**self._fields(), "disturbance": named, "name": getattr(force, "__qualname__", None)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        name, force = state.pop("name"), state["disturbance"]
-        if isinstance(force, FunctionType) and force.__qualname__ != name:
-            force.__qualname__, force.__name__ = name, name.rpartition(".")[2]
-        freeze(state)
-        self.__dict__.update(state)
-
-    def __copy__(self) -> Self:
-        copied = object.__new__(type(self))
-        copied.__dict__.update(self._fields())
-        return copied
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
-        return copy(self)  # The arrays are read-only, and functions are not copied.
-
-    def _fields(self) -> dict[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def shape(self) -> tuple[int, ...]:
