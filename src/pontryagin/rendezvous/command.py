@@ -1,15 +1,11 @@
 """``pontryagin solve rendezvous``: a case of the report, or a problem from a file."""
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from pontryagin.io import json_io
 from pontryagin.terminal import console
-
-Text = str | None
-File = Path | None
+from pontryagin.terminal.console import File, Json, Text
 
 
 def solve(
@@ -18,7 +14,7 @@ def solve(
     ] = None,
     file: Annotated[File, typer.Option(metavar="FILE", help="Solve the problem of a JSON file.")] = None,
     listed: Annotated[bool, typer.Option("--list", help="Print the cases and solve none.")] = False,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    json: Json = False,
     samples: Annotated[
         int, typer.Option(metavar="N", min=0, help="With --json: adds state, costate and control at N times.")
     ] = 0,
@@ -68,21 +64,16 @@ def solve(
     from pontryagin.rendezvous import transcript
 
     report = transcript.transcript(extremal)
-    if json:
-        sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
-        typer.echo(json_io.to_json(report | sampled))
-    else:
-        console.show(_title(problem, case), transcript.table(report), transcript.conclusion(report))
+    sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
+    conclusion = transcript.conclusion(report)
+    console.answer(json, _title(problem, case), report | sampled, conclusion, transcript.table(report))
 
 
 def _list(json: bool) -> None:
     from pontryagin.rendezvous.problem.cases import cases
 
     titles = {name: one.title for name, one in cases().items()}
-    if json:
-        typer.echo(json_io.to_json({"cases": titles}))
-    else:
-        console.show("Cases of the report", {"cases": titles}, "--case NAME solves one of them.")
+    console.answer(json, "Cases of the report", {"cases": titles}, "--case NAME solves one of them.")
 
 
 def _problem(case: Text, file: File) -> Any:
