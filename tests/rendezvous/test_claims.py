@@ -55,6 +55,7 @@ def test_a_formula_with_any_one_sign_changed_is_refuted(label):
 TRUE, CHEAP, *OTHERS = meetings.COPLANAR
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "label"),
     [

@@ -123,6 +123,7 @@ def test_the_recorded_series_are_those_of_the_solver(which, request):
     assert left.max() <= math.log10(2 * extremal.certificate.hamiltonian + 1e-16) + 1
 
 
+@pytest.mark.slow
 def test_the_bound_and_its_threshold_are_recorded_if_the_thrust_is_bounded(met, missed):
     extremal, held = met
     assert_allclose(curve(held, "magnitude/bound")[1], extremal.problem.peak, rtol=1e-12)
@@ -290,6 +291,7 @@ def test_the_direction_of_the_thrust_changes_little_between_samples():
     assert np.linalg.norm(np.diff(even, axis=0), axis=1).max() > 1.5 * TURN
 
 
+@pytest.mark.slow
 def test_the_profile_shows_the_series_that_are_recorded(met):
     extremal, held = met
     figure = profile(extremal)

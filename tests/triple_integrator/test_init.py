@@ -139,6 +139,7 @@ def test_derivations_import_no_numpy():
         assert not [name for name in names if name.split(".")[0] in ("numpy", "scipy", "numba")], info.name
 
 
+@pytest.mark.slow
 def test_every_public_thing_has_a_docstring():
     bare = [name for name, thing in public_things().items() if not (thing.__doc__ or "").strip()]
     assert not bare

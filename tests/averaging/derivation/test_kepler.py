@@ -82,6 +82,7 @@ orbits = st.tuples(
 thrusts = st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(orbits, thrusts)
 def test_rates_of_the_elements_are_slopes_along_a_flight(orbit, thrust):

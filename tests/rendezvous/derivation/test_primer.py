@@ -1,5 +1,6 @@
 """The primer vector obeys its equation of the second order."""
 
+import pytest
 import sympy as sp
 
 from pontryagin.rendezvous.derivation import (
@@ -10,6 +11,7 @@ from pontryagin.rendezvous.derivation import (
 )
 
 
+@pytest.mark.slow
 def test_the_second_derivative_of_n_is_the_gravity_gradient_times_n():
     n = principle.switching()
     assert (primer.second_rate() - primer.gravity_gradient() * n).applyfunc(sp.simplify).is_zero_matrix

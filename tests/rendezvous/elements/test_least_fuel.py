@@ -24,6 +24,7 @@ def test_the_thrust_of_least_fuel_is_on_or_off_and_switches_where_n_is_alpha2(fu
     assert fuel.cost == pytest.approx(BOUNDED.peak * np.diff(edges)[on].sum(), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_fuel_of_the_smoothed_extremals_decreases_to_that_of_the_switching_one(fuel):
     spent = [float(root.flight.end[17]) * fuel.value for root in fuel.smoothed]
     assert spent == sorted(spent, reverse=True) and fuel.cost < spent[-1] < 1.03 * fuel.cost

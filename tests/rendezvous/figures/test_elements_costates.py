@@ -7,6 +7,7 @@ from pontryagin.rendezvous.elements.arcs import TIME
 from pontryagin.rendezvous.figures import elements, elements_costates
 
 
+@pytest.mark.slow
 def test_the_hamiltonian_is_constant_and_the_costates_are_those_of_the_flight():
     solution = elements.in_elements("ellipse-mixed")
     figure = elements_costates.costates_along(solution)

@@ -39,6 +39,7 @@ class TestFalseMeetings:
         assert rotated < 0.03 < 0.05 < orbit
         assert np.linalg.norm(end - places["target at $t_k$"]) > 0.2
 
+    @pytest.mark.slow
     def test_the_label_names_the_axis_of_the_rotation(self):
         plane = figures.missed(self.family()).axes[2]
         assert plane.get_xlabel() == r"turn of $\lambda(t_k)$ about the normal of the plane [°]"

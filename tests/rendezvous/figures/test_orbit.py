@@ -1,6 +1,7 @@
 """The way in space ends at the target, and is drawn the same every time."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.display.plotting import svg_of
@@ -9,6 +10,7 @@ from pontryagin.rendezvous.figures import paths
 from pontryagin.rendezvous.figures.solved import solved
 
 
+@pytest.mark.slow
 def test_the_path_ends_at_the_meeting_which_is_at_the_target():
     ax = figures.orbit(solved("mixed-bounded")).axes[0]
     path = next(line for line in ax.lines if line.get_label() == "the way of the craft")

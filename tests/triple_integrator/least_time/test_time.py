@@ -97,6 +97,7 @@ def test_no_earlier_admissible_root_by_sturm(x10, x20, x30, x1f, x2f, x3f):
             assert min((m - d) / 2, 1 - (m + d) / 2, d) < 1e-12
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(transfers, peaks)
 def test_nothing_arrives_before_by_a_dense_scan(ends, peak):
