@@ -13,7 +13,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.io import formula
 
-BLOCK = 4096
+BLOCK = 2048
 """Number of rows that are held at a time: the solvers are as fast as on larger stacks."""
 
 
