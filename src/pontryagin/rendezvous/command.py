@@ -97,30 +97,27 @@ def _problem(case: Text, file: File) -> Any:
 def _solved(problem: Any, option: str) -> tuple[Any, bool]:
     """The best extremal found, and whether its search was interrupted."""
     from pontryagin.errors import Infeasible, NotConverged
-    from pontryagin.rendezvous.reduced.search_log import INTERRUPTED, SearchLog
-    from pontryagin.rendezvous.reduced.solve import best, search
+    from pontryagin.rendezvous.reduced.solve import solve as solve_problem
 
-    found: list[Any] = []
-    log = SearchLog()
+    unfinished = False
     with console.solving({}):
         try:
             with bar.shown():
-                found.extend(search(problem, log))
-        except KeyboardInterrupt:
-            if not found:
+                extremal = solve_problem(problem)
+        except KeyboardInterrupt as stop:
+            if not stop.args:
                 raise console.interrupted("no extremal was found so far") from None
-            log.ends.append(INTERRUPTED)
+            (extremal,), unfinished = stop.args, True
         except Infeasible as reason:
             if problem.free and not problem.time_weight:
                 raise console.Refusal(option, f": {reason}") from reason
             raise
-        extremal = best(found, log)
         if not extremal.certificate.holds():
             raise NotConverged(
                 "the certificate does not hold: its residual is too large",
                 float(extremal.certificate.residual),
             )
-    return extremal, INTERRUPTED in log.ends
+    return extremal, unfinished
 
 
 def _title(problem: Any, case: Text) -> str:

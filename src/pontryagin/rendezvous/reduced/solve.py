@@ -5,7 +5,7 @@ then over the bound, then over alpha1/alpha2. All extremals reached are returned
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
-from pontryagin.rendezvous.reduced.search_log import SearchLog
+from pontryagin.rendezvous.reduced.search_log import INTERRUPTED, SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
 from pontryagin.rendezvous.reduced.start import unbounded
@@ -63,6 +63,8 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         bound: no extremal was reached, and in one of the families the costates grew without limit.
     NotConverged
         If no extremal was reached for another reason.
+    KeyboardInterrupt
+        After Ctrl-C; its argument is the best extremal found so far, if there is one.
 
     Examples
     --------
@@ -75,30 +77,28 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     >>> round(best.cost, 6), best.certificate.holds(1e-10)
     (0.023882, True)
     """
-    if start is not None:
-        require_solvable(problem)
-        require_extremal("start", start)
-        return Extremal(problem, meet(_setting(problem), _unknowns(start, problem)))
-    log = SearchLog()
-    return best(search(problem, log), log)
-
-
-def search(problem: Rendezvous, log: SearchLog) -> Iterator[Extremal]:
-    """The extremals that `solve` compares, each as soon as it is found; errors as for `solve`."""
     require_solvable(problem)
-    for root in extremals(_setting(problem), log):
-        yield Extremal(problem, root)
+    scaled = problem.scaled
+    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
+    if start is not None:
+        require_extremal("start", start)
+        return Extremal(problem, meet(setting, _unknowns(start, problem)))
+    log = SearchLog()
+    found: list[Extremal] = []
+    try:
+        found.extend(Extremal(problem, root) for root in extremals(setting, log))
+    except KeyboardInterrupt as stop:
+        if found:
+            log.ends.append(INTERRUPTED)
+            stop.args = (_best(found, log),)
+        raise
+    return _best(found, log)
 
 
-def best(found: Iterable[Extremal], log: SearchLog) -> Extremal:
+def _best(found: list[Extremal], log: SearchLog) -> Extremal:
     """The cheapest of the extremals found, with the others and the log of the search."""
     cheapest, *others = distinct(found)
     return replace(cheapest, others=tuple(others), searched=log.closed())
-
-
-def _setting(problem: Rendezvous) -> Setting:
-    scaled = problem.scaled
-    return Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
 
 
 def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
