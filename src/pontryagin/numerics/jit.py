@@ -23,7 +23,7 @@ from pontryagin.numerics.packages import installed
 COMPILE_FROM = 512
 """Number of problems from which compiled kernels are worth the time that it takes to load or to make them."""
 
-_LOCK = threading.RLock()
+_LOCK = threading.Lock()
 """Held while native code is opened or made, so that threads that start together make it once."""
 
 
@@ -98,13 +98,14 @@ class Batched:
         if self._start(quick=True):
             return self.call(*arguments)
         self.call = self._counted
-        return self._counted(*arguments)
+        return self._counted()
 
-    def _counted(self, *_: object) -> None:
+    def _counted(self, *_: object) -> bytes | None:
         """`call` where there is no native code yet."""
         self._plain_calls += 1
         if self._plain_calls == COMPILE_FROM:
             self._start()
+        return None
 
     def _start(self, quick: bool = False) -> bool:
         """Whether native code runs from here on: kept code, or code made now unless `quick`."""

@@ -123,31 +123,34 @@ class Recipe:
         return open_object(target, name)
 
     def _object_code(self) -> bytes:
+        """The kernel in its wrapper, compiled for any processor of this architecture."""
         from llvmlite import binding
-        from numba import njit
-        from numba import types as numba_types
 
-        scope = self.closure.namespace
-        for name, function in self.closure.functions.items():
-            own = types.FunctionType(function.__code__, scope, name, function.__defaults__)
-            scope[name] = njit(nogil=True, error_model="numpy")(own)
-        main = scope[self.kernel.__name__]
-        given = (numba_types.float64,) * sum(self.groups)
-        main.compile(numba_types.UniTuple(numba_types.float64, self.outputs)(*given))
-        name = main.overloads[given].fndesc.llvm_func_name
-
+        name, text = self._compiled()
         start_llvm()
-        module = binding.parse_assembly(main.inspect_llvm(given))
+        module = binding.parse_assembly(text)
         module.link_in(binding.parse_assembly(wrapper(name, self.groups, self.outputs, self.packed)))
         for part in (*module.functions, *module.global_variables):
             if not part.is_declaration and part.name not in ("call", "loop"):
                 part.linkage = "internal"
         module.verify()
         machine = binding.Target.from_default_triple().create_target_machine(opt=3, reloc="pic")
-        options = binding.create_pipeline_tuning_options(speed_level=3)
-        builder = binding.create_pass_builder(machine, options)
+        builder = binding.create_pass_builder(machine, binding.create_pipeline_tuning_options(speed_level=3))
         builder.getModulePassManager().run(module, builder)
         return bytes(machine.emit_object(module))
+
+    def _compiled(self) -> tuple[str, str]:
+        """The kernel compiled by Numba: its name and the text of a module of LLVM."""
+        from numba import njit
+
+        scope = self.closure.namespace
+        for name, function in self.closure.functions.items():
+            own = types.FunctionType(function.__code__, scope, name, function.__defaults__)
+            scope[name] = njit(nogil=True, error_model="numpy")(own)
+        kernel = scope[self.kernel.__name__]
+        kernel.compile(f"UniTuple(float64, {self.outputs})({', '.join(['float64'] * sum(self.groups))})")
+        (given,) = kernel.signatures
+        return kernel.overloads[given].fndesc.llvm_func_name, kernel.inspect_llvm(given)
 
 
 def start_llvm() -> None:
