@@ -88,6 +88,7 @@ def newton(
     admissible: Callable[[Array, Array], bool] | None = None,
     rough: Callable[[Array], E] | None = None,
     rough_tolerance: float = 1e-8,
+    solve: Callable[[E], Array | None] | None = None,
 ) -> Iterate[E]:
     """Newton's method for one system, with each step halved until the residual becomes smaller.
 
@@ -109,6 +110,9 @@ def newton(
         A cheaper evaluation of the same equations, with which the first steps are made.
     rough_tolerance : float
         The tolerance of the steps made with ``rough``.
+    solve : function of the equations, optional
+        The step (n,) that solves the linearised equations, or None where they are singular; for equations
+        whose Jacobian has a structure. By default `newton_step`.
 
     Raises
     ------
@@ -126,6 +130,7 @@ def newton(
     ([1.0, 1.0], 'converged')
     """
     allowed = admissible or (lambda before, after: True)
+    linear = solve or newton_step
     correction = np.inf
     if rough is not None:
         unknowns, correction = _approach(
@@ -133,7 +138,7 @@ def newton(
         )
     here = evaluate(unknowns)
     for _ in range(iterations):
-        step = newton_step(here)
+        step = linear(here)
         if step is None:
             return Iterate(unknowns, here, correction, "singular")
         last, correction = correction, float(np.abs(step / scales(unknowns)).max())
