@@ -2,6 +2,7 @@
 
 equinoctial      elements of craft and target; costates of the reduced form
 transcription    the extremal on a lap, by the midpoint rule and Newton's method
-start            a first guess: the best transfer for equations linearised about a straight path of the elements
+start            a first guess: the best transfer for equations linearised about a given path
 families         continuation to the duration, the bound and the cost that are asked for
+ladder           all transfers of free duration on a lap
 """

@@ -6,9 +6,11 @@ Each continuation follows transcribed extremals over one parameter, from 0 to 1,
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
@@ -48,7 +50,7 @@ def continued(posed: Posed, path: Path, first: float = FIRST, least: float = LEA
         If the continuation ends before.
     """
 
-    def at(parameter: float, guess: np.ndarray) -> Point[None]:
+    def at(parameter: float, guess: Array) -> Point[None]:
         found = extremal(*posed(parameter), Path.of(guess), ITERATIONS)
         return Point(found.unknowns, parameter, None)
 
@@ -78,7 +80,7 @@ def least_energy(lap: Lap, duration: float) -> Path:
 
 
 def _from_coasting(lap: Lap, duration: float) -> Path:
-    """The extremal as the goal moves from the craft's orbit to the target's, at the longitude of the meeting."""
+    """The extremal as the goal moves from the craft's orbit to the target's, at a fixed longitude."""
     end = lap.longitude(duration)[0]
     if end <= 0:
         raise NotConverged("the meeting is not ahead of the craft", math.inf)
@@ -87,7 +89,7 @@ def _from_coasting(lap: Lap, duration: float) -> Path:
     nodes[:5] = lap.start[:5, None]
     nodes[5] = np.linspace(0.0, end, count + 1)
     middles = (nodes[:, 1:] + nodes[:, :-1]) / 2
-    coasting = float(kernels.equinoctial_weight(*middles[:3], middles[5]).sum()) * end / count
+    coasting = float(kernels.equinoctial_weight(*[*middles[:3], middles[5]]).sum()) * end / count
 
     def posed(share: float) -> tuple[Lap, RunningCost, float]:
         goal = lap.start[:5] + share * (lap.goal - lap.start[:5])
@@ -146,15 +148,14 @@ def least_time(lap: Lap, path: Path, cost: RunningCost) -> Path:
     for _ in range(STAGES):
         if float(path.switching().min()) > 2 * weight * cost.peak:
             break
-        begin = weight
         try:
-            path = continued(
-                lambda share, begin=begin: (lap, RunningCost(1.0, begin * SHRINK**-share, cost.peak), None),
-                path,
-                first=1.0,
-                least=1 / 16,
-            )
+            path = continued(partial(_cheaper, lap, cost.peak, weight), path, first=1.0, least=1 / 16)
         except NotConverged:
             break
         weight /= SHRINK
     return extremal(lap, RunningCost(1.0, 0.0, cost.peak), None, path)
+
+
+def _cheaper(lap: Lap, peak: float, weight: float, share: float) -> tuple[Lap, RunningCost, None]:
+    """Least time with a share of one factor `SHRINK` taken off the weight of energy."""
+    return lap, RunningCost(1.0, weight * SHRINK**-share, peak), None

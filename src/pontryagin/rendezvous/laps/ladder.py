@@ -1,4 +1,4 @@
-"""The transfers without a bound on one lap: all durations at which the terminal law holds, found along one curve.
+"""The transfers of free duration on one lap, without a bound: where the terminal law holds along a curve.
 
 The curve of least energy over the duration is followed from the best duration of a guess in both directions,
 until a transfer costs more than a given multiple of the best one.
@@ -32,8 +32,9 @@ RANGE = 3.0
 
 def energy(path: Path) -> float:
     """The integral of p^2 along a path without bound, alpha2 = 1."""
-    rate = square(path.nodes) / 4 * kernels.equinoctial_weight(*path.nodes[:3], path.nodes[5])
-    return float((rate[1:] + rate[:-1]).sum()) * path.span / (2 * (rate.size - 1))
+    weight = kernels.equinoctial_weight(*[*path.nodes[:3], path.nodes[5]])
+    rate = square(path.nodes) / 4 * weight
+    return float((rate[1:] + rate[:-1]).sum() * path.span / (2 * (rate.size - 1)))
 
 
 def price(path: Path, ratio: float) -> float:

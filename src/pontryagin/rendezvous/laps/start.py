@@ -16,13 +16,13 @@ from pontryagin.rendezvous.laps.equinoctial import TAU, Lap
 from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path
 
 
-def least_energy_guess(lap: Lap, duration: float, rounds: int = 2, per_lap: int = NODES_PER_LAP) -> Path | None:
-    """The path after some rounds; None if the meeting is not ahead of the craft, or a path leaves the ellipses.
+def least_energy_guess(
+    lap: Lap, duration: float, rounds: int = 2, per_lap: int = NODES_PER_LAP
+) -> Path | None:
+    """The path of least energy after some rounds, for alpha1 = 0 and alpha2 = 1.
 
-    The weight alpha2 is 1, alpha1 is 0.
+    It is None if the meeting is not ahead of the craft, or if a reference path leaves the ellipses.
     """
-    from scipy.integrate import cumulative_trapezoid
-
     end = lap.longitude(duration)[0]
     if end < 0.3:
         return None
@@ -30,7 +30,8 @@ def least_energy_guess(lap: Lap, duration: float, rounds: int = 2, per_lap: int 
     reference = lap.start[:5, None] + longitude / end * (lap.goal - lap.start[:5])[:, None]
 
     def integral(values: Array) -> Array:
-        return np.asarray(cumulative_trapezoid(values, longitude, axis=-1, initial=0.0))
+        steps = (values[..., 1:] + values[..., :-1]) / 2 * np.diff(longitude)
+        return np.concatenate([np.zeros((*values.shape[:-1], 1)), np.cumsum(steps, axis=-1)], axis=-1)
 
     for _ in range(rounds):
         weight, by_element = _weight(reference, longitude)
@@ -62,7 +63,7 @@ def least_energy_guess(lap: Lap, duration: float, rounds: int = 2, per_lap: int 
 
 def _weight(elements: Array, longitude: Array) -> tuple[Array, Array]:
     """dt/ds, (n,), and its derivatives in p, f, g, h, k, (5, n)."""
-    value, slopes = jacobian(lambda x: [kernels.equinoctial_weight(*x, longitude)], elements[:3])
+    value, slopes = jacobian(lambda x: [kernels.equinoctial_weight(*[*x, longitude])], elements[:3])
     return value[0], np.vstack([slopes[0], np.zeros((2, longitude.size))])
 
 
@@ -70,5 +71,5 @@ def _thrust_factors(elements: Array, longitude: Array) -> Array:
     """The factors of the five costates in n, (5, 3, n)."""
     units = np.eye(6)[:5, :, None]
     x = np.broadcast_to(elements[:, None], (5, 5, longitude.size))
-    n = kernels.equinoctial_switching(*x, np.broadcast_to(longitude, (5, longitude.size)), *np.moveaxis(units, 1, 0))
+    n = kernels.equinoctial_switching(*[*x, longitude[None], *np.moveaxis(units, 1, 0)])
     return np.stack([np.broadcast_to(part, (5, longitude.size)) for part in n], axis=1)

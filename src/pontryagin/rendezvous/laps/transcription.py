@@ -1,8 +1,8 @@
 """The extremal of a transfer on a given lap, transcribed by the midpoint rule in equinoctial elements.
 
 The independent variable s runs like the longitude of an undisturbed orbit. The regularised Hamiltonian K
-vanishes along the extremal. Unknown are elements and costates at the nodes, the price c of time, the length of
-s and the duration. Newton's step eliminates the nodes one after the other, so that nine equations remain.
+vanishes along the extremal. Unknown are elements and costates at the nodes, the price c of time, the length
+of s and the duration. Newton's step eliminates the nodes one after the other, so that nine equations remain.
 """
 
 import math
@@ -97,20 +97,22 @@ class Path:
 
 def square(nodes: Inputs) -> Inputs:
     """|n|^2 at elements and costates (12, ...)."""
-    n1, n2, n3 = kernels.equinoctial_switching(*nodes)
-    return n1 * n1 + n2 * n2 + n3 * n3
+    n = np.array(kernels.equinoctial_switching(*nodes))
+    return np.asarray((n * n).sum(axis=0))
 
 
 def rates(cost: RunningCost, nodes: Inputs) -> Inputs:
     """Rates by s of elements and costates, and dt/ds, (13, ...), at these and c, (13, ...)."""
     gain, slope = cost.gain(square(nodes[:12]))
-    return np.array(np.broadcast_arrays(*kernels.equinoctial_rates(*nodes[:12], gain, slope, nodes[12])))
+    values = kernels.equinoctial_rates(*[*nodes[:12], gain, slope, nodes[12]])
+    return np.array(np.broadcast_arrays(*values))
 
 
 def hamiltonian(cost: RunningCost, node: Inputs) -> Inputs:
     """K at elements, costates and c, (13, ...)."""
     gain, _ = cost.gain(square(node[:12]))
-    return (gain + node[12]) * kernels.equinoctial_weight(*node[:3], node[5]) + node[11]
+    weight = kernels.equinoctial_weight(*[*node[:3], node[5]])
+    return np.asarray((gain + node[12]) * weight + node[11])
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,11 +129,6 @@ class Transcription:
 
     residual: Array
     step: Array | None
-
-    @property
-    def jacobian(self) -> Array:
-        """Not formed; the step is at hand."""
-        raise AttributeError("the Jacobian is not formed")
 
 
 def transcribed(lap: Lap, cost: RunningCost, duration: float | None, path: Path) -> Transcription:
@@ -205,9 +202,7 @@ def _transfers(h: float, defects: Array, values: Array, slopes: Array, off_start
     return found
 
 
-def extremal(
-    lap: Lap, cost: RunningCost, duration: float | None, guess: Path, iterations: int = 12
-) -> Path:
+def extremal(lap: Lap, cost: RunningCost, duration: float | None, guess: Path, iterations: int = 12) -> Path:
     """The transcribed extremal that Newton's method reaches.
 
     Raises
@@ -226,7 +221,9 @@ def extremal(
             solve=lambda here: here.step,
         )
     if not np.abs(found.equations.residual).max() < ACCEPTED:
-        raise NotConverged("no extremal was reached on this lap", float(np.abs(found.equations.residual).max()))
+        raise NotConverged(
+            "no extremal was reached on this lap", float(np.abs(found.equations.residual).max())
+        )
     return Path.of(found.unknowns)
 
 
