@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import cached_property, partial, wraps
 from types import FunctionType
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +59,40 @@ def value_class(cls: type[Class]) -> type[Class]:
     if cls.__dataclass_params__.init:  # type: ignore[attr-defined]
         setattr(cls, "__init__", _initialiser(cls))  # noqa: B010
     return cls
+
+
+class Packed:
+    """Base of value classes whose fields can be made later, from numbers packed in `bytes`.
+
+    A subclass defines `_unpacked`, which makes all fields that its instances do not hold yet.
+    """
+
+    _numbers: bytes | None = None
+
+    @classmethod
+    def from_numbers(cls, numbers: bytes, **fields: Any) -> Self:
+        """An instance with some fields, whose other fields are made when the first of them is read."""
+        made = object.__new__(cls)
+        values = made.__dict__
+        values["_numbers"] = numbers
+        values.update(fields)
+        return made
+
+    def _unpacked(self, numbers: NDArray[np.float64]) -> dict[str, Any]:
+        """The fields from the numbers, which are read-only."""
+        raise NotImplementedError
+
+    if not TYPE_CHECKING:  # Type checkers would take any name for an attribute.
+
+        def __getattr__(self, name: str) -> Any:
+            """A field that is not made yet."""
+            if self._numbers is None or name not in type(self).__dataclass_fields__:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            made = self._unpacked(np.frombuffer(self._numbers))
+            freeze(made)
+            for field, value in made.items():
+                self.__dict__.setdefault(field, value)
+            return self.__dict__[name]
 
 
 def freeze(value: object) -> None:

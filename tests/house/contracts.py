@@ -14,7 +14,7 @@ ABOVE = ("cli", "report")
 """Packages that find the papers through `pontryagin.papers` and are imported by nothing below them."""
 SHOWING = ("display", "terminal", "ledger")
 COMPUTING = ("numerics", "io")
-GROUND = ("papers", "certificate", "value", "validation", "errors", "arrays")
+GROUND = ("papers", "certificate", "value", "validation", "errors", "arrays", "progress")
 
 
 def configuration(papers: Iterable[str]) -> str:

@@ -260,7 +260,7 @@ class TestRealTurn:
         tried = figures.attempts(BODY, [2, -1, 2], (20, 160), duration=60.0)
         reached = Rotation.from_quat(tried[0].turn.attitude(60.0)[0], scalar_first=True).as_rotvec()
         assert_allclose(reached, np.deg2rad(20) * np.array([2, -1, 2]) / 3, atol=2e-6)
-        assert tried[1].turn is None and "coupling" in tried[1].remark
+        assert tried[1].turn is None and "the iteration diverges" in tried[1].remark
         table = figures.attempts_table(tried)
         assert table["factor"][0] == pytest.approx(table["spherical body"][0], abs=0.05)
         assert table["factor"][1] is None and table["spherical body"][1] > 1

@@ -172,11 +172,17 @@ def _solve_batch(
     epsilon: float | None,
     phase: float | None,
 ) -> None:
-    read, values = chosen.stack(given, path)
-    solution = schema.solve(chosen, values)
-    if epsilon is not None and "peak" in values:
-        raise console.Refusal(
-            "--epsilon",
-            "cannot be combined with --batch and --peak: the correction then depends on the angle at the end",
-        )
-    console.emit("--out", out, rows.to_csv(read, transcript.answers(solution, epsilon, phase)))
+    from pontryagin.terminal import batches
+
+    def solved(block: rows.Rows) -> tuple[dict[str, Any], None]:
+        values = chosen.of_block(given, path, block)
+        solution = schema.solve(chosen, values)
+        if epsilon is not None and "peak" in values:
+            raise console.Refusal(
+                "--epsilon",
+                "cannot be combined with --batch and --peak: "
+                "the correction then depends on the angle at the end",
+            )
+        return transcript.answers(solution, epsilon, phase), None
+
+    batches.run(path, out, chosen.stacks(given, path), solved)

@@ -1,6 +1,6 @@
 """Options, table columns and solvers of the paper's examples, for the command line."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -63,25 +63,30 @@ class ExampleSchema:
         texts = {name: given[name] or self.optional.get(name) for name in self.options}
         return {name: value(name, text) for name, text in texts.items() if text is not None}
 
-    def stack(self, given: Given, path: Path) -> tuple[rows.Rows, dict[str, Any]]:
-        """Read a table with one problem in each row, and find the value of every argument.
+    def stacks(self, given: Given, path: Path) -> Iterator[rows.Rows]:
+        """Read a table with one problem in each row, block by block; see `of_block`."""
+        yield from rows.blocks(path, _columns(self._wanted(given)), _columns(self._possible))
 
-        A value is the array of a column, or one number from an option for all rows.
-        """
-        wanted = [name for name in self.required if given[name] is None]
-        possible = [name for name in self.options if name not in FORMULAS and name not in self.required]
-        with console.reading("--batch", path):
-            read = rows.read(path, _columns(wanted), _columns(possible))
+    def of_block(self, given: Given, path: Path, read: rows.Rows) -> dict[str, Any]:
+        """The value of every argument: the array of a column, or one number from an option for all rows."""
         both = [name for name in self.options if given[name] and set(columns(name)) & set(read.header)]
         console.excluded(f"the column of {path} that holds it", {option(name): True for name in both})
-        stated = {name: self._column(read, name) for name in (*wanted, *possible) if given[name] is None}
+        names = (*self._wanted(given), *self._possible)
+        stated = {name: self._column(read, name) for name in names if given[name] is None}
         given_columns = {name: column for name, column in stated.items() if column is not None}
         texts = {
             name: given[name] or self.optional.get(name) for name in self.options if name not in given_columns
         }
         values = {name: value(name, text) for name, text in texts.items() if text is not None}
         self._require_one([name for name in self.either if name in given_columns or name in values])
-        return read, given_columns | values
+        return given_columns | values
+
+    def _wanted(self, given: Given) -> list[str]:
+        return [name for name in self.required if given[name] is None]
+
+    @property
+    def _possible(self) -> list[str]:
+        return [name for name in self.options if name not in FORMULAS and name not in self.required]
 
     def _column(self, read: rows.Rows, name: str) -> Any:
         if not set(columns(name)) <= set(read.columns):

@@ -1,10 +1,11 @@
 """Problems from a CSV file, one in each row, and the same rows with their answers."""
 
 import csv
-import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,9 +13,12 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.io import formula
 
+BLOCK = 2048
+"""Number of rows that are held at a time: the solvers are as fast as on larger stacks."""
+
 
 class Rows(NamedTuple):
-    """The content of a CSV file.
+    """The content of a CSV file, or of a part of it.
 
     Attributes
     ----------
@@ -39,7 +43,18 @@ class Rows(NamedTuple):
 
 
 def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), holds: str = "problem") -> Rows:
-    """Read numbers from a CSV file with a header line.
+    """Read numbers from a CSV file with a header line; `blocks` reads it in parts."""
+    return next(blocks(path, required, possible, holds, size=None))
+
+
+def blocks(
+    path: Path,
+    required: Sequence[str],
+    possible: Sequence[str] = (),
+    holds: str = "problem",
+    size: int | None = BLOCK,
+) -> Iterator[Rows]:
+    """Read numbers from a CSV file with a header line, a block of rows at a time.
 
     Parameters
     ----------
@@ -50,6 +65,8 @@ def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), hold
         as text.
     holds : str
         What a row holds, for the message about a file without rows.
+    size : int, optional
+        Number of rows of a block; None reads all rows as one.
 
     Raises
     ------
@@ -65,29 +82,57 @@ def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), hold
         if missing:
             raise ValueError(f"line 1: column {missing[0]} is missing, needs {', '.join(required)}")
         wanted = [*required, *(name for name in possible if name in header)]
-        filled = [(row, reader.line_num) for row in reader if row]
-    if not filled:
+        filled = ((row, reader.line_num) for row in reader if row)
+        empty = True
+        while block := list(islice(filled, size)):
+            rows, lines = map(list, zip(*block, strict=True))
+            del block
+            yield Rows(header, rows, lines, _columns(rows, lines, header, wanted))
+            empty = False
+    if empty:
         raise ValueError(f"line 2: the file holds no {holds}")
-    numbers = np.array([_numbers(row, header, wanted, line) for row, line in filled])
-    rows, lines = zip(*filled, strict=True)
-    return Rows(header, list(rows), list(lines), dict(zip(wanted, numbers.T, strict=True)))
 
 
-def _numbers(row: list[str], header: list[str], wanted: Sequence[str], line: int) -> list[float]:
+def _columns(
+    rows: list[list[str]], lines: list[int], header: list[str], wanted: Sequence[str]
+) -> dict[str, Array]:
+    """The numbers in the wanted columns, converted column by column; row by row only to name a fault."""
+    if set(map(len, rows)) == {len(header)}:
+        texts = list(zip(*rows, strict=True))
+        try:
+            return {name: _numbers(texts[header.index(name)]) for name in wanted}
+        except ValueError:
+            pass
+    for row, line in zip(rows, lines, strict=True):
+        _check(row, header, wanted, line)
+    raise AssertionError("a row that is at fault was not found")
+
+
+def _numbers(texts: Sequence[str]) -> Array:
+    """The finite numbers that texts stand for; only where one is no plain number are formulas parsed."""
+    try:
+        numbers = np.fromiter(map(float, texts), float, len(texts))
+    except ValueError:
+        return np.fromiter(map(formula.number, texts), float, len(texts))
+    if not np.isfinite(numbers).all():
+        raise ValueError("a number is not finite")
+    return numbers
+
+
+def _check(row: list[str], header: list[str], wanted: Sequence[str], line: int) -> None:
+    """Raise `ValueError` with the number of the line if a row has another length or an entry is no number."""
     if len(row) != len(header):
         raise ValueError(f"line {line}: has {len(row)} entries, but the header has {len(header)}")
-    values = []
     for name in wanted:
         text = row[header.index(name)]
         try:
-            values.append(formula.number(text))
+            formula.number(text)
         except ValueError:
             raise ValueError(f"line {line}: {name} takes a number, got {text!r}") from None
-    return values
 
 
 def to_csv(read: Rows, answers: Mapping[str, Any]) -> str:
-    """The rows as they were read, each followed by its answers.
+    """The rows as they were read, each followed by its answers, below a header.
 
     Parameters
     ----------
@@ -97,17 +142,47 @@ def to_csv(read: Rows, answers: Mapping[str, Any]) -> str:
         An (n, k) array ``name`` becomes the columns ``name_1`` to ``name_k``. Truth values are written as
         yes and no; nan leaves the entry empty.
     """
-    columns: dict[str, list[Any]] = {}
+    columns, lines = answered(read, answers)
+    return "".join(f"{line}\n" for line in [header_line([*read.header, *columns]), *lines])
+
+
+def header_line(names: Sequence[str]) -> str:
+    """Names of columns as a line of CSV, without its end."""
+    return _as_written([names])[0]
+
+
+def answered(read: Rows, answers: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """Names of the answers' columns, and each row with its answers as CSV without the line's end."""
+    columns: dict[str, Sequence[str]] = {}
     for name, values in answers.items():
         array = np.asarray(values)
         parts = {name: array} if array.ndim == 1 else {f"{name}_{i + 1}": p for i, p in enumerate(array.T)}
-        columns |= {part: column.tolist() for part, column in parts.items()}
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*read.header, *columns])
-    for row, found in zip(read.rows, zip(*columns.values(), strict=True), strict=True):
-        writer.writerow([*row, *map(_cell, found)])
-    return text.getvalue()
+        columns |= {part: _texts(column) for part, column in parts.items()}
+    return list(columns), list(map(",".join, zip(_as_written(read.rows), *columns.values(), strict=True)))
+
+
+def _as_written(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Each row of texts as CSV without the line's end; joined by commas where no text needs quotes."""
+    joined = list(map(",".join, rows))
+    text = "\n".join(joined)
+    commas, ends = sum(map(len, rows)) - len(rows), len(rows) - 1
+    plain = '"' not in text and "\r" not in text and (text.count(","), text.count("\n")) == (commas, ends)
+    if plain and all(joined):
+        return joined
+    lines: list[str] = []
+    csv.writer(SimpleNamespace(write=lines.append), lineterminator="\n").writerows(rows)
+    return [line[:-1] for line in lines]
+
+
+def _texts(column: Any) -> list[str]:
+    """The cells of one column of answers."""
+    values = column.tolist()
+    if column.dtype != float:
+        return list(map(_cell, values))
+    texts = list(map(repr, values))
+    for i in np.flatnonzero(np.isnan(column)).tolist():
+        texts[i] = ""
+    return texts
 
 
 def _cell(value: Any) -> str:

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
+from pontryagin.certificate import Certificate
 from pontryagin.io import rows
 from pontryagin.orbit_correction import transcript
 from pontryagin.terminal import console
@@ -108,8 +108,10 @@ def _files(plan: Any, plot: File, record: File) -> None:
 
 
 def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None:
-    with console.reading("--batch", path):
-        states = rows.read(path, transcript.COLUMNS)
-    plan = _planned(np.column_stack([states.columns[name] for name in transcript.COLUMNS]), engine)
-    console.emit("--out", out, transcript.to_csv(states, plan))
-    console.require_proof(plan.certificate)
+    from pontryagin.terminal import batches
+
+    def solved(block: rows.Rows) -> tuple[dict[str, Any], Certificate]:
+        plan = _planned(block.stack(transcript.COLUMNS), engine)
+        return transcript.answers(plan), plan.certificate
+
+    batches.run(path, out, rows.blocks(path, transcript.COLUMNS), solved)

@@ -5,8 +5,6 @@ from typing import Any
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.io import rows
-from pontryagin.io.rows import Rows
 from pontryagin.orbit_correction.plan.correction import Plan
 from pontryagin.orbit_correction.system import satellite
 
@@ -99,12 +97,12 @@ def conclusion(plan: Plan) -> str:
     return f"With {counted} the plan needs {float(plan.gauge):.12g} of the peak; {least}."
 
 
-def to_csv(states: Rows, plan: Plan) -> str:
-    """The rows as they were read, each with its plan; cells beyond the impulses of a state are empty."""
-    answers = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
-    answers |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
-    answers |= {name: getattr(plan.certificate, name) for name in PROOF}
+def answers(plan: Plan) -> dict[str, Any]:
+    """Result columns, (n,) each, for the plans of n states; nan beyond the impulses of a state."""
+    columns = {"steps": plan.steps, "impulse_count": plan.impulse_count, "gauge": plan.gauge}
+    columns |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
+    columns |= {name: getattr(plan.certificate, name) for name in PROOF}
     for j in range(plan.impulses.shape[-2]):
         fired = np.where((j < plan.impulse_count)[:, None], plan.impulses[:, j], np.nan)
-        answers |= {f"w1_{j}": fired[:, 0], f"w2_{j}": fired[:, 1]}
-    return rows.to_csv(states, answers)
+        columns |= {f"w1_{j}": fired[:, 0], f"w2_{j}": fired[:, 1]}
+    return columns

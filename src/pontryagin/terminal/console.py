@@ -13,6 +13,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from pontryagin.arrays import Array
 from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
 from pontryagin.io import files, json_io
@@ -154,12 +155,19 @@ def reading(option: str, path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def writing(option: str, path: Path) -> Iterator[None]:
-    """Refuse an option whose file cannot be written; otherwise say on standard error that it was."""
+def writable(option: str, path: Path) -> Iterator[None]:
+    """Refuse an option whose file cannot be written."""
     try:
         yield
     except OSError as reason:
         raise Refusal(option, f"cannot write {path}: {_cause(reason)}") from reason
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Refuse an option whose file cannot be written; otherwise say on standard error that it was."""
+    with writable(option, path):
+        yield
     typer.echo(f"wrote {path}", err=True)
 
 
@@ -198,17 +206,22 @@ def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> N
 
 
 def require_proof(proof: Certificate) -> None:
-    """Raise `NotConverged` where a certificate, or one of a stack, does not hold to `ACCEPTED`."""
+    """Raise `NotConverged` where a certificate does not hold to `ACCEPTED`."""
+    left = unproved(proof)
+    if left.size:
+        raise without_proof("the certificate does", float(left[0]))
+
+
+def unproved(proof: Certificate) -> Array:
+    """The residuals of the certificates of a stack, or of one, that do not hold to `ACCEPTED`."""
     with np.errstate(all="ignore"):
-        left = proof.residual
-    open_ones = ~(left <= ACCEPTED)
-    if open_ones.any():
-        count = (
-            f"{open_ones.sum()} of {open_ones.size} certificates do" if left.ndim else "the certificate does"
-        )
-        raise NotConverged(
-            f"{count} not hold to {ACCEPTED:g}: rounding errors are too large", float(left[open_ones].max())
-        )
+        left = np.atleast_1d(proof.residual)
+    return left[~(left <= ACCEPTED)]
+
+
+def without_proof(which: str, residual: float) -> NotConverged:
+    """The error about certificates that do not hold."""
+    return NotConverged(f"{which} not hold to {ACCEPTED:g}: rounding errors are too large", residual)
 
 
 def as_text(value: Any) -> str:

@@ -1,5 +1,6 @@
 """Problems read from the rows of a CSV file, and their solutions as columns."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ UNSTACKED = ("q", "breakpoints", "multipliers")
 """Quantities of a single solution that are not written to CSV."""
 
 
-def read(path: Path, least_time: bool) -> rows.Rows:
+def blocks(path: Path, least_time: bool, size: int | None = rows.BLOCK) -> Iterator[rows.Rows]:
     """Read ``x10, x20, x30, x1f, x2f, x3f``; for a given duration also ``tf``, and ``t0`` if there is one.
 
     Raises
@@ -26,14 +27,16 @@ def read(path: Path, least_time: bool) -> rows.Rows:
         If the file cannot be read.
     """
     if least_time:
-        return rows.read(path, [*START, *END])
-    problems = rows.read(path, [*START, *END, "tf"], ["t0"])
-    tf = problems.columns["tf"]
-    t0 = problems.columns.get("t0", np.zeros_like(tf))
-    for line, start, end in zip(problems.lines, t0, tf, strict=True):
-        if not end > start:
-            raise ValueError(f"line {line}: tf must be later than t0, got t0 = {start} and tf = {end}")
-    return problems
+        yield from rows.blocks(path, [*START, *END], size=size)
+        return
+    for block in rows.blocks(path, [*START, *END, "tf"], ["t0"], size=size):
+        tf = block.columns["tf"]
+        t0 = block.columns.get("t0", np.zeros_like(tf))
+        for i in np.flatnonzero(~(tf > t0)).tolist():
+            raise ValueError(
+                f"line {block.lines[i]}: tf must be later than t0, got t0 = {t0[i]} and tf = {tf[i]}"
+            )
+        yield block
 
 
 def answers(solution: Any) -> dict[str, Any]:

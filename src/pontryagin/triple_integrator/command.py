@@ -7,7 +7,9 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 import typer
 
+from pontryagin.certificate import Certificate
 from pontryagin.io import rows
+from pontryagin.io.formula import Formula
 from pontryagin.terminal import console
 from pontryagin.terminal.console import File, Json, Out, Text
 from pontryagin.triple_integrator import transcript
@@ -178,12 +180,15 @@ def _print(solution: Any, json: bool, samples: int) -> None:
 
 @without_warnings
 def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
+    from pontryagin.terminal import batches
     from pontryagin.triple_integrator import batch
 
-    with console.reading("--batch", path):
-        problems = batch.read(path, goal.least_time)
-    start, end = problems.stack(batch.START), problems.stack(batch.END)
-    ends = Ends(start, end, problems.columns.get("t0", 0.0), problems.columns.get("tf"))
-    solution = _solved(goal, ends, force)
-    console.emit("--out", out, rows.to_csv(problems, batch.answers(solution)))
-    console.require_proof(solution.certificate)
+    def solved(block: rows.Rows) -> tuple[dict[str, Any], Certificate]:
+        start, end = block.stack(batch.START), block.stack(batch.END)
+        ends = Ends(start, end, block.columns.get("t0", 0.0), block.columns.get("tf"))
+        solution = _solved(goal, ends, force)
+        return batch.answers(solution), solution.certificate
+
+    # A formula is integrated over the times of all rows at once, from the first start to the last end.
+    size = None if isinstance(force, Formula) else rows.BLOCK
+    batches.run(path, out, batch.blocks(path, goal.least_time, size), solved)

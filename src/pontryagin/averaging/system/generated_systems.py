@@ -85,6 +85,6 @@ def spin_down(*values: ArrayLike) -> PhaseSystem:
         running_cost=1,
         terminal_cost=0,
         phase_rate=sense*u_y*cos(psi)/a - u_x*sin(psi)/a,
-        control_set=Ellipsoid(semiaxes=[l_x, l_y, l_z]),
+        control_set=Ellipsoid(semiaxes=(l_x, l_y, l_z)),
         numbers=dict(zip((l_x, l_y, l_z, d, sense, ), values, strict=True)),
     )
