@@ -67,15 +67,11 @@ class Packed:
     A subclass defines `_unpacked`, which makes all fields that its instances do not hold yet.
     """
 
-    _numbers: bytes | None = None
-
     @classmethod
-    def from_numbers(cls, numbers: bytes, **fields: Any) -> Self:
-        """An instance with some fields, whose other fields are made when the first of them is read."""
+    def from_numbers(cls, numbers: bytes) -> Self:
+        """An instance whose fields are made when the first of them is read."""
         made = object.__new__(cls)
-        values = made.__dict__
-        values["_numbers"] = numbers
-        values.update(fields)
+        made.__dict__["_numbers"] = numbers
         return made
 
     def _unpacked(self, numbers: NDArray[np.float64]) -> dict[str, Any]:
@@ -86,9 +82,10 @@ class Packed:
 
         def __getattr__(self, name: str) -> Any:
             """A field that is not made yet."""
-            if self._numbers is None or name not in type(self).__dataclass_fields__:
+            numbers = self.__dict__.get("_numbers")
+            if numbers is None or name not in type(self).__dataclass_fields__:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            made = self._unpacked(np.frombuffer(self._numbers))
+            made = self._unpacked(np.frombuffer(numbers))
             freeze(made)
             for field, value in made.items():
                 self.__dict__.setdefault(field, value)

@@ -252,11 +252,23 @@ def test_without_numba_or_llvmlite_the_source_serves(folder, monkeypatch, packag
     assert not list(folder.iterdir())
 
 
-def test_single_calls_make_the_code_as_a_stack_of_as_many_does(folder):
-    solver = fresh()
-    for _ in range(jit.COMPILE_FROM):
+def test_single_calls_and_small_stacks_make_the_code_as_a_large_stack_does(folder):
+    solver, columns = fresh(), np.ones((3, 100))
+    for _ in range(jit.COMPILE_FROM - 401):
         assert solver.call([1.0, 2.0], 4.0) is None
+    for _ in range(4):
+        solver(*columns)
+    assert not list(folder.iterdir())
     assert solver.call([1.0, 2.0], 4.0) is not None
+
+
+def test_kept_code_solves_the_first_small_stack(folder, monkeypatch):
+    assert fresh()._start()
+    monkeypatch.setattr(jit.Batched, "_plain", None)
+    assert fresh()(*np.array([[1.0], [2.0], [4.0]])).tolist() == [[21, 2]]
+    assert fresh().call([1.0, 2.0], 4.0) is not None
+    solver = fresh()
+    assert solver._start() and solver.one(1.0, 2.0, 4.0).tolist() == [21, 2]
 
 
 def test_other_kernels_and_other_versions_have_other_files(folder, monkeypatch):

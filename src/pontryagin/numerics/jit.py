@@ -4,13 +4,14 @@
 arrays. Both take plain Python; small work runs uncompiled, as does everything where Numba is not installed.
 
 A scalar solver becomes native code once per machine, in the first process that solves `COMPILE_FROM` problems
-in one stack or one by one; this takes seconds. Later processes open what is kept on disk, without Numba. A
-shared library opens in half a millisecond, so they do this at their first call. Object code that llvmlite
-must load costs as much as 1000 plain calls, so there they first solve `COMPILE_FROM` problems.
+in stacks or one by one; this takes seconds. Later processes open what is kept on disk, without Numba. A
+shared library opens in half a millisecond, so they do this before their first problem. Object code that
+llvmlite must load costs as much as 1000 plain calls, so there they first solve `COMPILE_FROM` problems.
 """
 
 import threading
 from collections.abc import Callable
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
@@ -50,16 +51,16 @@ class Batched:
         self, kernel: Callable[..., tuple[float, ...]], outputs: int, groups: tuple[int, ...], packed: bool
     ) -> None:
         self.kernel, self.outputs, self.groups = kernel, outputs, groups
-        self.call = self._first_call
+        self.call = self._call_at_first
         self._recipe = Recipe(kernel, groups, outputs, packed)
         self._native: Native | None = None
-        self._plain_calls = 0
+        self._problems = 0
 
     def __call__(self, *columns: Array) -> Array:
         """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
         count = len(columns[0])
         result = np.empty((count, self.outputs))
-        if self._native is not None or (count >= COMPILE_FROM and self._start()):
+        if self._ready(count):
             self._loop(result, columns)
         else:
             for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
@@ -84,28 +85,24 @@ class Batched:
 
     def one(self, *values: float) -> Array:
         """Solve one problem, as (outputs,); by native code where there is some."""
-        given, rest = [], list(values)
-        for size in self.groups:
-            given.append(rest[0] if size == 1 else rest[:size])
-            del rest[:size]
-        numbers = self.call(*given)
-        if numbers is None:
-            return np.array(self._plain(*values))
-        return np.frombuffer(numbers)[-self.outputs :]
+        if self._native is not None:
+            places = accumulate(self.groups, initial=0)
+            ranges = [values[start:end] for start, end in pairwise(places)]
+            given = (part[0] if len(part) == 1 else part for part in ranges)
+            numbers = self.call(*given)
+            if numbers is not None:
+                return np.frombuffer(numbers)[-self.outputs :]
+        return np.array(self._plain(*values))
 
-    def _first_call(self, *arguments: object) -> bytes | None:
-        """`call` before it is known whether there is native code that opens at once."""
-        if self._start(quick=True):
-            return self.call(*arguments)
-        self.call = self._counted
-        return self._counted()
+    def _call_at_first(self, *arguments: object) -> bytes | None:
+        """`call` until there is native code."""
+        return self.call(*arguments) if self._ready(1) else None
 
-    def _counted(self, *_: object) -> bytes | None:
-        """`call` where there is no native code yet."""
-        self._plain_calls += 1
-        if self._plain_calls == COMPILE_FROM:
-            self._start()
-        return None
+    def _ready(self, count: int) -> bool:
+        """Whether native code solves the next problems; kept code is looked for before the first of all."""
+        before, self._problems = self._problems, self._problems + count
+        many = count >= COMPILE_FROM or before < COMPILE_FROM <= self._problems
+        return self._native is not None or ((many or before == 0) and self._start(quick=not many))
 
     def _start(self, quick: bool = False) -> bool:
         """Whether native code runs from here on: kept code, or code made now unless `quick`."""
@@ -126,9 +123,9 @@ def batched(
 ) -> Batched:
     """Run a scalar solver over a stack of problems.
 
-    Small stacks run the plain Python source. Large stacks run the same source compiled by Numba and cached
-    on disk under the hash of that source, so that an edited kernel is compiled again. Once a kernel is
-    compiled and loaded, small stacks and single problems use it too.
+    The first few problems run the plain Python source. More of them run the same source compiled by Numba and
+    cached on disk under a hash of that source, so that an edited kernel is compiled again. Once a kernel is
+    compiled, later processes use it from the first problem on.
 
     Parameters
     ----------

@@ -121,5 +121,7 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     """
     numbers = solve_stack.call(maneuver._numbers)
     if numbers is not None:
-        return EnergySolution.from_numbers(numbers, maneuver=maneuver)
+        solution = EnergySolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
     return EnergySolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

@@ -236,5 +236,7 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     """
     numbers = solve_stack.call(maneuver._numbers)
     if numbers is not None:
-        return ImpulseSolution.from_numbers(numbers, maneuver=maneuver)
+        solution = ImpulseSolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
     return ImpulseSolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

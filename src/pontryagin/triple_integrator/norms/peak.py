@@ -189,5 +189,7 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     """
     numbers = solve_stack.call(maneuver._numbers)
     if numbers is not None:
-        return PeakSolution.from_numbers(numbers, maneuver=maneuver)
+        solution = PeakSolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
     return PeakSolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

@@ -133,6 +133,11 @@ class Maneuver(Packed):
         return self.tf - self.t0
 
     @cached_property
+    def _numbers(self) -> bytes | None:
+        """Numbers that end with the moments and the duration of one manoeuvre; None for a stack."""
+        return None if self.shape else np.append(self.moments, self.duration).tobytes()
+
+    @cached_property
     def _integrals(self) -> Integrals:
         return integrals(self.disturbance, self.t0, self.tf)
 
