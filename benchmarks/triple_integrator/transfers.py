@@ -122,8 +122,10 @@ def _rows(problem: str, name: str, count: int, rounds: int) -> list[Row]:
         one_by_one(minimum_time, *as_lists(work)),
         one_call(lambda: minimum_time(*stack), 50 * count),
     )
+    arrays = one_by_one(minimum_time, work.x0, work.xf, work.peak.tolist())
     contestants = {
         CALL: Contestant(single, gap, float(ours.solved.mean())),
+        f"{CALL} from arrays": Contestant(arrays, gap, float(ours.solved.mean())),
         STACK: Contestant(together, gap, float(by_pontryagin(large).solved.mean())),
     }
     if not absent("ruckig"):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import cached_property, partial, wraps
 from types import FunctionType
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +59,38 @@ def value_class(cls: type[Class]) -> type[Class]:
     if cls.__dataclass_params__.init:  # type: ignore[attr-defined]
         setattr(cls, "__init__", _initialiser(cls))  # noqa: B010
     return cls
+
+
+class Packed:
+    """Base of value classes whose fields can be made later, from numbers packed in `bytes`.
+
+    A subclass defines `_unpacked`, which makes all fields that its instances do not hold yet.
+    """
+
+    @classmethod
+    def from_numbers(cls, numbers: bytes) -> Self:
+        """An instance whose fields are made when the first of them is read."""
+        made = object.__new__(cls)
+        made.__dict__["_numbers"] = numbers
+        return made
+
+    def _unpacked(self, numbers: NDArray[np.float64]) -> dict[str, Any]:
+        """The fields from the numbers, which are read-only."""
+        raise NotImplementedError
+
+    if not TYPE_CHECKING:  # Type checkers would take any name for an attribute.
+
+        def __getattr__(self, name: str) -> Any:
+            """A field that is not made yet."""
+            numbers = self.__dict__.get("_numbers")
+            if numbers is None or name not in type(self).__dataclass_fields__:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            held = self.__dict__
+            for field, value in self._unpacked(np.frombuffer(numbers)).items():
+                if type(value) is np.ndarray:
+                    value.setflags(write=False)
+                held.setdefault(field, value)
+            return held[name]
 
 
 def freeze(value: object) -> None:

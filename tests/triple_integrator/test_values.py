@@ -4,6 +4,8 @@ import copy
 import io
 import marshal
 import pickle
+import threading
+from dataclasses import fields
 from types import FunctionType
 
 import numpy as np
@@ -21,6 +23,9 @@ from pontryagin.triple_integrator import (
 )
 from pontryagin.triple_integrator.attitude import RigidBody, turn
 from pontryagin.triple_integrator.coupling import couple
+from pontryagin.triple_integrator.least_time import arrival
+from pontryagin.triple_integrator.norms import energy, impulse, peak
+from pontryagin.triple_integrator.problem import maneuver
 from pontryagin.triple_integrator.search import search
 
 BODY = [[4.0, 0.3, -0.2], [0.3, 3.0, 0.1], [-0.2, 0.1, 2.0]]
@@ -137,6 +142,55 @@ def test_picklers_by_value_carry_a_lambda(dumps):
     assert carried.disturbance(3.0) == 6.0
     assert carried.disturbance.__qualname__ == given.disturbance.__qualname__
     assert carried.moments.tolist() == given.moments.tolist()
+
+
+ALONE = {
+    "energy": lambda: minimum_energy(single()),
+    "peak": lambda: minimum_peak(single()),
+    "impulse": lambda: minimum_impulse(single(0.25)),
+    "time": lambda: minimum_time([0, 0, 0], [1, 2, 3], 2.0, 0.5),
+    "manoeuvre": lambda: single(2),
+}
+
+
+@pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
+def test_native_code_and_the_source_make_equal_values(make, monkeypatch):
+    """A value of native code makes its fields when they are read, in whatever order."""
+    solvers = [part.solve_stack for part in (peak, energy, impulse, arrival)] + [maneuver.one_maneuver]
+    assert all(solver._start() for solver in solvers)
+    native = make()
+    assert "x0" not in vars(vars(native).get("maneuver", native))
+    for solver in solvers:
+        monkeypatch.setattr(solver, "call", lambda *_: None)
+    plain = make()
+    assert plain == native and hash(plain) == hash(native) and repr(plain) == repr(native)
+    for name in (field.name for field in fields(plain)):
+        monkeypatch.undo()
+        one, other = getattr(make(), name), getattr(plain, name)
+        assert one == other if name == "certificate" else np.array_equal(one, other)
+        assert type(one) is type(other) and np.shape(one) == np.shape(other)
+    assert pickle.loads(pickle.dumps(make())) == plain == copy.copy(make()) == copy.deepcopy(make())
+    with pytest.raises(AttributeError, match=f"'{type(native).__name__}' object has no attribute 'colour'"):
+        make().colour  # noqa: B018
+
+
+def test_threads_read_the_same_fields():
+    maneuver.one_maneuver._start()
+    values = [single() for _ in range(200)]
+    held = [[] for _ in values]
+    barrier = threading.Barrier(4)
+
+    def read():
+        for value, seen in zip(values, held, strict=True):
+            barrier.wait()
+            seen.append(value.x0)
+
+    threads = [threading.Thread(target=read) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(len({id(array) for array in seen}) == 1 for seen in held)
 
 
 def test_a_copy_keeps_the_function():

@@ -33,15 +33,16 @@ LEAST_STEP = 1e-5
 """Arclength of a step below which a curve is given up."""
 
 R = TypeVar("R")
+P = TypeVar("P")
 
 
 @dataclass(frozen=True)
-class Point(Generic[E]):
+class Point(Generic[P]):
     """A point of a curve: unknowns (n,), the parameter, and the equations there."""
 
     unknowns: Array
     parameter: float
-    equations: E
+    equations: P
 
 
 def follow(
@@ -149,20 +150,20 @@ def _land(
     return None
 
 
-def between(a: Point[E], b: Point[E], parameter: float) -> Array:
+def between(a: Point[P], b: Point[P], parameter: float) -> Array:
     """Unknowns at a value of the parameter, by the secant through two points."""
     share = (parameter - a.parameter) / (b.parameter - a.parameter)
     return a.unknowns + share * (b.unknowns - a.unknowns)
 
 
 def crossings(
-    points: Iterable[Point[E]], function: Callable[[Point[E]], float]
+    points: Iterable[Point[P]], function: Callable[[Point[P]], float]
 ) -> Iterator[tuple[Array, float]]:
     """Unknowns and parameters, by the secant, where a function changes its sign between points of a curve.
 
     If the function vanishes at the very first point, that point comes first.
     """
-    last: Point[E] | None = None
+    last: Point[P] | None = None
     before = 0.0
     for point in points:
         here = function(point)
@@ -178,7 +179,7 @@ def crossings(
         last, before = point, here
 
 
-def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array], R], reason: str) -> R:
+def reach(points: Iterable[Point[P]], parameter: float, polish: Callable[[Array], R], reason: str) -> R:
     """The solution at the first point of a curve with a given value of the parameter.
 
     Parameters
@@ -199,7 +200,7 @@ def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array]
     """
     nearest = np.inf
 
-    def missing(point: Point[E]) -> float:
+    def missing(point: Point[P]) -> float:
         nonlocal nearest
         nearest = min(nearest, abs(point.parameter - parameter))
         return point.parameter - parameter
@@ -210,8 +211,8 @@ def reach(points: Iterable[Point[E]], parameter: float, polish: Callable[[Array]
 
 
 def march(
-    solve_at: Callable[[float, Array], Point[E]],
-    start: Point[E],
+    solve_at: Callable[[float, Array], Point[P]],
+    start: Point[P],
     end: float,
     *,
     first: float,
@@ -219,7 +220,7 @@ def march(
     least: float = 0.0,
     growth: float = 1.6,
     tries: int = 60,
-) -> Iterator[Point[E]]:
+) -> Iterator[Point[P]]:
     """Solutions at successive values of the parameter, each guessed by the secant through the two before it.
 
     Parameters
@@ -251,7 +252,7 @@ def march(
     [(1.0, [1.0]), (2.0, [1.414]), (3.6, [1.897]), (4.0, [2.0])]
     """
     step, here = first, start
-    before: Point[E] | None = None
+    before: Point[P] | None = None
     yield here
     for _ in range(tries):
         left = end - here.parameter

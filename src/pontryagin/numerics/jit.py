@@ -1,33 +1,33 @@
 """Plain Python kernels compiled by Numba and cached on disk under the hash of their source.
 
-`batched` runs a scalar solver over a stack of problems, `compiled` compiles a function of arrays. Both take
-plain Python; small work runs uncompiled, as does everything where Numba is not installed.
+`batched` runs a scalar solver over a stack of problems and on single ones, `compiled` compiles a function of
+arrays. Both take plain Python; small work runs uncompiled, as does everything where Numba is not installed.
+
+A scalar solver becomes native code once per machine, in the first process that solves `COMPILE_FROM` problems
+in stacks or one by one; this takes seconds. Later processes open what is kept on disk, without Numba. A
+shared library opens in half a millisecond, so they do this before their first problem. Object code that
+llvmlite must load costs as much as 1000 plain calls, so there they first solve `COMPILE_FROM` problems.
 """
 
-import functools
-import hashlib
-import importlib.util
-import inspect
-import math
-import os
-import sys
-import tempfile
-import types
+import threading
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.numerics.closure import closure_of
+from pontryagin.numerics.native import Native, Recipe, load_module
 from pontryagin.numerics.packages import installed
 
 COMPILE_FROM = 512
-"""Number of problems from which a stack is worth the half second that Numba takes to load."""
+"""Number of problems from which compiled kernels are worth the time that it takes to load or to make them."""
+
+_LOCK = threading.Lock()
+"""Held while native code is opened or made, so that threads that start together make it once."""
 
 
-@dataclass(frozen=True)
 class Batched:
     """A scalar solver that runs over a stack of problems; see `batched`.
 
@@ -37,44 +37,95 @@ class Batched:
         The solver in plain Python.
     outputs : int
         Number of floats that the kernel returns.
+    groups : tuple of int
+        How many of the n floats each argument of `call` holds.
+    call : function
+        Solve one problem by native code, from numbers and from lists, tuples or arrays of them: the inputs
+        and the outputs as doubles in `bytes`. None if an argument is anything else, if any of the numbers is
+        not finite, or where there is no native code: then the caller checks the arguments and calls `one`.
     """
 
-    kernel: Callable[..., tuple[float, ...]]
-    outputs: int
+    call: Callable[..., bytes | None]
+
+    def __init__(
+        self, kernel: Callable[..., tuple[float, ...]], outputs: int, groups: tuple[int, ...], packed: bool
+    ) -> None:
+        self.kernel, self.outputs, self.groups = kernel, outputs, groups
+        self.call = self._call_at_first
+        self._recipe = Recipe(kernel, groups, outputs, packed)
+        self._native: Native | None = None
+        self._problems = 0
 
     def __call__(self, *columns: Array) -> Array:
         """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
         count = len(columns[0])
         result = np.empty((count, self.outputs))
-        if (count >= COMPILE_FROM or self.kernel in _LOADED) and has_numba():
-            compiled_loop(self.kernel, len(columns), self.outputs).loop(result, *columns)
+        if self._ready(count):
+            self._loop(result, columns)
         else:
             for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
                 result[i] = self._plain(*values)
         return result
+
+    def _loop(self, result: Array, columns: tuple[Array, ...]) -> None:
+        assert self._native is not None
+        held = [np.broadcast_to(np.asarray(column, float), len(result)) for column in columns]
+        places = np.array([column.__array_interface__["data"][0] for column in held], np.intp)
+        strides = np.array([column.strides[0] for column in held], np.int64)
+        addresses = (array.ctypes.data for array in (places, strides))
+        if self._native.loop(result.ctypes.data, len(result), *addresses):
+            raise ArithmeticError(f"{self.kernel.__name__} failed on a problem of the stack")
 
     def _plain(self, *values: float) -> tuple[float, ...]:
         """Solve one problem in plain Python; overflow and division by zero give nan, as in compiled code."""
         try:
             return self.kernel(*values)
         except ArithmeticError:
-            return (math.nan,) * self.outputs
+            return (np.nan,) * self.outputs
 
     def one(self, *values: float) -> Array:
-        """Solve one problem, as (outputs,); by compiled code if it is loaded because of a large stack."""
-        if self.kernel not in _LOADED:
-            return np.array(self._plain(*values))
-        result = np.empty(self.outputs)
-        _LOADED[self.kernel].one(result, *values)
-        return result
+        """Solve one problem, as (outputs,); by native code where there is some."""
+        if self._native is not None:
+            places = accumulate(self.groups, initial=0)
+            ranges = [values[start:end] for start, end in pairwise(places)]
+            given = (part[0] if len(part) == 1 else part for part in ranges)
+            numbers = self.call(*given)
+            if numbers is not None:
+                return np.frombuffer(numbers)[-self.outputs :]
+        return np.array(self._plain(*values))
+
+    def _call_at_first(self, *arguments: object) -> bytes | None:
+        """`call` until there is native code."""
+        return self.call(*arguments) if self._ready(1) else None
+
+    def _ready(self, count: int) -> bool:
+        """Whether native code solves the next problems; kept code is looked for before the first of all."""
+        before, self._problems = self._problems, self._problems + count
+        many = count >= COMPILE_FROM or before < COMPILE_FROM <= self._problems
+        return self._native is not None or ((many or before == 0) and self._start(quick=not many))
+
+    def _start(self, quick: bool = False) -> bool:
+        """Whether native code runs from here on: kept code, or code made now unless `quick`."""
+        with _LOCK:
+            native = self._native or self._recipe.kept(quick)
+            if native is None and not quick and has_numba():
+                native = self._recipe.made()
+            if native is not None:
+                self._native, self.call = native, native.call
+            return native is not None
 
 
-def batched(kernel: Callable[..., tuple[float, ...]], outputs: int) -> Batched:
+def batched(
+    kernel: Callable[..., tuple[float, ...]],
+    outputs: int,
+    groups: tuple[int, ...] | None = None,
+    packed: bool = False,
+) -> Batched:
     """Run a scalar solver over a stack of problems.
 
-    Small stacks run the plain Python source. Large stacks run the same source compiled by Numba and cached
-    on disk under the hash of that source, so that an edited kernel is compiled again. Once a kernel is
-    compiled and loaded, small stacks and single problems use it too.
+    The first few problems run the plain Python source. More of them run the same source compiled by Numba and
+    cached on disk under a hash of that source, so that an edited kernel is compiled again. Once a kernel is
+    compiled, later processes use it from the first problem on.
 
     Parameters
     ----------
@@ -82,6 +133,10 @@ def batched(kernel: Callable[..., tuple[float, ...]], outputs: int) -> Batched:
         Written in plain arithmetic and the `math` module, as are all functions that it calls.
     outputs : int
         Number of floats that the kernel returns.
+    groups : tuple of int, optional
+        How many of the n floats each argument of ``call`` holds; one each if left out.
+    packed : bool
+        Whether ``call`` also takes the `bytes` that end with its numbers.
 
     Examples
     --------
@@ -91,42 +146,12 @@ def batched(kernel: Callable[..., tuple[float, ...]], outputs: int) -> Batched:
     array([[0.5 , 0.25],
            [1.  , 0.5 ]])
     """
-    return Batched(kernel, outputs)
-
-
-_LOADED: dict[Callable[..., Any], types.ModuleType] = {}
+    return Batched(kernel, outputs, groups or (1,) * kernel.__code__.co_argcount, packed)
 
 
 def has_numba() -> bool:
     """Whether Numba can be imported; if not, warn once per process."""
     return installed("numba", "large stacks run slowly, as plain Python")
-
-
-def compiled_loop(kernel: Callable[..., tuple[float, ...]], inputs: int, outputs: int) -> types.ModuleType:
-    """Numba-compiled ``loop(result, *columns)`` and ``one(result, *values)`` over a scalar kernel."""
-    if kernel in _LOADED:
-        return _LOADED[kernel]
-    arguments = ", ".join(f"a{i}" for i in range(inputs))
-    items = ", ".join(f"a{i}[i]" for i in range(inputs))
-    in_row, alone = (
-        ", ".join(f"result[{row}{j}]" for j in range(outputs)) + ("," if outputs == 1 else "")
-        for row in ("i, ", "")
-    )
-    of_columns = "types.void(types.float64[:, ::1], " + ", ".join(["column"] * inputs) + ")"
-    of_values = "types.void(types.float64[::1], " + ", ".join(["types.float64"] * inputs) + ")"
-    options = 'cache=True, nogil=True, error_model="numpy"'
-    text = _closure_source(kernel) + (
-        '\n\ncolumn = types.Array(types.float64, 1, "A", readonly=True)\n'
-        f"\n\n@njit({of_columns}, {options})\n"
-        f"def loop(result, {arguments}):\n"
-        f"    for i in range(result.shape[0]):\n"
-        f"        {in_row} = {kernel.__name__}({items})\n"
-        f"\n\n@njit({of_values}, {options})\n"
-        f"def one(result, {arguments}):\n"
-        f"    {alone} = {kernel.__name__}({arguments})\n"
-    )
-    _LOADED[kernel] = _load(text)
-    return _LOADED[kernel]
 
 
 _COMPILED: dict[tuple[Callable[..., Any], str], Callable[..., Any]] = {}
@@ -155,80 +180,9 @@ def compiled(kernel: Callable[..., Any], signature: str, large: bool = True) -> 
         return _COMPILED[kernel, signature]
     if not (large and has_numba()):
         return kernel
-    text = _closure_source(kernel) + (
+    text = closure_of(kernel).source + (
         f'\n\ncompiled = njit({signature!r}, cache=True, nogil=True, error_model="numpy")'
         f"({kernel.__name__}.py_func)\n"
     )
-    _COMPILED[kernel, signature] = _load(text).compiled
+    _COMPILED[kernel, signature] = load_module(text).compiled
     return _COMPILED[kernel, signature]
-
-
-def _closure_source(kernel: Callable[..., Any]) -> str:
-    """The source of a kernel and of all functions that it calls, as the text of one module."""
-    functions: dict[str, Callable[..., Any]] = {}
-    constants: dict[str, float] = {}
-    imported: set[str] = set()
-    arrays = False
-
-    def visit(target: Callable[..., Any]) -> None:
-        nonlocal arrays
-        if functions.get(target.__name__) is target:
-            return
-        for name in target.__code__.co_names:
-            if name not in target.__globals__:
-                continue
-            value = target.__globals__[name]
-            if isinstance(value, types.FunctionType):
-                visit(value)
-            elif isinstance(value, int | float):
-                if constants.setdefault(name, value) != value:
-                    raise TypeError(f"{kernel.__name__} uses two different numbers called {name}")
-            elif getattr(math, name, None) is value:
-                imported.add(name)
-            elif value is np:
-                arrays = True
-            else:
-                raise TypeError(
-                    f"{target.__name__} uses {name}, which is neither a number nor a plain function"
-                )
-        if functions.setdefault(target.__name__, target) is not target:
-            raise TypeError(f"{kernel.__name__} uses two different functions called {target.__name__}")
-
-    visit(kernel)
-    parts = ["from __future__ import annotations", "from numba import njit, types"]
-    if arrays:
-        parts.append("import numpy as np")
-    if imported:
-        parts.append("from math import " + ", ".join(sorted(imported)))
-    parts += [f"{name} = {value!r}" for name, value in sorted(constants.items())]
-    for target in functions.values():
-        parts.append('\n@njit(cache=True, nogil=True, error_model="numpy")\n' + inspect.getsource(target))
-    return "\n".join(parts)
-
-
-def _load(text: str) -> types.ModuleType:
-    """Import a module from its text, which is stored in the user's cache under its hash."""
-    digest = hashlib.sha256(text.encode()).hexdigest()[:20]
-    path = _cache_folder() / f"kernel_{digest}.py"
-    if not path.exists():
-        scratch = path.with_suffix(f".{os.getpid()}.tmp")
-        scratch.write_text(text)
-        scratch.replace(path)
-    spec = importlib.util.spec_from_file_location(f"pontryagin_{path.stem}", path)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[module.__name__] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-@functools.cache
-def _cache_folder() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    folder = Path(base).expanduser() / "pontryagin"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except OSError:
-        return Path(tempfile.mkdtemp(prefix="pontryagin-"))

@@ -7,7 +7,7 @@ systems side by side.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Generic, Literal, Protocol, TypeVar
+from typing import Generic, Literal, Protocol, TypeVar, cast
 
 import numpy as np
 
@@ -28,12 +28,16 @@ QUADRATIC = 1e-9
 """Residual below which steps are not shortened: a full step that fails to reduce it has met rounding."""
 
 
-class Linearised(Protocol):
+class Residuals(Protocol):
     """Equations evaluated at given unknowns."""
 
     @property
     def residual(self) -> Array:
         """The residual, zero at a solution, (m,)."""
+
+
+class Linearised(Residuals, Protocol):
+    """Equations evaluated at given unknowns, with their derivatives."""
 
     @property
     def jacobian(self) -> Array:
@@ -41,6 +45,7 @@ class Linearised(Protocol):
 
 
 E = TypeVar("E", bound=Linearised)
+V = TypeVar("V", bound=Residuals)
 
 Scales = Callable[[Array], Array]
 """A function of the unknowns (n,) that gives the units in which corrections are measured, (n,)."""
@@ -52,7 +57,7 @@ def ones(unknowns: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Iterate(Generic[E]):
+class Iterate(Generic[V]):
     """Where Newton's method ended.
 
     Attributes
@@ -67,7 +72,7 @@ class Iterate(Generic[E]):
     """
 
     unknowns: Array
-    equations: E
+    equations: V
     correction: float
     outcome: Outcome
 
@@ -78,7 +83,7 @@ class Iterate(Generic[E]):
 
 
 def newton(
-    evaluate: Callable[[Array], E],
+    evaluate: Callable[[Array], V],
     unknowns: Array,
     *,
     scales: Scales = ones,
@@ -86,9 +91,10 @@ def newton(
     iterations: int = 25,
     halvings: int = 6,
     admissible: Callable[[Array, Array], bool] | None = None,
-    rough: Callable[[Array], E] | None = None,
+    rough: Callable[[Array], V] | None = None,
     rough_tolerance: float = 1e-8,
-) -> Iterate[E]:
+    solve: Callable[[V], Array | None] | None = None,
+) -> Iterate[V]:
     """Newton's method for one system, with each step halved until the residual becomes smaller.
 
     Parameters
@@ -109,6 +115,9 @@ def newton(
         A cheaper evaluation of the same equations, with which the first steps are made.
     rough_tolerance : float
         The tolerance of the steps made with ``rough``.
+    solve : function of the equations, optional
+        The step (n,) that solves the linearised equations, or None where they are singular; for equations
+        whose Jacobian has a structure. By default `newton_step`.
 
     Raises
     ------
@@ -126,14 +135,15 @@ def newton(
     ([1.0, 1.0], 'converged')
     """
     allowed = admissible or (lambda before, after: True)
+    linear = solve or cast(Callable[[V], Array | None], newton_step)
     correction = np.inf
     if rough is not None:
         unknowns, correction = _approach(
-            rough, unknowns, scales, rough_tolerance, iterations, halvings, allowed
+            rough, unknowns, scales, rough_tolerance, iterations, halvings, allowed, linear
         )
     here = evaluate(unknowns)
     for _ in range(iterations):
-        step = newton_step(here)
+        step = linear(here)
         if step is None:
             return Iterate(unknowns, here, correction, "singular")
         last, correction = correction, float(np.abs(step / scales(unknowns)).max())
@@ -147,13 +157,14 @@ def newton(
 
 
 def _approach(
-    rough: Callable[[Array], E],
+    rough: Callable[[Array], V],
     unknowns: Array,
     scales: Scales,
     tolerance: float,
     iterations: int,
     halvings: int,
     allowed: Callable[[Array, Array], bool],
+    linear: Callable[[V], Array | None],
 ) -> tuple[Array, float]:
     """The first steps, by the rough evaluation: the unknowns reached and the last relative correction.
 
@@ -163,7 +174,7 @@ def _approach(
     here = rough(unknowns)
     correction = np.inf
     for _ in range(iterations):
-        step = newton_step(here)
+        step = linear(here)
         if step is None:
             break
         last, correction = correction, float(np.abs(step / scales(unknowns)).max())
@@ -191,13 +202,13 @@ def expected(correction: float, last: float) -> float:
 
 
 def _damped(
-    evaluate: Callable[[Array], E],
+    evaluate: Callable[[Array], V],
     unknowns: Array,
-    here: E,
+    here: V,
     step: Array,
     halvings: int,
     allowed: Callable[[Array, Array], bool],
-) -> tuple[Array, E] | None:
+) -> tuple[Array, V] | None:
     """Unknowns and equations after the longest halved step that reduces the residual; None if none does."""
     size = np.linalg.norm(here.residual)
     for halving in range(1 if size < QUADRATIC else halvings):

@@ -8,6 +8,7 @@ import sympy as sp
 from pontryagin.io.files import write
 from pontryagin.numerics.compile import source
 from pontryagin.rendezvous.derivation import (
+    equinoctial,
     forms,
     inertial,
     model,
@@ -39,7 +40,7 @@ goal_attitude = sp.Matrix(sp.symbols("q0_goal q1_goal q2_goal q3_goal", real=Tru
 
 def kernels() -> str:
     """The text of `kernels.py`."""
-    parts = [*_rates(), *_attitude(), *_ends(), *_principle(), *_cartesian(), *_elements()]
+    parts = [*_rates(), *_attitude(), *_ends(), *_principle(), *_cartesian(), *_elements(), *_equinoctial()]
     return HEADER + "\n\n" + "\n\n\n".join(parts) + "\n"
 
 
@@ -188,6 +189,22 @@ def _elements() -> list[str]:
         arguments = [*inertial.position, *inertial.velocity]
         texts.append(source(name, arguments, _named("u", spinor) | _named("w", swing), doc))
     return texts
+
+
+def _equinoctial() -> list[str]:
+    x, costates = [*equinoctial.ELEMENTS], [*equinoctial.COSTATES]
+    place = [part for vector in equinoctial.place() for part in vector]
+    rates = [part for vector in equinoctial.regular_rates() for part in vector]
+    weight = {"weight": 1 / equinoctial.coasting_rate()}
+    constants = [equinoctial.gain, equinoctial.slope, equinoctial.price]
+    n = _named("n", equinoctial.switching())
+    doc = "Rates by s of the equinoctial elements and of their costates, and dt/ds."
+    return [
+        source("equinoctial_place", x, _named("x", place), "R, V of equinoctial elements, fM = 1."),
+        source("equinoctial_switching", x + costates, n, "n in radial, transverse and normal components."),
+        source("equinoctial_weight", x[:3] + x[5:], weight, "dt/ds."),
+        source("equinoctial_rates", [*x, *costates, *constants], _named("d", rates) | weight, doc),
+    ]
 
 
 def main() -> None:

@@ -598,3 +598,162 @@ def oscillation_behind(x, y, z, u, v, w):
     w2 = x12*((1/2)*v*x8 + w*x13 - x10*x9)
     w3 = x12*(-v*x13 + (1/2)*w*x3*x5*y)
     return u0, u1, u2, u3, w0, w1, w2, w3
+
+
+def equinoctial_place(p, f, g, h, k, L):
+    """R, V of equinoctial elements, fM = 1."""
+    x6 = sin(L)
+    x7 = (k*k)
+    x8 = (h*h)
+    x9 = x8 + 1
+    x10 = 1/(x7 + x9)
+    x11 = 2*x10
+    x12 = k*x11
+    x13 = h*x12
+    x14 = cos(L)
+    x15 = x10*(-x7 + x9)
+    x16 = p/(f*x14 + g*x6 + 1)
+    x17 = x12*x14
+    x18 = x10*(x7 - x8 + 1)
+    x19 = h*x11
+    x20 = 1/sqrt(p)
+    x21 = f + x14
+    x22 = -g - x6
+    x23 = x12*x22
+    x0 = x16*(x13*x6 + x14*x15)
+    x1 = x16*(h*x17 + x18*x6)
+    x2 = x16*(-x17 + x19*x6)
+    x3 = x20*(x13*x21 + x15*x22)
+    x4 = x20*(h*x23 + x18*x21)
+    x5 = x20*(x19*x21 - x23)
+    return x0, x1, x2, x3, x4, x5
+
+
+def equinoctial_switching(p, f, g, h, k, L, l_p, l_f, l_g, l_h, l_k, l_L):
+    """n in radial, transverse and normal components."""
+    x0 = sin(L)
+    x1 = sqrt(p)
+    x2 = l_f*x1
+    x3 = cos(L)
+    x4 = l_g*x1
+    x5 = f*x3 + g*x0 + 1
+    x6 = 1/x5
+    x7 = x2*x6
+    x8 = x4*x6
+    x9 = h*x0 - k*x3
+    x10 = x1*x6
+    x11 = (1/2)*x10*((h*h) + (k*k) + 1)
+    n0 = x0*x2 - x3*x4
+    n1 = 2*l_p*p**(3/2)*x6 + x7*(f + x3*x5 + x3) + x8*(g + x0*x5 + x0)
+    n2 = f*x8*x9 - g*x7*x9 + l_L*x10*x9 + l_h*x11*x3 + l_k*x0*x11
+    return n0, n1, n2
+
+
+def equinoctial_weight(p, f, g, L):
+    """dt/ds."""
+    weight = p**(3/2)/((f*cos(L) + g*sin(L) + 1)*(f*cos(L) + g*sin(L) + 1))
+    return weight
+
+
+def equinoctial_rates(p, f, g, h, k, L, l_p, l_f, l_g, l_h, l_k, l_L, gain, slope, price):
+    """Rates by s of the equinoctial elements and of their costates, and dt/ds."""
+    x0 = cos(L)
+    x1 = f*x0
+    x2 = sin(L)
+    x3 = g*x2
+    x4 = x1 + x3 + 1
+    x5 = 1/x4
+    x6 = l_p*x5
+    x7 = p**(3/2)
+    x8 = sqrt(p)
+    x9 = x5*x8
+    x10 = x0*x4 + x0
+    x11 = f + x10
+    x12 = l_f*x11
+    x13 = x2*x4 + x2
+    x14 = g + x13
+    x15 = l_g*x14
+    x16 = x12*x9 + x15*x9 + 2*x6*x7
+    x17 = 1/(x4*x4*x4)
+    x18 = slope*x17
+    x19 = l_f*x2
+    x20 = x19*x8
+    x21 = l_g*x0
+    x22 = x21*x8
+    x23 = x20 - x22
+    x24 = 2*x8
+    x25 = x23*x24
+    x26 = 2*x9
+    x27 = x16*x26
+    x28 = h*x2
+    x29 = k*x0
+    x30 = x28 - x29
+    x31 = l_L*x30
+    x32 = x30*x9
+    x33 = f*l_g
+    x34 = (h*h) + (k*k) + 1
+    x35 = x34*x9
+    x36 = x0*x35
+    x37 = (1/2)*l_h
+    x38 = x2*x35
+    x39 = (1/2)*l_k
+    x40 = g*l_f
+    x41 = x31*x9 + x32*x33 - x32*x40 + x36*x37 + x38*x39
+    x42 = x30*x41
+    x43 = x26*x42
+    x44 = 1/(x4*x4)
+    x45 = x44*x7
+    x46 = slope*x45
+    x47 = x0*x34
+    x48 = (p*p)*x18
+    x49 = x41*x48
+    x50 = x2*x34
+    x51 = gain + price
+    x52 = x44*x8
+    x53 = 1/x8
+    x54 = x5*x53
+    x55 = x30*x54
+    x56 = 4*l_p*x45
+    x57 = (x0*x0)
+    x58 = x0*x24
+    x59 = x44*x58
+    x60 = x34*x52
+    x61 = l_h*x60
+    x62 = l_k*x60
+    x63 = x0*x2
+    x64 = x24*x44
+    x65 = (x2*x2)
+    x66 = x2*x24
+    x67 = x44*x66
+    x68 = l_f*x26
+    x69 = f*x2
+    x70 = 2*x69
+    x71 = l_g*x70
+    x72 = l_L*x26
+    x73 = h*x0
+    x74 = l_h*x26
+    x75 = l_k*x26
+    x76 = x41*x46
+    x77 = l_g*x26
+    x78 = 2*g*x0
+    x79 = k*x2
+    x80 = -g*x0 + x69
+    x81 = x64*x80
+    x82 = -x80
+    x83 = x73 + x79
+    x84 = x26*x83
+    x85 = x30*x81
+    d0 = 4*(p*p*p)*x16*x18
+    d1 = x46*(-g*x43 + x11*x27 + x2*x25)
+    d2 = x46*(f*x43 - x0*x25 + x14*x27)
+    d3 = x47*x49
+    d4 = x49*x50
+    d5 = 2*x42*x48 + 1
+    d6 = -x46*(x16*(x12*x54 + x15*x54 + 6*x6*x8) + x23*(x19*x53 - x21*x53) + x41*(x31*x54 + x33*x55 + x37*x47*x54 + x39*x50*x54 - x40*x55)) - 3/2*x51*x52
+    d7 = 2*x0*x17*x51*x7 - x46*(x16*(2*l_f*x5*x8*(x57 + 1) + 2*l_g*x0*x2*x5*x8 - x0*x56 - x12*x59 - 2*x14*x22*x44) + x41*(2*g*l_f*x0*x30*x44*x8 - l_g*x1*x30*x64 + 2*l_g*x30*x5*x8 - x31*x59 - x57*x61 - x62*x63))
+    d8 = 2*x17*x2*x51*x7 - x46*(x16*(2*l_f*x0*x2*x5*x8 + 2*l_g*x5*x8*(x65 + 1) - 2*x11*x20*x44 - x15*x67 - x2*x56) + x41*(2*g*l_f*x2*x30*x44*x8 - x30*x52*x71 - x30*x68 - x31*x67 - x61*x63 - x62*x65))
+    d9 = -x76*(x2*x72 + x28*x75 - x3*x68 + x71*x9 + x73*x74)
+    d10 = -x76*(l_f*x78*x9 - x0*x72 - x1*x77 + x29*x74 + x75*x79)
+    d11 = -x17*x51*x7*(x70 - x78) - x46*(x16*(x12*x81 + x15*x81 + x56*x80 + x68*(x0*x82 - x13) + x77*(x10 + x2*x82)) + x23*(l_f*x58 + l_g*x66) + x41*(-l_h*x38 + l_k*x36 + x0*x61*x80 + x2*x62*x80 + x31*x81 + x33*x84 + x33*x85 - x40*x84 - x40*x85 + x72*x83))
+    weight = x45
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, weight

@@ -129,3 +129,15 @@ def test_times_outside_are_refused(outside):
 def test_nothing_to_do_has_no_moments(start):
     coasting = Maneuver(start, [0, 0, 0], 2.0).drift(2.0)[0]
     assert_allclose(Maneuver(start, coasting, 2.0).moments, 0.0, atol=1e-13)
+
+
+@given(maneuvers(), st.floats(-50, 50), st.booleans())
+def test_a_manoeuvre_from_lists_equals_one_from_a_stack(given, force, in_lists):
+    """The first is made by native code where there is some, the second by NumPy."""
+    ends = [x.tolist() if in_lists else x for x in (given.x0, given.xf)]
+    one = Maneuver(*ends, float(given.tf), float(given.t0), disturbance=force)
+    stack = Maneuver(*([x] for x in ends), [given.tf], [given.t0], disturbance=[force])
+    for name in ("moments", "x0", "xf", "tf", "t0", "duration"):
+        assert getattr(one, name).tobytes() == getattr(stack, name)[0].tobytes()
+        assert np.shape(getattr(one, name)) == getattr(stack, name).shape[1:]
+    assert one.disturbance is force and one.drift(one.tf).tolist() == stack.drift(stack.tf)[0].tolist()

@@ -14,5 +14,6 @@ primer, inertial,    independent proofs of the equations, from Cartesian coordin
 canonical
 sapunkov             Sapunkov's elements and (1), from the Kustaanheimo-Stiefel regularisation
 sapunkov_principle   maximum principle in these elements
+equinoctial          Gauss's equations in equinoctial elements; a regular independent variable
 quaternion, symbols  Hamilton's quaternions; symbols that print as in the paper
 """

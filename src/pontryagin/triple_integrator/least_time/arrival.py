@@ -5,7 +5,7 @@ c3 = x3f - x30 is negative, the signs of x, u and f are changed, so that c3 >= 0
 z = T - c3 >= 0, since x3 alone needs the time c3.
 """
 
-from math import fabs, sqrt
+from math import fabs, inf, sqrt
 
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator.kernels import (
@@ -159,7 +159,12 @@ def first_arrival(accept: float, ends: tuple[float, ...], f: float, c3: float) -
 def solve_time(
     x10: float, x20: float, x30: float, x1f: float, x2f: float, x3f: float, f: float, U: float
 ) -> tuple[float, ...]:
-    """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T."""
+    """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T.
+
+    The duration is infinite where no root is accepted, and where U is not positive.
+    """
+    if not U > 0.0:
+        return inf, 0.0, 0.0, 0.0, 1.0, 0.0
     d1, d2, c3 = x1f - x10, x2f - x20, x3f - x30
     x30, x3f, f = x30 + f, x3f + f, 0.0
     if d1 == 0.0 and d2 == 0.0 and c3 == 0.0:
@@ -181,6 +186,8 @@ def solve_time(
         level, z, a, b, residual = first_arrival(ILL_POSED, ends, force, height)
     if z == NEVER:
         level, z, a, b, residual = first_arrival(NEARLY_DOUBLE, ends, force, height)
+    if z == NEVER:
+        return inf, 0.0, 0.0, 0.0, residual, 0.0
     T = height + z
     bound = lower_bound(level, a, b, T, ends, force, height)
     return T * unit, sign * level * U, a, b, residual, bound * unit
@@ -221,4 +228,4 @@ def separation(
     return T - fabs(pairing - reach) / -rise if rise < 0.0 else 0.0
 
 
-solve_stack = batched(solve_time, outputs=6)
+solve_stack = batched(solve_time, outputs=6, groups=(3, 3, 1, 1))

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,12 +14,12 @@ from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.validation import common_shape, finite, positive, vectors
-from pontryagin.value import value_class
+from pontryagin.value import Packed, value_class
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class TimeSolution(BangBang):
+class TimeSolution(Packed, BangBang):
     """Transfer of least duration under |u| <= peak.
 
     Attributes
@@ -48,6 +49,11 @@ class TimeSolution(BangBang):
     shares: Array
     certificate: Certificate
 
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        given = {"x0": numbers[:3], "xf": numbers[3:6]}
+        given |= {"disturbance": numbers[..., 6], "peak": numbers[..., 7]}
+        return given | _answer(numbers[8:])
+
     @cached_property
     def maneuver(self) -> Maneuver:
         """The fixed-time manoeuvre of this duration, from t0 = 0.
@@ -72,6 +78,14 @@ class TimeSolution(BangBang):
     @property
     def _moments(self) -> Array:
         return np.where((self.duration > 0)[..., None], self._motion.moments, 0.0)
+
+
+def _answer(result: Array) -> dict[str, Any]:
+    """The fields of a solution from the results of `solve_time`, (..., 6)."""
+    duration = result[..., 0]
+    certificate = Certificate(result[..., 4], duration, result[..., 5])
+    found = {"duration": duration, "levels": result[..., 1], "shares": result[..., 2:4]}
+    return {**found, "certificate": certificate}
 
 
 def minimum_time(
@@ -110,6 +124,9 @@ def minimum_time(
     >>> float(w.duration), w.switch_times.tolist(), w.certificate.holds(1e-12)
     (1.0, [0.25, 0.75], True)
     """
+    numbers = solve_stack.call(x0, xf, 0.0 if disturbance is None else disturbance, peak)
+    if numbers is not None:
+        return TimeSolution.from_numbers(numbers)
     start, end, bound = vectors("x0", x0, 3), vectors("xf", xf, 3), positive("peak", peak)
     if callable(disturbance) or hasattr(disturbance, "free_symbols"):
         raise ArgumentTypeError(
@@ -132,6 +149,4 @@ def minimum_time(
         lost = ~(result[..., 0] < NEVER)
         reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
         raise NotConverged(reason, float(result[..., 4].max()))
-    duration = result[..., 0]
-    certificate = Certificate(result[..., 4], duration, result[..., 5])
-    return TimeSolution(start, end, bound, force, duration, result[..., 1], result[..., 2:4], certificate)
+    return TimeSolution(start, end, bound, force, **_answer(result))

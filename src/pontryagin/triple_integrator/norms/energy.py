@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from math import fabs, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,7 @@ from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme, normalise, over_stack, response
-from pontryagin.value import value_class
+from pontryagin.value import Packed, value_class
 
 
 def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
@@ -37,12 +38,12 @@ def solve_energy(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]
     return u0 * scale, u1 * scale / T, u2 * scale / T / T, residual, sqrt(squared) * size, bound * size
 
 
-solve_stack = batched(solve_energy, outputs=6)
+solve_stack = batched(solve_energy, outputs=6, groups=(4,), packed=True)
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class EnergySolution(Programme):
+class EnergySolution(Packed, Programme):
     """Control of least L2 norm, a parabola in the time to go.
 
     Attributes
@@ -58,6 +59,9 @@ class EnergySolution(Programme):
     maneuver: Maneuver
     coefficients: Array
     certificate: Certificate
+
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        return _answer(numbers[4:])
 
     @cached_property
     def multipliers(self) -> Array:
@@ -90,6 +94,12 @@ class EnergySolution(Programme):
         return m.drift(time) + sum(parts)
 
 
+def _answer(result: Array) -> dict[str, Any]:
+    """The fields of a solution from the results of `solve_energy`, (..., 6)."""
+    certificate = Certificate(result[..., 3], result[..., 4], result[..., 5])
+    return {"coefficients": result[..., :3], "certificate": certificate}
+
+
 def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     """Control of least energy (integral of u^2) that performs the manoeuvre, problem 1, (1.18).
 
@@ -109,6 +119,9 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     >>> s.control([0, 0.5, 1]).round(12).tolist(), s.certificate.holds(1e-12)
     ([60.0, -30.0, 60.0], True)
     """
-    result = over_stack(solve_stack, maneuver)
-    certificate = Certificate(result[..., 3], result[..., 4], result[..., 5])
-    return EnergySolution(maneuver, result[..., :3], certificate)
+    numbers = solve_stack.call(maneuver._numbers)
+    if numbers is not None:
+        solution = EnergySolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
+    return EnergySolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

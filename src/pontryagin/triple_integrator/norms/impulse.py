@@ -8,6 +8,7 @@ mu = (c3, c2/T, 2 c1/T^2) are the control's moments of 1, sigma and sigma^2 in s
 from dataclasses import dataclass
 from functools import cached_property
 from math import fabs
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,7 +25,7 @@ from pontryagin.triple_integrator.problem.programme import (
     over_stack,
     response,
 )
-from pontryagin.value import value_class
+from pontryagin.value import Packed, value_class
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
 """The regimes, named by where the impulses act. "zero": nowhere. "moment": anywhere, with one sign.
@@ -107,12 +108,12 @@ def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...
     )
 
 
-solve_stack = batched(solve_impulse, outputs=8)
+solve_stack = batched(solve_impulse, outputs=8, groups=(4,), packed=True)
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class ImpulseSolution(Programme):
+class ImpulseSolution(Packed, Programme):
     """Control of least total impulse: at most three impulses.
 
     Attributes
@@ -138,6 +139,9 @@ class ImpulseSolution(Programme):
     regime_index: NDArray[np.int8]
     unique: NDArray[np.bool_]
     certificate: Certificate
+
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        return _answer(numbers[4:])
 
     @cached_property
     def regime(self) -> NDArray[np.str_] | str:
@@ -199,6 +203,18 @@ class ImpulseSolution(Programme):
         return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
 
 
+def _answer(result: Array) -> dict[str, Any]:
+    """The fields of a solution from the results of `solve_impulse`, (..., 8)."""
+    total = np.abs(result[..., 1]) + np.abs(result[..., 2]) + np.abs(result[..., 3])
+    return {
+        "inner": result[..., 0],
+        "amplitudes": result[..., 1:4],
+        "regime_index": result[..., 4].astype(np.int8),
+        "unique": result[..., 5] != 0,
+        "certificate": Certificate(result[..., 6], total, result[..., 7]),
+    }
+
+
 def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     """Control of least total impulse (integral of |u|) that performs the manoeuvre, problem 3, (1.20).
 
@@ -218,10 +234,9 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
     (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
     """
-    result = over_stack(solve_stack, maneuver)
-    amplitudes = result[..., 1:4]
-    total = np.abs(result[..., 1]) + np.abs(result[..., 2]) + np.abs(result[..., 3])
-    certificate = Certificate(result[..., 6], total, result[..., 7])
-    return ImpulseSolution(
-        maneuver, result[..., 0], amplitudes, result[..., 4].astype(np.int8), result[..., 5] != 0, certificate
-    )
+    numbers = solve_stack.call(maneuver._numbers)
+    if numbers is not None:
+        solution = ImpulseSolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
+    return ImpulseSolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

@@ -6,6 +6,7 @@ level v. The control is v outside [b, a] and -v inside, where a >= b are times t
 
 from dataclasses import dataclass
 from math import copysign, fabs, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from pontryagin.triple_integrator.kernels import (
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import over_stack
-from pontryagin.value import value_class
+from pontryagin.value import Packed, value_class
 
 EDGE = 1e-14
 """Pieces of the control shorter than this share of T are left out: the rounded moments do not show them."""
@@ -129,12 +130,12 @@ def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     return v * scale, a, b, residual, fabs(peak_bound(k1, k2, k3, a, b)) * scale
 
 
-solve_stack = batched(solve_peak, outputs=5)
+solve_stack = batched(solve_peak, outputs=5, groups=(4,), packed=True)
 
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class PeakSolution(BangBang):
+class PeakSolution(Packed, BangBang):
     """Control of least peak: |u| constant, at most two switches.
 
     Attributes
@@ -154,6 +155,16 @@ class PeakSolution(BangBang):
     levels: Array
     shares: Array
     certificate: Certificate
+
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        return _answer(numbers[4:])
+
+
+def _answer(result: Array) -> dict[str, Any]:
+    """The fields of a solution from the results of `solve_peak`, (..., 5)."""
+    levels = result[..., 0]
+    certificate = Certificate(result[..., 3], np.abs(levels), result[..., 4])
+    return {"levels": levels, "shares": result[..., 1:3], "certificate": certificate}
 
 
 def minimum_peak(maneuver: Maneuver) -> PeakSolution:
@@ -176,7 +187,9 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     >>> float(s.norm.round(12)), s.switch_times.round(12).tolist(), s.certificate.holds(1e-12)
     (4.0, [0.5, 1.5], True)
     """
-    result = over_stack(solve_stack, maneuver)
-    levels = result[..., 0]
-    certificate = Certificate(result[..., 3], np.abs(levels), result[..., 4])
-    return PeakSolution(maneuver, levels, result[..., 1:3], certificate)
+    numbers = solve_stack.call(maneuver._numbers)
+    if numbers is not None:
+        solution = PeakSolution.from_numbers(numbers)
+        solution.__dict__["maneuver"] = maneuver
+        return solution
+    return PeakSolution(maneuver, **_answer(over_stack(solve_stack, maneuver)))

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,11 +12,26 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
+from pontryagin.triple_integrator.kernels import moments
 from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals
 from pontryagin.validation import common_shape, finite, times, vectors
-from pontryagin.value import freeze, value_class
+from pontryagin.value import Packed, freeze, value_class
 
-moments_of_stack = batched(kernels.moments, outputs=3)
+moments_of_stack = batched(moments, outputs=3)
+
+
+def required_moments(
+    x10: float, x20: float, x30: float, x1f: float, x2f: float, x3f: float, tf: float, t0: float, f: float
+) -> tuple[float, ...]:
+    """The moments c under a constant disturbance and the duration; infinite unless tf > t0."""
+    T = tf - t0
+    if not T > 0.0:
+        return inf, inf, inf, inf
+    c1, c2, c3 = moments(x10, x20, x30, x1f, x2f, x3f, T, f * (T * T) / 2.0, f * T)
+    return c1, c2, c3, T
+
+
+one_maneuver = batched(required_moments, outputs=4, groups=(3, 3, 1, 1, 1))
 
 NUMBERS = "a number or an array (...)"
 """The error messages' words for what the times, and a disturbance given as numbers, may be."""
@@ -22,7 +39,7 @@ NUMBERS = "a number or an array (...)"
 
 @value_class
 @dataclass(frozen=True, eq=False, init=False)
-class Maneuver:
+class Maneuver(Packed):
     """A manoeuvre of x1' = x2, x2' = x3 + f(t), x3' = u between given ends, (0.6)-(0.9).
 
     Units are the user's own and consistent: with angle in rad and time in s the control is in rad/s^3.
@@ -65,6 +82,18 @@ class Maneuver:
         t0: ArrayLike = 0.0,
         disturbance: Disturbance = None,
     ) -> None:
+        if disturbance is None or type(disturbance) is float or type(disturbance) is int:
+            numbers = one_maneuver.call(x0, xf, tf, t0, 0.0 if disturbance is None else disturbance)
+            if numbers is not None:
+                values = self.__dict__
+                values["_numbers"], values["disturbance"] = numbers, disturbance
+                return
+        self._check(x0, xf, tf, t0, disturbance)
+
+    def _check(
+        self, x0: ArrayLike, xf: ArrayLike, tf: ArrayLike, t0: ArrayLike, disturbance: Disturbance
+    ) -> None:
+        """Make the fields from any arguments, or say what is wrong with them."""
         start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
         first, last = finite("t0", t0, NUMBERS), finite("tf", tf, NUMBERS)
         force: tuple[int, ...] = ()
@@ -89,6 +118,10 @@ class Maneuver:
         freeze(disturbance)
         _ = self._integrals  # Raises if the disturbance is of the wrong kind.
 
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        times = {"tf": numbers[..., 6], "t0": numbers[..., 7]}
+        return {"x0": numbers[:3], "xf": numbers[3:6], **times, "moments": numbers[9:12]}
+
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the stack; ``()`` for one manoeuvre."""
@@ -98,6 +131,11 @@ class Maneuver:
     def duration(self) -> Array:
         """T = tf - t0, (...)."""
         return self.tf - self.t0
+
+    @cached_property
+    def _numbers(self) -> bytes | None:
+        """Numbers that end with the moments and the duration of one manoeuvre; None for a stack."""
+        return None if self.shape else np.append(self.moments, self.duration).tobytes()
 
     @cached_property
     def _integrals(self) -> Integrals:
@@ -111,7 +149,7 @@ class Maneuver:
         """
         if not self.shape and self.disturbance is None:
             numbers = [*self.x0.tolist(), *self.xf.tolist()]
-            return np.array(kernels.moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
+            return np.array(moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
         g = self._integrals(self.tf, self.t0)
         ends = [x[..., i].ravel() for x in (self.x0, self.xf) for i in range(3)]
         rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g[..., 0], g[..., 1])]

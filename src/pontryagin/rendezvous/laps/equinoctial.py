@@ -1,0 +1,82 @@
+"""Modified equinoctial elements of craft and target, and costates of these elements in the reduced form."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.numerics import kepler
+from pontryagin.numerics.complex_step import jacobian
+from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
+
+TAU = 2 * math.pi
+
+
+def elements_of(state: Array) -> Array:
+    """p, f, g, h, k, L (6,) of R and V (6,), fM = 1; the inclination must be below 180 degrees."""
+    position, velocity = state[:3], state[3:]
+    momentum = np.cross(position, velocity)
+    parameter = momentum @ momentum
+    normal = momentum / math.sqrt(parameter)
+    h, k = -normal[1] / (1 + normal[2]), normal[0] / (1 + normal[2])
+    size = 1 + h**2 + k**2
+    first = np.array([1 + h**2 - k**2, 2 * h * k, -2 * k]) / size
+    second = np.array([2 * h * k, 1 - h**2 + k**2, 2 * h]) / size
+    apsis = np.cross(velocity, momentum) - position / np.linalg.norm(position)
+    longitude = math.atan2(position @ second, position @ first)
+    return np.array([parameter, apsis @ first, apsis @ second, h, k, longitude])
+
+
+@dataclass(frozen=True, eq=False)
+class Lap:
+    """The ends of a transfer that makes a given number of laps, in the units of `Scaled`.
+
+    Attributes
+    ----------
+    start : (6,) array
+        Elements of the craft at t0, in the axes eta of t0, so that h, k and L are 0.
+    goal : (5,) array
+        p, f, g, h and k of the target.
+    begin : float
+        The target's longitude at t0.
+    anomaly, eccentricity : float
+        The target's true anomaly at t0, and its eccentricity; its parameter is 1.
+    laps : int
+        Turns that are added to the target's longitude.
+    end : float or None
+        A longitude at which the target is held; None for the moving target.
+    """
+
+    start: Array
+    goal: Array
+    begin: float
+    anomaly: float
+    eccentricity: float
+    laps: int
+    end: float | None = None
+
+    @classmethod
+    def of(cls, scaled: Scaled, laps: int) -> "Lap":
+        """The transfer of a problem on a lap."""
+        start = elements_of(cartesian_of(scaled.start, np.array([1.0, 0, 0, 0])))
+        target = elements_of(target_by_kepler(scaled, 0.0))
+        return cls(start, target[:5], float(target[5]), scaled.anomaly, scaled.eccentricity, laps)
+
+    def longitude(self, time: float) -> tuple[float, float]:
+        """The longitude of the meeting at a time, and its rate."""
+        if self.end is not None:
+            return self.end, 0.0
+        anomaly = float(kepler.true_anomaly_after(self.anomaly, time, 1.0, self.eccentricity))
+        longitude = self.begin + anomaly - self.anomaly + TAU * self.laps
+        return longitude, (1 + self.eccentricity * math.cos(anomaly)) ** 2
+
+
+def reduced_costates(scaled: Scaled, node: Array) -> Array:
+    """rho, s1, e, nu1, nu2, nu3 (6,) at t0 of the elements and their costates there, (12,)."""
+    _, slopes = jacobian(lambda x: kernels.equinoctial_place(*x), node[:6])
+    in_space = np.linalg.solve(slopes.T, node[6:])
+    columns = np.array([kernels.primer(*scaled.start, *axis) for axis in np.eye(6)]).T
+    return np.asarray(np.linalg.solve(columns, in_space))
