@@ -154,10 +154,14 @@ def header_line(names: Sequence[str]) -> str:
 def answered(read: Rows, answers: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """Names of the answers' columns, and each row with its answers as CSV without the line's end."""
     columns: dict[str, Sequence[str]] = {}
+    known: dict[bytes, list[str]] = {}
     for name, values in answers.items():
         array = np.asarray(values)
         parts = {name: array} if array.ndim == 1 else {f"{name}_{i + 1}": p for i, p in enumerate(array.T)}
-        columns |= {part: _texts(column) for part, column in parts.items()}
+        for part, column in parts.items():
+            # A norm is often the primal value too, to the last digit, and to write numbers takes longest.
+            key = column.dtype.str.encode() + column.tobytes()
+            columns[part] = known[key] = known.get(key) or _texts(column)
     return list(columns), list(map(",".join, zip(_as_written(read.rows), *columns.values(), strict=True)))
 
 
