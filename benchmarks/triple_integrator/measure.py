@@ -6,6 +6,7 @@ from benchmarks.figures import accuracy_and_time
 from benchmarks.papers import Measured
 from benchmarks.triple_integrator import (
     accuracy,
+    batches,
     collocation,
     figures,
     fixed_time,
@@ -32,6 +33,7 @@ def measure(quick: bool) -> Measured:
         "throughput": ("Our solvers against the aims", stacks.throughput(quick)),
         "stack-size": ("Time per problem by size of the stack", by_size),
         "accuracy": ("Worst miss and gap by class of problems", accuracy.table(quick)),
+        "batches": ("Batches on the command line, from file to file", batches.table(quick)),
         "start": ("First calls in a fresh process", start.table(quick)),
     }
     drawn = [accuracy_and_time(rows), figures.stack_size(by_size)]
