@@ -303,7 +303,7 @@ def test_other_kernels_and_other_versions_have_other_files(folder, monkeypatch):
 FRESH = """
 import sys
 import numpy as np
-from pontryagin.triple_integrator import *
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak, minimum_time
 x0, xf = [0.0, 0.1, 0.2], np.array([1.0, 0.0, 0.0])
 singles = [minimum_time(x0, xf, 1.0).norm, minimum_time(x0, xf, 1.0).duration]
 for solve in (minimum_peak, minimum_energy, minimum_impulse):
