@@ -15,7 +15,6 @@ from benchmarks.triple_integrator import (
     transfers,
 )
 from benchmarks.triple_integrator.problems import SEED
-from pontryagin.numerics.jit import COMPILE_FROM
 
 NOTES = (
     "Stacks hold 100000 problems, fewer in a quick run.",
@@ -35,7 +34,7 @@ def measure(quick: bool) -> Measured:
         "accuracy": ("Worst miss and gap by class of problems", accuracy.table(quick)),
         "start": ("First calls in a fresh process", start.table(quick)),
     }
-    drawn = [accuracy_and_time(rows), figures.stack_size(by_size, COMPILE_FROM)]
+    drawn = [accuracy_and_time(rows), figures.stack_size(by_size)]
     if not peers.absent("ruckig"):
         cells = transfers.cells(quick)
         tables["failures"] = ("Least time, share of inputs failed", transfers.summary(cells))

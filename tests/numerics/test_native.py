@@ -218,6 +218,16 @@ def test_a_damaged_file_is_made_anew(folder, damage):
     assert native.intact(path)
 
 
+def test_what_is_in_the_way_is_left_alone(folder):
+    solver = fresh()
+    for suffix in (".so", ".o"):
+        solver._recipe.path.with_suffix(suffix).mkdir()
+        solver._recipe.path.with_suffix(suffix).joinpath("something").touch()
+    assert solver._start()
+    assert np.frombuffer(solver.call([1.0, 2.0], 4.0)).tolist() == [1, 2, 4, 21, 2]
+    assert len([*folder.rglob("something")]) == 2
+
+
 def test_without_a_linker_llvmlite_loads_the_object_code(folder, monkeypatch):
     monkeypatch.setattr(native.shutil, "which", lambda _: None)
     assert fresh()._start()
@@ -284,6 +294,8 @@ def test_other_kernels_and_other_versions_have_other_files(folder, monkeypatch):
     monkeypatch.setattr(llvmlite, "__version__", "another")
     paths.append(path())
     monkeypatch.setattr(native, "EXTENSION_SUFFIXES", [".cpython-311-aarch64-linux-gnu.so"])
+    paths.append(path())
+    monkeypatch.setattr(native.platform, "machine", lambda: "another")
     paths.append(path())
     assert len({*paths}) == len(paths)
 
