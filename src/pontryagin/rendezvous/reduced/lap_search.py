@@ -27,7 +27,7 @@ WORSE = 2.0
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
 HOPELESS = 3.0
-"""A transfer without a bound that costs more than this many times the best extremal is not continued."""
+"""A transfer that costs more than this many times the best extremal is not continued to the bound."""
 FEW = 2
 """Number of transfers without a bound from which least time is sought on each lap."""
 
@@ -72,7 +72,7 @@ def on_lap(setting: Setting, laps: int, log: SearchLog, best: float = math.inf) 
     found: list[Root[Flight]] = []
     for ratio in _ratios(setting):
         for path in _without_bound(setting, lap, ratio, log):
-            if _estimate(setting, path, ratio) > HOPELESS * best:
+            if setting.peak < math.inf and _estimate(setting, path, ratio) > HOPELESS * best:
                 log.given_up.append(f"lap {laps}: a transfer in the time {path.duration:.4g} costs too much")
                 continue
             try:
