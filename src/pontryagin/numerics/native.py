@@ -211,7 +211,10 @@ def link(code: Path, library: Path) -> bool:
         return False
     unresolved = ["-undefined", "dynamic_lookup"] if sys.platform == "darwin" else []
     command = [linker, "-shared", *unresolved, "-o", str(library), str(code), "-lm"]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    try:
+        return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    except OSError:  # No process may be started.
+        return False
 
 
 def seal(scratch: Path, path: Path) -> None:
