@@ -23,7 +23,10 @@ COMPILE_FROM = 40
 """The compiled kernel is loaded when the number of states times that of steps exceeds this."""
 
 LONG = 1000
-"""From this number of steps on, NumPy over all steps is as fast as the compiled kernel, without its loading."""
+"""From this number of steps on, sweeps by NumPy take about as long as the compiled kernel takes."""
+
+MANY = 4_000_000
+"""From this number of states times steps on, even long sums repay loading the compiled kernel."""
 
 FLAT = 1e-13
 """A set counts as flat along an axis if its width there, relative to the largest width, is below this.
@@ -121,9 +124,9 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     within = whitening @ targets.T
     _require_reachable(targets - within.T @ (axes * widths).T, x0)
     costates, results = np.empty(within.T.shape), np.empty((len(targets), 3))
-    run = gauge_rows
-    if len(factors) < LONG:
-        run = compiled(gauge_stack, SIGNATURE, len(targets) * len(factors) > COMPILE_FROM)
+    work = len(targets) * len(factors)
+    by_numpy = len(factors) >= LONG and work < MANY
+    run = gauge_rows if by_numpy else compiled(gauge_stack, SIGNATURE, work > COMPILE_FROM)
     with np.errstate(all="ignore"):
         run(
             np.ascontiguousarray(whitening @ scaled),

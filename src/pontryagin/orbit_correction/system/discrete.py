@@ -143,17 +143,14 @@ def _ellipsoid_factors(shapes: Array, start: int) -> Array:
     transposed = np.swapaxes(shapes, 1, 2)
     differences = np.abs(shapes - transposed)
     values, axes = np.linalg.eigh(shapes)
-    faults = (
-        (differences > 1e-12 * np.abs(transposed)).any(axis=(1, 2)),
-        values[:, 0] <= 0,
-        values[:, 0] <= 1e-15 * values[:, -1],
-    )
-    if np.any(faults):
-        at = int(np.argmax(np.any(faults, axis=0)))
+    lopsided = (differences > 1e-12 * np.abs(transposed)).any(axis=(1, 2))
+    faults = lopsided | (values[:, 0] <= 1e-15 * values[:, -1]) | (values[:, 0] <= 0)
+    if faults.any():
+        at = int(np.argmax(faults))
         least, largest = values[at, 0], values[at, -1]
-        if faults[0][at]:
+        if lopsided[at]:
             reason = f"be symmetric, got one that differs from its transpose by {differences[at].max():.3g}"
-        elif faults[1][at]:
+        elif least <= 0:
             reason = f"be positive definite, got the least eigenvalue {least:.3g}"
         else:
             reason = f"have a condition number below 1e15, got {largest / least:.3g}"
