@@ -143,7 +143,7 @@ def _ellipsoid_factors(shapes: Array, start: int) -> Array:
     transposed = np.swapaxes(shapes, 1, 2)
     differences = np.abs(shapes - transposed)
     values, axes = np.linalg.eigh(shapes)
-    lopsided = (differences > 1e-12 * np.abs(transposed)).any(axis=(1, 2))
+    lopsided = np.asarray((differences > 1e-12 * np.abs(transposed)).any(axis=(1, 2)))
     faults = lopsided | (values[:, 0] <= 1e-15 * values[:, -1]) | (values[:, 0] <= 0)
     if faults.any():
         at = int(np.argmax(faults))
