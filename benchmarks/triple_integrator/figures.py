@@ -7,25 +7,16 @@ from matplotlib.figure import Figure
 
 from benchmarks.figures import Table
 from benchmarks.triple_integrator.transfers import Cell
-from pontryagin.display.plotting import INK, SEQUENTIAL, styled, subplots
+from pontryagin.display.plotting import SEQUENTIAL, styled, subplots
 
 
 @styled
-def stack_size(table: Table, compiled_from: int) -> Figure:
+def stack_size(table: Table) -> Figure:
     """Time per problem against the number of problems in one call."""
     figure, axis = subplots(height=3.2)
     sizes, *times = table.values()
     for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=False):
         axis.loglog(sizes, values, marker=marker, label=heading.split(",")[0])
-    axis.axvline(compiled_from, color=INK, linestyle=":", linewidth=1.0)
-    axis.annotate(
-        "compiled from here",
-        (compiled_from, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(5, -3),
-        textcoords="offset points",
-        va="top",
-    )
     axis.set_xlabel("problems in the stack")
     axis.set_ylabel(r"processor time per problem, $\mu$s")
     axis.legend(loc="lower left")

@@ -6,6 +6,7 @@ from benchmarks.figures import accuracy_and_time
 from benchmarks.papers import Measured
 from benchmarks.triple_integrator import (
     accuracy,
+    batches,
     collocation,
     figures,
     fixed_time,
@@ -15,7 +16,6 @@ from benchmarks.triple_integrator import (
     transfers,
 )
 from benchmarks.triple_integrator.problems import SEED
-from pontryagin.numerics.jit import COMPILE_FROM
 
 NOTES = (
     "Stacks hold 100000 problems, fewer in a quick run.",
@@ -33,9 +33,10 @@ def measure(quick: bool) -> Measured:
         "throughput": ("Our solvers against the aims", stacks.throughput(quick)),
         "stack-size": ("Time per problem by size of the stack", by_size),
         "accuracy": ("Worst miss and gap by class of problems", accuracy.table(quick)),
+        "batches": ("Batches on the command line, from file to file", batches.table(quick)),
         "start": ("First calls in a fresh process", start.table(quick)),
     }
-    drawn = [accuracy_and_time(rows), figures.stack_size(by_size, COMPILE_FROM)]
+    drawn = [accuracy_and_time(rows), figures.stack_size(by_size)]
     if not peers.absent("ruckig"):
         cells = transfers.cells(quick)
         tables["failures"] = ("Least time, share of inputs failed", transfers.summary(cells))

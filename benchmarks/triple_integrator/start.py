@@ -60,16 +60,17 @@ def table(quick: bool) -> dict[str, list]:
     for how, taken in (("compiling", uncached), ("compiled before", cached)):
         steps |= {f"{step}, {how}": taken[step] for step in taken if step.startswith("first stack")}
     if find_spec("pontryagin.cli"):
-        runs = [_command() for _ in range(repeats)]
+        runs = [command(*COMMAND.split()) for _ in range(repeats)]
         steps["pontryagin solve, command line"] = min(processor for processor, _ in runs)
         steps["pontryagin solve, command line, by the clock"] = min(clock for _, clock in runs)
     return {"step": list(steps), "seconds": list(steps.values())}
 
 
-def _command() -> tuple[float, float]:
+def command(*arguments: str) -> tuple[float, float]:
+    """Seconds of ``pontryagin`` with these arguments: of the processor, and by the clock."""
     before, started = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
     subprocess.run(
-        [sys.executable, "-c", "import pontryagin.cli as c; c.main()", *COMMAND.split()],
+        [sys.executable, "-c", "import pontryagin.cli as c; c.main()", *arguments],
         check=True,
         capture_output=True,
     )

@@ -85,11 +85,12 @@ class Packed:
             numbers = self.__dict__.get("_numbers")
             if numbers is None or name not in type(self).__dataclass_fields__:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            made = self._unpacked(np.frombuffer(numbers))
-            freeze(made)
-            for field, value in made.items():
-                self.__dict__.setdefault(field, value)
-            return self.__dict__[name]
+            held = self.__dict__
+            for field, value in self._unpacked(np.frombuffer(numbers)).items():
+                if type(value) is np.ndarray:
+                    value.setflags(write=False)
+                held.setdefault(field, value)
+            return held[name]
 
 
 def freeze(value: object) -> None:

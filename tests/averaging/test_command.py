@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from pontryagin.averaging import kepler, rotor, smooth_example, spin_down
 from pontryagin.cli import app
 from pontryagin.display.recording import read_back
+from pontryagin.progress import listening
 
 KEPLER = ["--E0", "-1/2", "--K0", "0.95", "--E1", "-0.35", "--l", "0.1"]
 SMOOTH = ["--v0", "1", "--v1", "2", "--ripple", "0.5"]
@@ -211,3 +212,23 @@ def test_every_example_in_the_help_runs(tmp_path, monkeypatch):
     assert len(examples) == 5
     for example in examples:
         assert CliRunner().invoke(app, example).exit_code == 0, example
+
+
+def test_an_interrupted_search_leaves_the_averaged_solution():
+    def interrupt(doing, done, total):
+        raise KeyboardInterrupt
+
+    with listening(interrupt):
+        result = solve("smooth", *SMOOTH, "--epsilon", "0.1")
+        with pytest.raises(KeyboardInterrupt):
+            smooth_example(1.0, 2.0, ripple=0.5).exact(0.1)
+    assert (result.exit_code, result.stderr) == (130, "Interrupted: the averaged solution alone is printed\n")
+    assert "The least cost is 2 + O(epsilon)." in result.stdout
+
+
+def test_the_search_reports_its_turns_and_the_extremals_found():
+    said = []
+    with listening(lambda *what: said.append(what)):
+        exact = smooth_example(1.0, 2.0, ripple=0.5).exact(0.1)
+    assert any(doing.startswith("following the exact solutions later, turn 1") for doing, *_ in said)
+    assert said[-1] == ("exact extremals found", len(exact), len(exact))

@@ -173,7 +173,7 @@ def test_plots_show_every_contestant(rows):
     figure = accuracy_and_time(rows)
     drawn = sum(len(axis.get_lines()) for axis in figure.axes)
     assert drawn == sum(row.error >= 0 for row in rows)
-    sizes = figures.stack_size({"stack": [1, 10], "least peak, microseconds": [20.0, 5.0]}, compiled_from=5)
+    sizes = figures.stack_size({"stack": [1, 10], "least peak, microseconds": [20.0, 5.0]})
     assert sizes.axes[0].get_lines()[0].get_ydata().tolist() == [20.0, 5.0]
 
 

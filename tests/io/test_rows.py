@@ -1,5 +1,8 @@
 """CSV files: numbers by column, answers beside what was read, errors with the number of the line."""
 
+import csv
+import io
+
 import numpy as np
 import pytest
 
@@ -55,3 +58,42 @@ def test_a_possible_column_is_read_if_it_is_there(read):
 def test_an_error_names_its_line(read, text, words):
     with pytest.raises(ValueError, match=words):
         read(text, ["E", "K"])
+
+
+def test_whatever_wrote_the_file_the_rows_are_kept(tmp_path):
+    path = tmp_path / "in.csv"
+    path.write_bytes('\ufeffE,kept,E\r\n\r\n1,"a, ""b""",x\r\n pi/2 ,"two\nlines",\r\n'.encode())
+    table = rows.read(path, ["E"])
+    assert (table.lines, table.columns["E"].tolist()) == ([3, 5], [1.0, np.pi / 2])
+    text = rows.to_csv(table, {"u": np.array([0.1, np.inf])})
+    assert text == 'E,kept,E,u\n1,"a, ""b""",x,0.1\n pi/2 ,"two\nlines",,inf\n'
+
+
+@pytest.mark.parametrize("texts", [["x", ""], ['"', "x"], ["a,b", "c"], ["\n", "x"], ["\r", "x"], [" ", "x"]])
+def test_kept_texts_are_quoted_as_the_csv_module_does(tmp_path, texts):
+    path, written = tmp_path / "in.csv", io.StringIO()
+    csv.writer(written).writerows([["E", "kept"], *([i, text] for i, text in enumerate(texts))])
+    path.write_text(written.getvalue(), newline="")
+    with path.open(newline="") as file:
+        known = [[*row, "0.5"] for row in csv.reader(file)][1:]
+    expected = io.StringIO()
+    csv.writer(expected, lineterminator="\n").writerows([["E", "kept", "u"], *known])
+    assert rows.to_csv(rows.read(path, ["E"]), {"u": np.full(len(known), 0.5)}) == expected.getvalue()
+
+
+def test_blocks_are_parts_of_the_whole_with_the_lines_of_the_file(tmp_path, monkeypatch):
+    monkeypatch.setattr(rows, "BLOCK", 2)
+    path = tmp_path / "in.csv"
+    path.write_text("E\n1\n\n2\n3\n")
+    found = list(rows.blocks(path, ["E"]))
+    assert [part.columns["E"].tolist() for part in found] == [[1.0, 2.0], [3.0]]
+    assert [part.lines for part in found] == [[2, 4], [5]]
+
+
+def test_doubles_read_back_and_a_column_that_recurs_is_the_same_text(read):
+    values = np.array([0.1, 1e23, 5e-324, -0.0, np.nan])
+    table = read("E\n" + "1\n" * 5, ["E"])
+    lines = rows.to_csv(table, {"u": values, "v": values, "n": np.arange(5)}).splitlines()[1:]
+    cells = [line.split(",") for line in lines]
+    assert [one for _, one, _, _ in cells] == ["0.1", "1e+23", "5e-324", "-0.0", ""]
+    assert [one == two for _, one, two, _ in cells] == [True] * 5

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pontryagin.numerics import jit
+from pontryagin.numerics.closure import closure_of
 
 OFFSET = 0.25
 
@@ -109,3 +110,23 @@ def test_two_things_of_one_name_do_not_meet_in_one_kernel():
     ):
         with pytest.raises(TypeError, match=f"^f uses two different .* called {clash}"):
             jit.batched(kernel, outputs=1)(np.ones(jit.COMPILE_FROM))
+
+
+HALF = 0.5
+
+
+def test_the_identity_of_a_kernel_is_what_it_computes(monkeypatch):
+    def defined(text):
+        scope = {"HALF": HALF}
+        exec(text, scope)
+        return closure_of(scope["f"]).identity
+
+    texts = ["return sum([HALF * k for k in p])", "return sum([2.0 * k for k in p])", "return p * HALF"]
+    kernels = [f"def f(p):\n    {text}" for text in texts]
+    kernels += ["def f(p, q=1.0):\n    return p", "def f(p, q=2.0):\n    return p"]
+    assert len({*map(defined, kernels)}) == len(kernels)
+    assert defined(kernels[0]) == defined("\n\n\n" + kernels[0])
+    monkeypatch.setitem(globals(), "HALF", 0.25)
+    before = defined(kernels[0])
+    monkeypatch.undo()
+    assert defined(kernels[0]) != before

@@ -201,6 +201,22 @@ def test_threads_that_start_together_make_the_code_once(folder, monkeypatch):
     assert [path.suffix for path in folder.iterdir()] == [".so"]
 
 
+def test_threads_import_one_module_together(folder):
+    modules, barrier = [], threading.Barrier(8)
+
+    def load():
+        barrier.wait()
+        modules.append(native.load_module("VALUE = 7\n"))
+
+    threads = [threading.Thread(target=load) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [module.VALUE for module in modules] == [7] * 8
+    assert [path.suffix for path in folder.iterdir() if path.is_file()] == [".py"]
+
+
 @pytest.mark.parametrize(
     "damage", [lambda text: text[:-1], lambda text: text[:500], lambda _: b"", bytes.swapcase]
 )
@@ -218,8 +234,19 @@ def test_a_damaged_file_is_made_anew(folder, damage):
     assert native.intact(path)
 
 
-def test_without_a_linker_llvmlite_loads_the_object_code(folder, monkeypatch):
-    monkeypatch.setattr(native.shutil, "which", lambda _: None)
+def test_what_is_in_the_way_is_left_alone(folder):
+    solver = fresh()
+    for suffix in (".so", ".o"):
+        solver._recipe.path.with_suffix(suffix).mkdir()
+        solver._recipe.path.with_suffix(suffix).joinpath("something").touch()
+    assert solver._start()
+    assert np.frombuffer(solver.call([1.0, 2.0], 4.0)).tolist() == [1, 2, 4, 21, 2]
+    assert len([*folder.rglob("something")]) == 2
+
+
+@pytest.mark.parametrize("linker", [None, "false", "no-such-program"])
+def test_without_a_linker_llvmlite_loads_the_object_code(folder, monkeypatch, linker):
+    monkeypatch.setattr(native.shutil, "which", lambda _: linker)
     assert fresh()._start()
     (path,) = folder.iterdir()
     assert path.suffix == ".o" and native.intact(path)
@@ -285,13 +312,15 @@ def test_other_kernels_and_other_versions_have_other_files(folder, monkeypatch):
     paths.append(path())
     monkeypatch.setattr(native, "EXTENSION_SUFFIXES", [".cpython-311-aarch64-linux-gnu.so"])
     paths.append(path())
+    monkeypatch.setattr(native.platform, "machine", lambda: "another")
+    paths.append(path())
     assert len({*paths}) == len(paths)
 
 
 FRESH = """
 import sys
 import numpy as np
-from pontryagin.triple_integrator import *
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak, minimum_time
 x0, xf = [0.0, 0.1, 0.2], np.array([1.0, 0.0, 0.0])
 singles = [minimum_time(x0, xf, 1.0).norm, minimum_time(x0, xf, 1.0).duration]
 for solve in (minimum_peak, minimum_energy, minimum_impulse):

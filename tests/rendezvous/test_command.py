@@ -12,9 +12,11 @@ from typer.testing import CliRunner
 from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.io.files import repository
+from pontryagin.progress import listening
 from pontryagin.rendezvous import (
     Orbit,
     schema,
+    solve,
     transcript,
 )
 from pontryagin.rendezvous.problem.cases import (
@@ -398,3 +400,35 @@ def test_the_file_in_the_readme_is_a_problem():
     assert schema.to_dict(problem)["chaser"] == schema.to_dict(known)["chaser"]
     assert problem.target.attitude == pytest.approx(known.target.attitude, abs=1e-15)
     assert (problem.peak, problem.duration, problem.time_weight) == (0.08, None, 0.0036)
+
+
+class TestInterruption:
+    @staticmethod
+    def interrupt(doing, done, total):
+        if doing.startswith("following extremals towards fewer"):
+            raise KeyboardInterrupt
+
+    def test_the_best_extremal_so_far_is_printed_as_of_an_unfinished_search(self, tmp_path):
+        path = tmp_path / "leap.json"
+        path.write_text(json.dumps(LEAP))
+        with listening(self.interrupt):
+            result = run("--file", path, "--json")
+            shown = run("--file", path)
+        assert result.exit_code == shown.exit_code == 130
+        assert result.stderr == "Interrupted: the best extremal found so far is printed\n"
+        told = json.loads(result.stdout)
+        assert told["searched"]["ends"][-1] == "the search was interrupted"
+        assert told["certificate"]["residual"] < 1e-9
+        assert "The search is unfinished, as it was interrupted. The" in " ".join(shown.stdout.split())
+
+    def test_before_any_is_found_there_is_no_answer(self, tmp_path):
+        path = tmp_path / "leap.json"
+        path.write_text(json.dumps(LEAP | {"peak": 0.1}))
+        with listening(self.interrupt):
+            result = run("--file", path)
+        assert (result.exit_code, result.stdout) == (130, "")
+        assert result.stderr == "Interrupted: no extremal was found so far\n"
+
+    def test_a_call_of_the_library_lets_it_through(self):
+        with listening(self.interrupt), pytest.raises(KeyboardInterrupt):
+            solve(schema.read(json.dumps(LEAP)))

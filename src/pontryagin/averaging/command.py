@@ -8,7 +8,7 @@ import typer
 from pontryagin.averaging import schema, transcript
 from pontryagin.averaging.schema import EXAMPLES, ExampleSchema
 from pontryagin.io import rows
-from pontryagin.terminal import console
+from pontryagin.terminal import bar, console
 from pontryagin.terminal.console import File, Json, Out, Text
 
 
@@ -83,6 +83,7 @@ def solve(
 
     Durations are in slow time, epsilon times t. Numbers may be written like pi/2 or 1e-3; formulas hold their
     variables, pi, + - * / ^ and abs, sign, sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, asin, acos, atan.
+    After Ctrl-C in the search for exact extremals the averaged solution is printed; the exit code is 130.
 
     A CSV file for --batch has a column for each number of the example that is not given as an option
     (omega_x, omega_y, omega_z for --omega0, l_x, l_y, l_z for --semiaxes) and any others, which are kept;
@@ -126,12 +127,15 @@ def solve(
     console.file_names(plot, record, out)
     values = chosen.read(given)
     solution = schema.solve(chosen, values)
-    exact = None if small is None else _exact(solution, small, start)
-    _files(solution, exact, plot, record)
+    exact, unfinished = (None, False) if small is None else _exact(solution, small, start)
+    if not unfinished:
+        _files(solution, exact, plot, record)
     settings = {"epsilon": small, "phase": start}
     problem = {"example": example} | values | {n: v for n, v in settings.items() if v is not None}
     report = transcript.transcript(problem, solution, small, start, exact)
     console.answer(json, chosen.title, report, transcript.conclusion(report), transcript.shown(report))
+    if unfinished:
+        raise console.interrupted("the averaged solution alone is printed")
 
 
 def _chosen(example: str | None, given: schema.Given, phase: str | None) -> ExampleSchema:
@@ -144,9 +148,14 @@ def _chosen(example: str | None, given: schema.Given, phase: str | None) -> Exam
     return chosen
 
 
-def _exact(solution: Any, epsilon: float, phase: float | None) -> Any:
+def _exact(solution: Any, epsilon: float, phase: float | None) -> tuple[Any, bool]:
+    """The exact extremals, None if their search was interrupted, and whether it was."""
     with console.solving({"epsilon": "--epsilon", "phase": "--phase"}):
-        return solution.exact(epsilon, phase)
+        try:
+            with bar.shown():
+                return solution.exact(epsilon, phase), False
+        except KeyboardInterrupt:
+            return None, True
 
 
 def _files(solution: Any, exact: Any, plot: File, record: File) -> None:

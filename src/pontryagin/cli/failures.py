@@ -1,6 +1,7 @@
 """Errors and warnings of the command line: one line each on standard error, and the exit code.
 
-Exit codes: 0 done; 1 a problem without an answer, or a package that is not installed; 2 a wrong command line.
+Exit codes: 0 done; 1 a problem without an answer, or a package that is not installed; 2 a wrong command line;
+130 stopped by Ctrl-C.
 """
 
 import sys

@@ -44,7 +44,7 @@ class Rows(NamedTuple):
 
 def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), holds: str = "problem") -> Rows:
     """Read numbers from a CSV file with a header line; `blocks` reads it in parts."""
-    return next(blocks(path, required, possible, holds, size=None))
+    return next(blocks(path, required, possible, holds, whole=True))
 
 
 def blocks(
@@ -52,9 +52,9 @@ def blocks(
     required: Sequence[str],
     possible: Sequence[str] = (),
     holds: str = "problem",
-    size: int | None = BLOCK,
+    whole: bool = False,
 ) -> Iterator[Rows]:
-    """Read numbers from a CSV file with a header line, a block of rows at a time.
+    """Read numbers from a CSV file with a header line, `BLOCK` rows at a time.
 
     Parameters
     ----------
@@ -65,8 +65,8 @@ def blocks(
         as text.
     holds : str
         What a row holds, for the message about a file without rows.
-    size : int, optional
-        Number of rows of a block; None reads all rows as one.
+    whole : bool
+        Whether all rows are one block.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def blocks(
         wanted = [*required, *(name for name in possible if name in header)]
         filled = ((row, reader.line_num) for row in reader if row)
         empty = True
-        while block := list(islice(filled, size)):
+        while block := list(islice(filled, None if whole else BLOCK)):
             rows, lines = map(list, zip(*block, strict=True))
             del block
             yield Rows(header, rows, lines, _columns(rows, lines, header, wanted))
@@ -154,10 +154,14 @@ def header_line(names: Sequence[str]) -> str:
 def answered(read: Rows, answers: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """Names of the answers' columns, and each row with its answers as CSV without the line's end."""
     columns: dict[str, Sequence[str]] = {}
+    known: dict[bytes, list[str]] = {}
     for name, values in answers.items():
         array = np.asarray(values)
         parts = {name: array} if array.ndim == 1 else {f"{name}_{i + 1}": p for i, p in enumerate(array.T)}
-        columns |= {part: _texts(column) for part, column in parts.items()}
+        for part, column in parts.items():
+            # A norm is often the primal value too, to the last digit, and to write numbers takes longest.
+            key = column.dtype.str.encode() + column.tobytes()
+            columns[part] = known[key] = known.get(key) or _texts(column)
     return list(columns), list(map(",".join, zip(_as_written(read.rows), *columns.values(), strict=True)))
 
 

@@ -39,9 +39,7 @@ class Closure:
         """A text that changes with the kernel, with a function that it calls and with a number it uses."""
         parts: list[object] = [sorted(self.constants.items()), sorted(self.imported)]
         for name, function in self.functions.items():
-            code = function.__code__
-            parts.append((name, code.co_code, code.co_consts, code.co_names, code.co_varnames))
-            parts.append((code.co_argcount, function.__defaults__))
+            parts.append((name, function.__defaults__, _instructions(function.__code__)))
         return repr(parts)
 
     @property
@@ -81,7 +79,7 @@ def _visit(target: Any, found: Closure) -> bool:
     arrays, kernel = False, found.kernel.__name__
     if found.functions.get(target.__name__) is target:
         return arrays
-    for name in target.__code__.co_names:
+    for name in _names(target.__code__):
         if name not in target.__globals__:
             continue
         value = target.__globals__[name]
@@ -99,3 +97,20 @@ def _visit(target: Any, found: Closure) -> bool:
     if found.functions.setdefault(target.__name__, target) is not target:
         raise TypeError(f"{kernel} uses two different functions called {target.__name__}")
     return arrays
+
+
+def _inner(code: types.CodeType) -> list[types.CodeType]:
+    """The code of the comprehensions and functions inside."""
+    return [constant for constant in code.co_consts if isinstance(constant, types.CodeType)]
+
+
+def _names(code: types.CodeType) -> list[str]:
+    """The names that code looks up, also those inside."""
+    return [*code.co_names, *(name for part in _inner(code) for name in _names(part))]
+
+
+def _instructions(code: types.CodeType) -> tuple[object, ...]:
+    """What code does, without where it stands."""
+    constants = [part for part in code.co_consts if not isinstance(part, types.CodeType)]
+    inner = [_instructions(part) for part in _inner(code)]
+    return code.co_code, constants, inner, code.co_names, code.co_varnames, code.co_argcount

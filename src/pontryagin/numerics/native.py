@@ -1,9 +1,9 @@
 """Native code of scalar kernels: made by Numba once per machine, kept on disk, opened without Numba.
 
 Numba compiles a kernel, `fastcall` wraps it, and the object code goes into the user's cache under a hash of
-the kernel, the wrapper, the version of llvmlite and the interpreter's binary interface. It is made for the
-oldest processor of the architecture, so that one file serves all machines that share a home directory: newer
-instructions do not make the kernels faster, since they hold scalar arithmetic (measured: by less than 3 %).
+the kernel, the wrapper, the version of llvmlite, the interpreter's binary interface and the architecture. It
+is made for the oldest processor of that architecture, so that one file serves all machines that share a home
+directory: newer instructions do not make scalar arithmetic faster (measured: by less than 3 %).
 
 Where the machine has a linker, the file is a shared library. The system opens it in 0.3 ms, so that already
 the first call of a process runs native code. Elsewhere llvmlite loads the object, which costs 70 ms of a
@@ -14,6 +14,7 @@ import ctypes
 import hashlib
 import importlib.util
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -84,7 +85,8 @@ class Recipe:
         import llvmlite
 
         text = wrapper("kernel", self.groups, self.outputs, self.packed)
-        parts = (self.closure.identity, text, llvmlite.__version__, EXTENSION_SUFFIXES[0], sys.platform)
+        here = (EXTENSION_SUFFIXES[0], sys.platform, platform.machine())
+        parts = (self.closure.identity, text, llvmlite.__version__, *here)
         digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:20]
         return cache_folder() / f"native_{digest}"
 
@@ -105,9 +107,17 @@ class Recipe:
 
     def made(self) -> Native:
         """The native code, made by Numba and kept on disk."""
-        name, target = self.kernel.__name__, self.path.with_suffix(".o")
+        code, path = self._object_code(), self.path
+        try:
+            return self._written(code, path)
+        except OSError:  # The disk is full, or something that is no file lies in this place.
+            return self._written(code, Path(tempfile.mkdtemp(prefix="pontryagin-")) / path.name)
+
+    def _written(self, code: bytes, path: Path) -> Native:
+        """Keep object code, as a shared library where that can be made and opened."""
+        name, target = self.kernel.__name__, path.with_suffix(".o")
         scratch = scratch_of(target)
-        scratch.write_bytes(self._object_code())
+        scratch.write_bytes(code)
         linked = scratch.with_suffix(".so.tmp")
         if link(scratch, linked):
             library = target.with_suffix(".so")
@@ -201,7 +211,10 @@ def link(code: Path, library: Path) -> bool:
         return False
     unresolved = ["-undefined", "dynamic_lookup"] if sys.platform == "darwin" else []
     command = [linker, "-shared", *unresolved, "-o", str(library), str(code), "-lm"]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    try:
+        return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    except OSError:  # No process may be started.
+        return False
 
 
 def seal(scratch: Path, path: Path) -> None:

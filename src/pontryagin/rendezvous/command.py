@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from pontryagin.terminal import console
+from pontryagin.terminal import bar, console
 from pontryagin.terminal.console import File, Json, Text
 
 
@@ -28,7 +28,7 @@ def solve(
     """Meet a target on a Kepler orbit under low thrust, at the least cost of time and thrust.
 
     The best extremal found is printed with its certificate, the other extremals found, and the extent of the
-    search.
+    search. After Ctrl-C that is the best one so far, marked as such, and the exit code is 130.
 
     A file for --file is a JSON object like this one; angles are in radians, and a number may be a text such
     as "20*pi/180":
@@ -59,7 +59,7 @@ def solve(
     console.together({"--samples": samples}, "--json", json)
     console.file_names(plot, record, "-")
     problem = _problem(case, file)
-    extremal = _solved(problem, "--case" if file is None else "--file")
+    extremal, unfinished = _solved(problem, "--case" if file is None else "--file")
     _files(extremal, plot, record)
     from pontryagin.rendezvous import transcript
 
@@ -67,6 +67,8 @@ def solve(
     sampled = {"samples": transcript.samples(extremal, samples)} if samples else {}
     conclusion = transcript.conclusion(report)
     console.answer(json, _title(problem, case), report | sampled, conclusion, transcript.table(report))
+    if unfinished:
+        raise console.interrupted("the best extremal found so far is printed")
 
 
 def _list(json: bool) -> None:
@@ -92,13 +94,20 @@ def _problem(case: Text, file: File) -> Any:
         return schema.read(file.read_text(encoding="utf-8-sig"))
 
 
-def _solved(problem: Any, option: str) -> Any:
+def _solved(problem: Any, option: str) -> tuple[Any, bool]:
+    """The best extremal found, and whether its search was interrupted."""
     from pontryagin.errors import Infeasible, NotConverged
     from pontryagin.rendezvous.reduced.solve import solve as solve_problem
 
+    unfinished = False
     with console.solving({}):
         try:
-            extremal = solve_problem(problem)
+            with bar.shown():
+                extremal = solve_problem(problem)
+        except KeyboardInterrupt as stop:
+            if not stop.args:
+                raise console.interrupted("no extremal was found so far") from None
+            (extremal,), unfinished = stop.args, True
         except Infeasible as reason:
             if problem.free and not problem.time_weight:
                 raise console.Refusal(option, f": {reason}") from reason
@@ -108,7 +117,7 @@ def _solved(problem: Any, option: str) -> Any:
                 "the certificate does not hold: its residual is too large",
                 float(extremal.certificate.residual),
             )
-    return extremal
+    return extremal, unfinished
 
 
 def _title(problem: Any, case: Text) -> str:

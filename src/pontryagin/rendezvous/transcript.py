@@ -6,6 +6,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import schema
+from pontryagin.rendezvous.reduced.search_log import INTERRUPTED
 from pontryagin.rendezvous.reduced.solution import Extremal
 
 Report = dict[str, dict[str, Any]]
@@ -136,7 +137,8 @@ def conclusion(report: Report) -> str:
     """
     count = report["others"]["count"] + 1
     found = f"The best of {count} extremals" if count > 1 else "The extremal found"
-    return (
+    unfinished = INTERRUPTED in report.get("searched", {}).get("ends", ())
+    return ("The search is unfinished, as it was interrupted. " if unfinished else "") + (
         f"{found} costs {report['solution']['cost']:.10g}; every condition is met to "
         f"{float(report['certificate']['residual']):.0e}. Extremals satisfy necessary conditions; it is not "
         "claimed that no other control costs less."

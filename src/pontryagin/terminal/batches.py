@@ -29,9 +29,6 @@ from pontryagin.terminal import bar, console
 Answers = Mapping[str, Any]
 """The columns of the answers of a block, (n,) or (n, k) each."""
 
-INTERRUPTED = 130
-"""Exit code after Ctrl-C, as shells have it."""
-
 
 class Spool:
     """The rows done so far, with their answers, as lines of CSV in a temporary file beside the target.
@@ -119,9 +116,9 @@ def run(
     if spool.rows:
         _write(out, spool.texts())
     if stopped:
-        done = f"the first {spool.rows} rows are done and written" if spool.rows else "no row is done"
-        typer.echo(f"Interrupted: {done}", err=True)
-        raise typer.Exit(INTERRUPTED)
+        raise console.interrupted(
+            f"the first {spool.rows} rows are done and written" if spool.rows else "no row is done"
+        )
     proofs.require()
 
 

@@ -24,7 +24,14 @@ Text = str | None
 File = Path | None
 """Types of options that may be left out."""
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
-Out = Annotated[str, typer.Option(metavar="FILE", help="With --batch: where the results go; - prints them.")]
+Out = Annotated[
+    str,
+    typer.Option(
+        metavar="FILE",
+        help="With --batch: where the results go, all at the end; - prints them. After an error there are "
+        "none, after Ctrl-C those of the rows done.",
+    ),
+]
 """Options that are the same in several commands."""
 
 FIGURES = (".svg", ".pdf", ".png")
@@ -38,6 +45,12 @@ class Refusal(typer.TyperException):
 
     def __init__(self, option: str, message: str) -> None:
         super().__init__(f"{option}{'' if message.startswith(':') else ' '}{message}")
+
+
+def interrupted(kept: str) -> typer.Exit:
+    """Say on standard error what is kept after Ctrl-C; what is to be raised, with the exit code of shells."""
+    typer.echo(f"Interrupted: {kept}", err=True)
+    return typer.Exit(130)
 
 
 def number(option: str, text: str, takes: str = "a number", at_least: float = -math.inf) -> float:

@@ -16,8 +16,10 @@ UNSTACKED = ("q", "breakpoints", "multipliers")
 """Quantities of a single solution that are not written to CSV."""
 
 
-def blocks(path: Path, least_time: bool, size: int | None = rows.BLOCK) -> Iterator[rows.Rows]:
+def blocks(path: Path, least_time: bool, whole: bool = False) -> Iterator[rows.Rows]:
     """Read ``x10, x20, x30, x1f, x2f, x3f``; for a given duration also ``tf``, and ``t0`` if there is one.
+
+    All rows are one block if ``whole``.
 
     Raises
     ------
@@ -27,9 +29,9 @@ def blocks(path: Path, least_time: bool, size: int | None = rows.BLOCK) -> Itera
         If the file cannot be read.
     """
     if least_time:
-        yield from rows.blocks(path, [*START, *END], size=size)
+        yield from rows.blocks(path, [*START, *END], whole=whole)
         return
-    for block in rows.blocks(path, [*START, *END, "tf"], ["t0"], size=size):
+    for block in rows.blocks(path, [*START, *END, "tf"], ["t0"], whole=whole):
         tf = block.columns["tf"]
         t0 = block.columns.get("t0", np.zeros_like(tf))
         for i in np.flatnonzero(~(tf > t0)).tolist():

@@ -190,5 +190,5 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
         return batch.answers(solution), solution.certificate
 
     # A formula is integrated over the times of all rows at once, from the first start to the last end.
-    size = None if isinstance(force, Formula) else rows.BLOCK
-    batches.run(path, out, batch.blocks(path, goal.least_time, size), solved)
+    whole = isinstance(force, Formula)
+    batches.run(path, out, batch.blocks(path, goal.least_time, whole), solved)

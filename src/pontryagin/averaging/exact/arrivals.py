@@ -21,6 +21,7 @@ from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import Flow, flow
+from pontryagin.progress import report
 
 SIGN = sp.Symbol("sign_p", real=True)
 FINE = 64
@@ -70,6 +71,7 @@ def _crossings(problem: Shooting, sign: float, turns: float) -> list[tuple[float
     found: list[tuple[float, float]] = []
     points = FINE * max(int(np.ceil(turns / 4)), 1)
     for _ in range(STRETCHES):
+        report(f"following the trajectory, turn {(begin - problem.anomaly) / (2 * np.pi):.0f}")
         grid = begin + 2 * np.pi * np.arange(points + 1) / FINE
         try:
             path = follow(state, grid, problem.parameters)

@@ -15,6 +15,7 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.exact.members import FAR, chord, march, members
 from pontryagin.averaging.exact.shooting import Shooting, Shot
 from pontryagin.errors import NotConverged
+from pontryagin.progress import report
 from pontryagin.value import value_class
 
 FEWEST, MOST = 8, 64
@@ -161,6 +162,7 @@ def _outwards(
     last, history, quiet = first, [first], 0
     found: list[_Turn] = []
     while not (reason := last.ends[(sense + 1) // 2]):
+        report(f"following the exact solutions {'later' if sense > 0 else 'earlier'}, turn {len(found) + 1}")
         if len(found) == TURNS:
             raise NotConverged(
                 f"the family of solutions over the ending anomaly has no end within {TURNS} turns",

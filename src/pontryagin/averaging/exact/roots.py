@@ -18,6 +18,7 @@ from pontryagin.averaging.exact.refinement import crossings, turns_resolved, wit
 from pontryagin.averaging.exact.shooting import Shooting, Shot, shooting
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
+from pontryagin.progress import report
 
 POLISHED = 1e-11
 """Largest residual of an extremal, in the problem's own units."""
@@ -123,6 +124,7 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
     for _ in range(10):
         at = _sign_changes(current)
         at = at[~np.isin(current.theta[at], solved)]
+        report("exact extremals found", len(solved), len(solved) + len(at))
         if len(at) == 0:
             return current, _sorted(found)
         low, high = current.theta[at], current.theta[at + 1]

@@ -133,12 +133,13 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
 def least_time(lap: Lap, path: Path, cost: RunningCost) -> Path:
     """The extremal of least time, alpha1 = 1 and alpha2 = 0, from one with the same bound and alpha2 > 0.
 
-    alpha2 falls until the thrust is saturated at all nodes.
+    alpha2 falls until the thrust is saturated at all nodes. Where the transcription with alpha2 = 0 has no
+    solution, as may be where |n| nearly vanishes between nodes, the path with the least alpha2 is returned.
 
     Raises
     ------
     NotConverged
-        If the extremal with alpha2 = 0 is not reached.
+        If alpha2 could not be lowered until the thrust is saturated at all nodes.
     """
     scale = cost.time_weight
     nodes = path.nodes.copy()
@@ -148,12 +149,12 @@ def least_time(lap: Lap, path: Path, cost: RunningCost) -> Path:
     for _ in range(STAGES):
         if float(path.switching().min()) > 2 * weight * cost.peak:
             break
-        try:
-            path = continued(partial(_cheaper, lap, cost.peak, weight), path, first=1.0, least=1 / 16)
-        except NotConverged:
-            break
+        path = continued(partial(_cheaper, lap, cost.peak, weight), path, first=1.0, least=1 / 16)
         weight /= SHRINK
-    return extremal(lap, RunningCost(1.0, 0.0, cost.peak), None, path)
+    try:
+        return extremal(lap, RunningCost(1.0, 0.0, cost.peak), None, path)
+    except NotConverged:
+        return path
 
 
 def _cheaper(lap: Lap, peak: float, weight: float, share: float) -> tuple[Lap, RunningCost, None]:

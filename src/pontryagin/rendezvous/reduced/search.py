@@ -5,12 +5,14 @@ is the original one again.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, between
+from pontryagin.progress import report
 from pontryagin.rendezvous.reduced.conditions import ReducedEquations, Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
@@ -40,22 +42,23 @@ class UnboundedExtremal:
         return self.ratio * flight.duration + energy(flight)
 
 
-def through_revolutions(setting: Setting, first: Root[Flight], log: SearchLog) -> list[UnboundedExtremal]:
+def through_revolutions(setting: Setting, first: Root[Flight], log: SearchLog) -> Iterator[UnboundedExtremal]:
     """The first extremal, and those with more and with fewer revolutions on the curve through it."""
-    found = [UnboundedExtremal(first, 0.0, setting.ratio)]
+    start = UnboundedExtremal(first, 0.0, setting.ratio)
     log.revolutions.append(0)
+    yield start
     for sign in (1, -1):
-        found += _walk(setting, first, sign, log, found[0].cost)
-    return found
+        yield from _walk(setting, first, sign, log, start.cost)
 
 
 def _walk(
     setting: Setting, first: Root[Flight], sign: int, log: SearchLog, best: float
-) -> list[UnboundedExtremal]:
-    found: list[UnboundedExtremal] = []
+) -> Iterator[UnboundedExtremal]:
     last: Point[ReducedEquations] | None = None
     cost, end = best, ""
+    way = "towards more revolutions" if sign > 0 else "towards fewer revolutions"
     for point in curve(setting, first, "lead", sign):
+        report(f"following extremals {way}: {point.parameter / TAU:+.2f}")
         for j, guess in _passed(last, point):
             lead = TAU * j
             try:
@@ -63,19 +66,18 @@ def _walk(
             except NotConverged as reason:
                 log.given_up.append(f"extremal with {j:+d} revolutions: {reason}")
                 continue
-            found.append(UnboundedExtremal(root, lead, setting.ratio))
+            found = UnboundedExtremal(root, lead, setting.ratio)
             log.revolutions.append(j)
-            cost = found[-1].cost
+            cost = found.cost
             best = min(best, cost)
+            yield found
         end = _end(point, cost, best)
         if end:
             break
         last = point
-    way = "towards more revolutions" if sign > 0 else "towards fewer revolutions"
     log.ends.append(
         f"{way}, ended at {point.parameter / TAU:+.2f}: {end or 'the curve could not be followed further'}"
     )
-    return found
 
 
 def _end(point: Point[ReducedEquations], cost: float, best: float) -> str:

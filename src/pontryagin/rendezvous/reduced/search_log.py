@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass, field
 
+INTERRUPTED = "the search was interrupted"
+"""The last of the `ends` of a search that was stopped before its end."""
+
 
 @dataclass(frozen=True)
 class Search:

@@ -5,19 +5,21 @@ then over the bound, then over alpha1/alpha2. All extremals reached are returned
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.progress import report
 from pontryagin.rendezvous.estimate import require_solvable
 from pontryagin.rendezvous.families import bounded, loose_ratios
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
-from pontryagin.rendezvous.reduced.search_log import SearchLog
+from pontryagin.rendezvous.reduced.search_log import INTERRUPTED, SearchLog
 from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
 from pontryagin.rendezvous.reduced.start import unbounded
@@ -61,6 +63,8 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         bound: no extremal was reached, and in one of the families the costates grew without limit.
     NotConverged
         If no extremal was reached for another reason.
+    KeyboardInterrupt
+        After Ctrl-C; its argument is the best extremal found so far, if there is one.
 
     Examples
     --------
@@ -80,9 +84,21 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         require_extremal("start", start)
         return Extremal(problem, meet(setting, _unknowns(start, problem)))
     log = SearchLog()
-    found = [Extremal(problem, root) for root in extremals(setting, log)]
-    best, *others = distinct(found)
-    return replace(best, others=tuple(others), searched=log.closed())
+    found: list[Extremal] = []
+    try:
+        found.extend(Extremal(problem, root) for root in extremals(setting, log))
+    except KeyboardInterrupt as stop:
+        if found:
+            log.ends.append(INTERRUPTED)
+            stop.args = (_best(found, log),)
+        raise
+    return _best(found, log)
+
+
+def _best(found: list[Extremal], log: SearchLog) -> Extremal:
+    """The cheapest of the extremals found, with the others and the log of the search."""
+    cheapest, *others = distinct(found)
+    return replace(cheapest, others=tuple(others), searched=log.closed())
 
 
 def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
@@ -92,8 +108,8 @@ def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
     return np.append(costates, start.duration / scaled.time) if problem.free else costates
 
 
-def extremals(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
-    """All extremals found of a problem, in no particular order.
+def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
+    """All extremals found of a problem, in no particular order, each as soon as it is found.
 
     Raises
     ------
@@ -102,31 +118,47 @@ def extremals(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
     Infeasible
         If none was reached and in one of the families the bound came to the least for the fixed duration.
     """
-    roots: list[Root[Flight]] = []
-    too_short = False
+    none, too_short = True, False
     for ratio in loose_ratios(setting.ratio, setting.peak):
         loose = setting.replace(peak=math.inf, ratio=ratio)
-        for number, known in enumerate(_without_bound(setting, loose, log), start=1):
+        reached: list[UnboundedExtremal] = []
+        try:
+            kept = _without_bound(setting, loose, log, reached)
+        except KeyboardInterrupt:
+            if setting.peak == math.inf:
+                yield from (known.root for known in reached)
+            raise
+        for number, known in enumerate(kept, start=1):
+            report("continuing extremals to the bound", number - 1, len(kept))
             try:
-                roots.append(bounded(SHOOTING, setting, loose.replace(lead=known.lead), known.root))
+                root = bounded(SHOOTING, setting, loose.replace(lead=known.lead), known.root)
             except (NotConverged, Infeasible) as reason:
                 too_short = too_short or isinstance(reason, Infeasible)
                 log.given_up.append(f"extremal {number} of the problem without bound: {reason}")
-    if roots:
-        return roots
+                continue
+            none = False
+            yield root
+    if not none:
+        return
     reasons = "; ".join(log.given_up)
     if too_short and not setting.free:
         raise Infeasible(f"no extremal of this duration keeps the thrust within the peak: {reasons}")
     raise NotConverged(f"no extremal was found: {reasons}", float("inf"))
 
 
-def _without_bound(setting: Setting, loose: Setting, log: SearchLog) -> list[UnboundedExtremal]:
-    """The extremals without bound that are continued to the bound, cheapest first; all if there is none."""
+def _without_bound(
+    setting: Setting, loose: Setting, log: SearchLog, reached: list[UnboundedExtremal]
+) -> list[UnboundedExtremal]:
+    """The extremals without bound that are continued to the bound, cheapest first; all if there is none.
+
+    Each extremal is appended to ``reached`` as soon as it is found.
+    """
     try:
-        found = sorted(through_revolutions(loose, unbounded(loose, log), log), key=lambda one: one.cost)
+        reached.extend(through_revolutions(loose, unbounded(loose, log), log))
     except NotConverged as reason:
         log.given_up.append(f"the problem without bound: {reason}")
         return []
+    found = sorted(reached, key=lambda one: one.cost)
     most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
     if most < len(found):
         log.given_up.append(

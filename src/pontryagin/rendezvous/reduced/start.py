@@ -15,6 +15,7 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.rotation import about_third, conjugate, product
+from pontryagin.progress import report
 from pontryagin.rendezvous.estimate import ballistic_lead, gap_duration, orbit_change_duration
 from pontryagin.rendezvous.families import freed, stretched
 from pontryagin.rendezvous.problem.scaled import Scaled
@@ -59,6 +60,10 @@ def unbounded(setting: Setting, log: SearchLog) -> Root[Flight]:
         log.durations.append(duration)
         for more in MORE_TURNS:
             turns = _even_turns(setting.scaled, duration) + more
+            report(
+                f"seeking a first extremal of duration {duration * setting.scaled.time:.3g}, "
+                f"with {turns} turns of the goal"
+            )
             try:
                 fixed = cold_start(setting.replace(duration=duration), turns)
                 return (freed if setting.free else stretched)(SHOOTING, setting, fixed)

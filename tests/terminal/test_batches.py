@@ -1,0 +1,197 @@
+"""Batches: any number of rows in the same memory, nothing after an error, the rows done after Ctrl-C."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from command_line import assert_refused, read_table, run, write_table
+from pontryagin import triple_integrator
+from pontryagin.io import rows
+
+SOLVE = ("solve", "triple-integrator", "--norm", "2")
+HEADER = ("name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "tf")
+SCRIPT = "import sys; from pontryagin.cli import main; sys.argv[0] = 'pontryagin'; main()"
+PEAK = "import resource, sys; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stderr)"
+
+
+def problems(count):
+    """Rows of manoeuvres, each from rest to an angle of its own."""
+    return [[f"n{i}", "0", "0", "0", repr(1 + i / 7), "0", "0", "2"] for i in range(count)]
+
+
+def process(*arguments, script=SCRIPT, **streams):
+    command = [sys.executable, "-c", script, *map(str, arguments)]
+    return subprocess.Popen(
+        command, text=True, **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams
+    )
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    """Blocks of two rows."""
+    monkeypatch.setattr(rows, "BLOCK", 2)
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """The manoeuvres solved so far; the third stack is not solved, as Ctrl-C comes before."""
+    plain, stacks = triple_integrator.minimum_energy, []
+
+    def solver(maneuver):
+        if len(stacks) == 2:
+            raise KeyboardInterrupt
+        stacks.append(maneuver)
+        return plain(maneuver)
+
+    monkeypatch.setattr(triple_integrator, "minimum_energy", solver)
+    return stacks
+
+
+class TestBlocks:
+    @pytest.mark.parametrize("goal", [["--norm", "1"], ["--norm", "inf"], ["--norm", "3"], ["--peak", "2"]])
+    def test_manoeuvres_in_blocks_are_those_of_the_whole(self, tmp_path, monkeypatch, goal):
+        table = write_table(tmp_path / "in.csv", HEADER, problems(5))
+        command = ("solve", "triple-integrator", *goal, "--batch", table)
+        whole = run(*command).stdout
+        monkeypatch.setattr(rows, "BLOCK", 2)
+        assert run(*command).stdout == whole
+        assert run(*command, "--out", tmp_path / "out.csv").exit_code == 0
+        assert (tmp_path / "out.csv").read_text() == whole
+
+    @pytest.mark.parametrize("thrust", ["ball", "disc"])
+    def test_plans_in_blocks_are_those_of_the_whole(self, tmp_path, monkeypatch, thrust):
+        states = [
+            ["0.001", "0", "0", '"a, ""b"""'],
+            ["0", "0", "0", '"two\nlines"'],
+            ["0.03", "0.01", "0", "c"],
+        ]
+        table = write_table(tmp_path / "in.csv", ("dr", "dv_R", "dv_T", "kept"), states)
+        command = ("solve", "orbit-correction", "--thrust", thrust, "--batch", table)
+        whole = run(*command).stdout
+        monkeypatch.setattr(rows, "BLOCK", 1)
+        assert run(*command).stdout == whole
+        assert [row["kept"] for row in read_table(whole)] == ['a, "b"', "two\nlines", "c"]
+
+    def test_a_formula_is_integrated_over_the_times_of_all_rows(self, tmp_path, small_blocks, monkeypatch):
+        table, sizes = write_table(tmp_path / "in.csv", HEADER, problems(3)), []
+        plain = triple_integrator.minimum_energy
+        monkeypatch.setattr(
+            triple_integrator, "minimum_energy", lambda stack: sizes.append(*stack.shape) or plain(stack)
+        )
+        for force in ("sin(t)", "1/3"):
+            assert run(*SOLVE, "--disturbance", force, "--batch", table).exit_code == 0
+        assert sizes == [3, 2, 1]
+
+    @pytest.mark.slow
+    def test_twice_the_rows_take_the_same_memory(self, tmp_path):
+        most = []
+        for count in (200_000, 400_000):
+            table = write_table(tmp_path / "in.csv", HEADER, problems(count))
+            script = f"{SCRIPT[:-6]}\ntry: main()\nfinally:\n {PEAK}"
+            running = process(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv", script=script)
+            most.append(int(running.communicate()[1].split()[-1]))
+            assert (running.returncode, (tmp_path / "out.csv").read_bytes().count(b"\n")) == (0, count + 1)
+        assert most[1] < 1.05 * most[0]
+
+
+class TestFaults:
+    @pytest.mark.parametrize(
+        ("row", "begins"),
+        [
+            (["a", "0", "0", "much", "1", "0", "0", "2"], "--batch: {path}, line 6: x30 takes a number"),
+            (["a", "0", "0", "0", "1", "0", "0", "-2"], "--batch: {path}, line 6: tf must be later than t0"),
+            (
+                ["a", "0", "0", "0", "1e308", "0", "0", "1e-200"],
+                "--xf must give, with x0 and tf - t0, a control",
+            ),
+        ],
+    )
+    def test_a_fault_in_a_late_row_leaves_no_result(self, tmp_path, small_blocks, row, begins):
+        table = write_table(tmp_path / "in.csv", HEADER, [*problems(4), row])
+        (tmp_path / "out.csv").write_text("old")
+        for out in ("-", tmp_path / "out.csv"):
+            result = run(*SOLVE, "--batch", table, "--out", out)
+            assert_refused(result, begins.format(path=table))
+            assert "line 6" in result.stderr
+        assert (tmp_path / "out.csv").read_text() == "old"
+        assert {path.name for path in tmp_path.iterdir()} == {"in.csv", "out.csv"}
+
+    def test_an_index_is_that_of_the_row_in_the_file(self, tmp_path, small_blocks):
+        row = ["a", "0", "0", "0", "1e308", "0", "0", "1e-200"]
+        table = write_table(tmp_path / "in.csv", HEADER, [*problems(3), [], row])
+        assert "at index [3], line 6" in run(*SOLVE, "--batch", table).stderr
+
+    def test_certificates_of_all_blocks_are_counted(self, tmp_path, small_blocks, monkeypatch):
+        from pontryagin.terminal import console
+
+        monkeypatch.setattr(console, "ACCEPTED", -1.0)
+        table = write_table(tmp_path / "in.csv", HEADER, problems(5))
+        result = run(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
+        assert result.exit_code == 1
+        assert "5 of 5 certificates do not hold" in result.stderr
+        assert len(read_table((tmp_path / "out.csv").read_text())) == 5
+
+
+class TestInterruption:
+    def test_the_rows_done_are_written(self, tmp_path, small_blocks, solved):
+        table = write_table(tmp_path / "in.csv", HEADER, problems(9))
+        out = tmp_path / "out.csv"
+        result = run(*SOLVE, "--batch", table, "--out", out)
+        assert (result.exit_code, result.stdout) == (130, "")
+        assert result.stderr == f"wrote {out}\nInterrupted: the first 4 rows are done and written\n"
+        assert [row["name"] for row in read_table(out.read_text())] == ["n0", "n1", "n2", "n3"]
+
+    def test_before_any_row_is_done_nothing_is_written(self, tmp_path, solved):
+        solved += [None, None]
+        table = write_table(tmp_path / "in.csv", HEADER, problems(9))
+        result = run(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
+        assert (result.exit_code, result.stderr) == (130, "Interrupted: no row is done\n")
+        assert not (tmp_path / "out.csv").exists()
+
+    @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+    def test_a_signal_while_the_next_rows_are_awaited(self, tmp_path):
+        pipe = tmp_path / "pipe"
+        os.mkfifo(pipe)
+        running = process(*SOLVE, "--batch", pipe)
+        text = "\n".join(",".join(row) for row in [HEADER, *problems(4 * rows.BLOCK)])
+        with pipe.open("w") as file:
+            # What a pipe and its reader do not hold was read, so that blocks before it are solved.
+            file.write(text)
+            file.flush()
+            running.send_signal(signal.SIGINT)
+            printed, said = running.communicate(timeout=60)
+        assert running.returncode == 130
+        done = int(re.fullmatch(r"Interrupted: the first (\d+) rows are done and written\n", said)[1])
+        assert done % rows.BLOCK == 0 < done
+        assert len(read_table(printed)) == done
+
+
+class TestBar:
+    def test_there_is_none_where_standard_error_is_no_terminal(self, tmp_path):
+        table = write_table(tmp_path / "in.csv", HEADER, problems(3))
+        running = process(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
+        assert running.communicate() == ("", f"wrote {tmp_path / 'out.csv'}\n")
+
+    def test_a_terminal_shows_the_rows_done(self, tmp_path):
+        pty = pytest.importorskip("pty")
+        table = write_table(tmp_path / "in.csv", HEADER, problems(3 * rows.BLOCK))
+        ours, theirs = pty.openpty()
+        with (tmp_path / "printed").open("w") as printed:
+            streams = {"stdout": printed, "stderr": theirs}
+            running = process(*SOLVE, "--batch", table, env=os.environ | {"TERM": "xterm"}, **streams)
+        os.close(theirs)
+        shown = b""
+        try:
+            while part := os.read(ours, 1 << 16):
+                shown += part
+        except OSError:  # The other end is closed.
+            pass
+        os.close(ours)
+        assert running.wait(60) == 0
+        assert len(read_table((tmp_path / "printed").read_text())) == 3 * rows.BLOCK
+        assert f"/{3 * rows.BLOCK + 1}" in shown.decode()
+        assert "rows" in shown.decode()
