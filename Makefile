@@ -32,9 +32,10 @@ report: $(READY) ## the whole report: build/report/index.html, pontryagin.pdf an
 	@$(PY) -m pontryagin.report
 
 .PHONY: test
-test: $(READY) ## all tests and the examples in the docstrings
+test: $(READY) ## the tests and the examples in the docstrings; slow tests of what did not change only with ALL=1
 	@echo "== tests on $(CORES) core(s)"
-	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest $(if $(filter-out 1,$(CORES)),-n $(CORES))
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest -p tests.house.kept $(if $(ALL),,--kept) \
+	  $(if $(filter-out 1,$(CORES)),-n $(CORES))
 
 .PHONY: notebooks
 notebooks: $(READY) ## execute the notebooks that changed, into build/notebooks

@@ -11,10 +11,15 @@ from benchmarks.contest import worst, worst_gap
 from benchmarks.orbit_correction.states import INTERVAL, PEAK, states, thrust
 from benchmarks.table import by_heading
 from pontryagin.arrays import Array
-from pontryagin.orbit_correction import correct
+from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 
-AIMS = {"plans of 1000 states": 0.1, "gauge in 10000 steps": 0.02, "plan of 10000 steps": 0.1}
+AIMS = {
+    "plans of 1000 states": 0.1,
+    "gauge in 10000 steps": 0.02,
+    "plan of 10000 steps": 0.1,
+    "gauge of a general system in 100000 steps": 1.0,
+}
 """The aim for each task, in seconds on one core."""
 
 MANY = 10_000
@@ -36,30 +41,37 @@ class Entry:
 
 def table(quick: bool) -> dict[str, list]:
     """Seconds of each task beside its aim: the median over the rounds; for single states the slowest."""
-    large = 5_000 if quick else 100_000
+    large, rounds = (5_000, 2) if quick else (100_000, 7)
     rows = []
     for name in THRUSTS:
-        tasks = _tasks(name, large)
-        entries = {f"{task} {i}": entry for task, found in tasks.items() for i, entry in enumerate(found)}
-        timings = take_turns({label: entry.run for label, entry in entries.items()}, 2 if quick else 7)
-        for task, found in tasks.items():
-            taken = [timings[f"{task} {i}"] for i in range(len(found))]
-            slowest: Timing = max(taken, key=lambda timing: timing.typical)
-            misses = [entry.miss for entry in found if entry.miss is not None]
-            count = found[0].states
-            rows.append(
-                {
-                    "task": task,
-                    "impulses": name,
-                    "aim, s": AIMS.get(task),
-                    "seconds": slowest.typical * count,
-                    "fastest round": slowest.least * count,
-                    "microseconds a state": 1e6 * slowest.typical,
-                    "worst gap": max(entry.gap for entry in found),
-                    "worst miss": max(misses, default=None),
-                }
-            )
-    return by_heading(rows)
+        rows += _rows(name, _tasks(name, large), rounds)
+    general = {f"gauge of a general system in {large} steps": [_general(large)]}
+    return by_heading(rows + _rows("ellipsoid", general, rounds))
+
+
+def _rows(impulses: str, tasks: dict[str, list[Entry]], rounds: int) -> list[dict]:
+    """The rows of tasks that are timed in turns."""
+    entries = {f"{task} {i}": entry for task, found in tasks.items() for i, entry in enumerate(found)}
+    timings = take_turns({label: entry.run for label, entry in entries.items()}, rounds)
+    rows = []
+    for task, found in tasks.items():
+        taken = [timings[f"{task} {i}"] for i in range(len(found))]
+        slowest: Timing = max(taken, key=lambda timing: timing.typical)
+        misses = [entry.miss for entry in found if entry.miss is not None]
+        count = found[0].states
+        rows.append(
+            {
+                "task": task,
+                "impulses": impulses,
+                "aim, s": AIMS.get(task),
+                "seconds": slowest.typical * count,
+                "fastest round": slowest.least * count,
+                "microseconds a state": 1e6 * slowest.typical,
+                "worst gap": max(entry.gap for entry in found),
+                "worst miss": max(misses, default=None),
+            }
+        )
+    return rows
 
 
 def far_states(name: str) -> Array:
@@ -98,3 +110,15 @@ def _gauge(name: str, state: NDArray) -> Entry:
     found = engine.gauges(state[None], counts)
     run = one_call(lambda: engine.gauges(state[None], counts))
     return Entry(run, 1, worst_gap(found.lower, found.upper), None)
+
+
+def _general(steps: int) -> Entry:
+    """The gauge of a system whose A(k) and H(k) all differ; the checks of its matrices are timed as well."""
+    k = np.arange(steps)
+    A, H = (np.tile(np.eye(3), (steps, 1, 1)) for _ in range(2))
+    A[:, 0, 1], A[:, 1, 0], A[:, 2, 0] = 0.1 * np.sin(k), -0.1 * np.sin(k), 0.001 * np.cos(k)
+    A /= np.linalg.norm(A, axis=1, keepdims=True)
+    H[:, 0, 0], H[:, 1, 1] = 1.5 + np.sin(k), 2 + np.cos(k)
+    run = one_call(lambda: gauge(DiscreteSystem(A, H), [3.0, -2.0, 1.0], steps))
+    proof = gauge(DiscreteSystem(A, H), [3.0, -2.0, 1.0], steps).certificate
+    return Entry(run, 1, float(proof.gap), float(proof.primal_residual))

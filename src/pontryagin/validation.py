@@ -9,6 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 
+FEW = 16
+"""Up to so many numbers are checked faster one by one than by NumPy."""
+
 
 def finite(name: str, value: ArrayLike, takes: str) -> Array:
     """`value` as a new array of finite floats.
@@ -35,7 +38,7 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
         else:
             raise ArgumentTypeError(f"{name} must be {takes}, got {value!r} of type {array.dtype}", name)
     array = array.astype(float, copy=False)
-    if array.size < 4 and all(map(isfinite, array.ravel().tolist())):
+    if array.size <= FEW and all(map(isfinite, array.ravel().tolist())):
         return array
     if not np.isfinite(array).all():
         bad = array[~np.isfinite(array)].flat[0]

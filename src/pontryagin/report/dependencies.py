@@ -44,6 +44,17 @@ class Source:
         inside = {name for name in self.modules if name == package or name.startswith(package + ".")}
         return inside if package.startswith(above) else {m for m in inside if not m.startswith(above)}
 
+    def attached(self, package: str) -> set[str]:
+        """What a package that is loaded lazily may import: any module below it."""
+        return self.below(package)
+
+    def needs(self, module: str) -> set[str]:
+        """The modules that a module may import by itself."""
+        if module == f"{self.folder.name}.{_PAPERS}":
+            return set()  # what its computed imports reach is counted where its function is called
+        text = self.modules[module].read_text(encoding="utf-8")
+        return needed(self, text, self.package_of(module)) | _parents(self, module)
+
     def rooms(self, names: set[str]) -> set[str]:
         """The modules of these names in the papers' folders."""
         return {m for m in self.modules if m.count(".") == 2 and m.rpartition(".")[2] in names}
@@ -69,17 +80,14 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
     set of Path
         Modules and, for those that look for files, what lies beside them.
     """
-    open_names = set().union(*(_needed(source, text, source.folder.name) for text in code), set())
+    open_names = set().union(*(needed(source, text, source.folder.name) for text in code), set())
     known: set[str] = set()
     while open_names:
         module = open_names.pop()
         if module in known:
             continue
         known.add(module)
-        if module == f"{source.folder.name}.{_PAPERS}":
-            continue  # what its computed imports reach is counted where its function is called
-        text = source.modules[module].read_text(encoding="utf-8")
-        open_names |= _needed(source, text, source.package_of(module)) | _parents(source, module)
+        open_names |= source.needs(module)
     files = {source.modules[module] for module in known}
     return files | {data for path in files for data in _data_beside(source, path)}
 
@@ -109,33 +117,34 @@ def _telling(text: str) -> tuple[ast.AST, ...]:
     return tuple(node for node in ast.walk(_parsed(text)) if isinstance(node, kinds))
 
 
-def _needed(source: Source, text: str, package: str) -> set[str]:
+def needed(source: Source, text: str, package: str) -> set[str]:
+    """The modules that a piece of code in `package` may import by itself."""
     try:
         nodes = _telling(text)
     except SyntaxError:
         return source.below(source.folder.name)
-    needed: set[str] = set()
+    found: set[str] = set()
     for node in nodes:
         if isinstance(node, ast.Import):
-            needed |= set().union(*(_named(source, alias.name) for alias in node.names))
+            found |= set().union(*(_named(source, alias.name) for alias in node.names))
         elif isinstance(node, ast.ImportFrom):
             base = _absolute(node, package)
-            needed |= set().union(*(_named(source, f"{base}.{alias.name}") for alias in node.names))
+            found |= set().union(*(_named(source, f"{base}.{alias.name}") for alias in node.names))
             if any(alias.name == "*" for alias in node.names):
-                needed |= source.below(base)
+                found |= source.below(base)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            needed |= _named(source, node.value) if node.value in source.modules else set()
+            found |= _named(source, node.value) if node.value in source.modules else set()
         elif isinstance(node, ast.Call):
-            needed |= _called(source, node, package)
-    return needed
+            found |= _called(source, node, package)
+    return found
 
 
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
     function = call.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
     if name in _LAZY:
-        return source.below(package)
-    if name == "room":
+        return source.attached(package)
+    if name == "room" and (call.args or call.keywords):
         names = {str(node.value) for node in ast.walk(call) if isinstance(node, ast.Constant)}
         return source.rooms(names) if names else source.below(source.folder.name)
     if name not in _COMPUTED | _COMMANDS:
@@ -182,6 +191,8 @@ def _data_beside(source: Source, path: Path) -> set[Path]:
 
 @cache
 def _looks_for_files(text: str) -> bool:
+    if not any(name in text for name in _FILE_READERS):
+        return False
     tree = _parsed(text)
     names = {getattr(node, "id", None) or getattr(node, "attr", None) for node in ast.walk(tree)}
     imported = {

@@ -11,6 +11,7 @@ from pontryagin.errors import ArgumentTypeError, Infeasible
 from pontryagin.numerics.jit import compiled
 from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
+from pontryagin.orbit_correction.gauges.long_sums import gauge_rows
 from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.system.discrete import DiscreteSystem
 from pontryagin.validation import vectors
@@ -20,6 +21,12 @@ SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])
 
 COMPILE_FROM = 40
 """The compiled kernel is loaded when the number of states times that of steps exceeds this."""
+
+LONG = 1000
+"""From this number of steps on, sweeps by NumPy take about as long as the compiled kernel takes."""
+
+MANY = 4_000_000
+"""From this number of states times steps on, even long sums repay loading the compiled kernel."""
 
 FLAT = 1e-13
 """A set counts as flat along an axis if its width there, relative to the largest width, is below this.
@@ -117,7 +124,9 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     within = whitening @ targets.T
     _require_reachable(targets - within.T @ (axes * widths).T, x0)
     costates, results = np.empty(within.T.shape), np.empty((len(targets), 3))
-    run = compiled(gauge_stack, SIGNATURE, len(targets) * len(factors) > COMPILE_FROM)
+    work = len(targets) * len(factors)
+    by_numpy = len(factors) >= LONG and work < MANY
+    run = gauge_rows if by_numpy else compiled(gauge_stack, SIGNATURE, work > COMPILE_FROM)
     with np.errstate(all="ignore"):
         run(
             np.ascontiguousarray(whitening @ scaled),

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -66,24 +67,7 @@ class DiscreteSystem:
 
     def step(self, k: int) -> tuple[Array, Array]:
         """A(k) and the factor L(k) of the ellipsoid, L L' = H(k)^-1, both (n, n)."""
-        while len(self._steps) <= k:
-            index = len(self._steps)
-            if index and _one_matrix(self.A) and _one_matrix(self.H):
-                self._steps.append(self._steps[0])
-                continue
-            dynamics, shape = _matrix("A", self.A, index), _matrix("H", self.H, index)
-            if shape.shape != dynamics.shape:
-                raise ArgumentValueError(
-                    f"H({index}) must have shape {dynamics.shape} like A({index}), got {shape.shape}", "H"
-                )
-            if index and dynamics.shape != self._steps[0][0].shape:
-                takes = f"have shape {self._steps[0][0].shape} like A(0)"
-                raise ArgumentValueError(f"A({index}) must {takes}, got {dynamics.shape}", "A")
-            condition = np.linalg.cond(dynamics)
-            if condition > SINGULAR:
-                takes = f"be nonsingular, with a condition number up to {SINGULAR:g}"
-                raise ArgumentValueError(f"A({index}) must {takes}, got {condition:.3g}", "A")
-            self._steps.append((dynamics, _ellipsoid_factor(shape, index)))
+        self._check(k + 1)
         return self._steps[k]
 
     def factors(self, steps: int) -> Array:
@@ -91,53 +75,84 @@ class DiscreteSystem:
 
         The set X(N, 0) of (2) is the sum of the G_k B, Lemma 1, which are ellipsoids by Lemma 8.
         """
-        inverse, result = None, []
-        for k in range(steps):
-            dynamics, factor = self.step(k)
-            with np.errstate(all="ignore"):
-                inverse = np.linalg.inv(dynamics) if inverse is None else inverse @ np.linalg.inv(dynamics)
-                result.append(inverse @ factor)
-            if not np.isfinite(result[-1]).all():
-                raise ArgumentValueError(
-                    "A must have inverses of its products A(k) ... A(0) within the range of floating-point "
-                    f"numbers, got one beyond it at k = {k}",
-                    "A",
-                )
-        return np.array(result)
+        self._check(steps)
+        dynamics, ellipsoids = (np.array(rows) for rows in zip(*self._steps[:steps], strict=True))
+        with np.errstate(all="ignore"):
+            result = np.array([*accumulate(np.linalg.inv(dynamics), np.dot)]) @ ellipsoids
+        within = np.isfinite(result).all(axis=(1, 2))
+        if not within.all():
+            raise ArgumentValueError(
+                "A must have inverses of its products A(k) ... A(0) within the range of floating-point "
+                f"numbers, got one beyond it at k = {np.argmin(within)}",
+                "A",
+            )
+        return np.asarray(result)
+
+    def _check(self, count: int) -> None:
+        """Evaluate and check the first steps, as far as that was not done; all new ones together."""
+        start = len(self._steps)
+        if count <= start:
+            return
+        called = [(name, given) for name, given in (("A", self.A), ("H", self.H)) if callable(given)]
+        values: dict[str, list[Array]] = {name: [] for name, _ in called}
+        for k in range(start, count):
+            for name, given in called:
+                values[name].append(finite(f"{name}({k})", given(k), "an (n, n) matrix"))
+        first = self._steps[0][0].shape if self._steps else None
+        dynamics = _stack("A", values.get("A", self.A), start, count, first)
+        shapes = _stack("H", values.get("H", self.H), start, count, dynamics.shape[1:])
+        _require_nonsingular(dynamics, start)
+        stacks = (dynamics, _ellipsoid_factors(shapes, start))
+        rows = (np.broadcast_to(stack, (count - start, *stack.shape[1:])) for stack in stacks)
+        self._steps.extend(zip(*rows, strict=True))
 
 
-def _one_matrix(given: Matrices) -> bool:
-    """Whether the same matrix is given for all steps."""
-    return isinstance(given, np.ndarray) and given.ndim == 2
+def _stack(
+    name: str, given: list[Array] | Any, start: int, count: int, first: tuple[int, ...] | None
+) -> Array:
+    """The matrices of the steps from `start` to `count`, (steps, n, n); (1, n, n) if all are the same.
+
+    They must be square, of the shape ``first`` of A(0) if that is given, and of one shape.
+    """
+    if isinstance(given, np.ndarray):
+        if given.ndim == 3 and count > len(given):
+            short = f"for step {max(start, len(given))}, got {len(given)} matrices"
+            raise ArgumentValueError(f"{name} must hold a matrix {short}", name)
+        given = given[None] if given.ndim == 2 else given[start:count]
+    for k, matrix in enumerate(given, start):
+        if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.size:
+            raise ArgumentValueError(f"{name}({k}) must be an (n, n) matrix, got shape {matrix.shape}", name)
+        first = first or matrix.shape
+        if matrix.shape != first:
+            takes = f"have shape {first} like A({0 if name == 'A' else k})"
+            raise ArgumentValueError(f"{name}({k}) must {takes}, got {matrix.shape}", name)
+    return np.asarray(given)
 
 
-def _matrix(name: str, given: Any, k: int) -> Array:
-    """A(k) or H(k), checked to be square and finite."""
-    if callable(given):
-        matrix = finite(f"{name}({k})", given(k), "an (n, n) matrix")
-    elif given.ndim == 3 and k >= len(given):
-        raise ArgumentValueError(f"{name} must hold a matrix for step {k}, got {len(given)} matrices", name)
-    else:
-        matrix = given if given.ndim == 2 else given[k]
-    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.size:
-        raise ArgumentValueError(f"{name}({k}) must be an (n, n) matrix, got shape {matrix.shape}", name)
-    return matrix
+def _require_nonsingular(dynamics: Array, start: int) -> None:
+    """Raise if one of the matrices A(start), A(start + 1), ... is singular."""
+    conditions = np.linalg.cond(dynamics)
+    if (conditions > SINGULAR).any():
+        at = int(np.argmax(conditions > SINGULAR))
+        takes = f"be nonsingular, with a condition number up to {SINGULAR:g}"
+        raise ArgumentValueError(f"A({start + at}) must {takes}, got {conditions[at]:.3g}", "A")
 
 
-def _ellipsoid_factor(shape: Array, k: int) -> Array:
-    """L with L L' = H(k)^-1, from the eigenvalues of H(k)."""
-    if not np.allclose(shape, shape.T, rtol=1e-12, atol=0):
-        difference = np.abs(shape - shape.T).max()
-        raise ArgumentValueError(
-            f"H({k}) must be symmetric, got one that differs from its transpose by {difference:.3g}", "H"
-        )
-    values, axes = np.linalg.eigh(shape)
-    if values[0] <= 0:
-        raise ArgumentValueError(
-            f"H({k}) must be positive definite, got the least eigenvalue {values[0]:.3g}", "H"
-        )
-    if values[0] <= 1e-15 * values[-1]:
-        raise ArgumentValueError(
-            f"H({k}) must have a condition number below 1e15, got {values[-1] / values[0]:.3g}", "H"
-        )
-    return np.asarray(axes / np.sqrt(values))
+def _ellipsoid_factors(shapes: Array, start: int) -> Array:
+    """L(k) with L L' = H(k)^-1, from the eigenvalues of the matrices H(start), H(start + 1), ..."""
+    transposed = np.swapaxes(shapes, 1, 2)
+    differences = np.abs(shapes - transposed)
+    values, axes = np.linalg.eigh(shapes)
+    lopsided = np.asarray((differences > 1e-12 * np.abs(transposed)).any(axis=(1, 2)))
+    faults = lopsided | (values[:, 0] <= 1e-15 * values[:, -1]) | (values[:, 0] <= 0)
+    if faults.any():
+        at = int(np.argmax(faults))
+        least, largest = values[at, 0], values[at, -1]
+        if lopsided[at]:
+            reason = f"be symmetric, got one that differs from its transpose by {differences[at].max():.3g}"
+        elif least <= 0:
+            reason = f"be positive definite, got the least eigenvalue {least:.3g}"
+        else:
+            reason = f"have a condition number below 1e15, got {largest / least:.3g}"
+        raise ArgumentValueError(f"H({start + at}) must {reason}", "H")
+    return np.asarray(axes / np.sqrt(values)[:, None, :])
