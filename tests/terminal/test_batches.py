@@ -1,5 +1,6 @@
 """Batches: any number of rows in the same memory, nothing after an error, the rows done after Ctrl-C."""
 
+import contextlib
 import os
 import re
 import signal
@@ -12,6 +13,7 @@ import pytest
 from command_line import assert_refused, read_table, run, write_table
 from pontryagin import triple_integrator
 from pontryagin.io import rows
+from pontryagin.terminal import batches
 
 SOLVE = ("solve", "triple-integrator", "--norm", "2")
 HEADER = ("name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "tf")
@@ -139,6 +141,25 @@ class TestFaults:
         assert len(read_table((tmp_path / "out.csv").read_text())) == 5
 
 
+def interrupted(running):
+    """What a process printed after Ctrl-C, which is pressed again where the process is slow to answer."""
+    for _ in range(5):
+        running.send_signal(signal.SIGINT)
+        try:
+            return running.communicate(timeout=30)
+        except subprocess.TimeoutExpired:
+            continue
+    raise AssertionError("the process does not answer to Ctrl-C")
+
+
+def test_a_swallowed_interruption_is_still_known():
+    with batches._pressed() as pressed:
+        assert not pressed()
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        assert pressed()
+
+
 class TestInterruption:
     def test_the_rows_done_are_written(self, tmp_path, small_blocks, solved):
         table = write_table(tmp_path / "in.csv", HEADER, problems(9))
@@ -165,8 +186,7 @@ class TestInterruption:
             # What a pipe and its reader do not hold was read, so that blocks before it are solved.
             file.write(text)
             file.flush()
-            running.send_signal(signal.SIGINT)
-            printed, said = running.communicate(timeout=60)
+            printed, said = interrupted(running)
         assert running.returncode == 130
         done = int(re.fullmatch(r"Interrupted: the first (\d+) rows are done and written\n", said)[1])
         assert done % rows.BLOCK == 0 < done

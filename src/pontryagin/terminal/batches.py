@@ -8,8 +8,10 @@ import math
 import os
 import pickle
 import re
+import signal
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
@@ -131,7 +133,7 @@ def _solved(
 ) -> bool:
     """Put aside the answers of all blocks, or of those before an interruption; whether there was one."""
     try:
-        with bar.shown():
+        with _pressed() as pressed, bar.shown():
             total = _lines(path) if sys.stderr.isatty() else None
             for block in _read(path, blocks):
                 with _placed(block, spool.rows):
@@ -140,9 +142,33 @@ def _solved(
                 if proof is not None:
                     proofs.add(proof)
                 report("rows done", block.lines[-1], total)
+                if pressed():
+                    return True
     except KeyboardInterrupt:
         return True
     return False
+
+
+@contextmanager
+def _pressed() -> Iterator[Callable[[], bool]]:
+    """A function that tells whether Ctrl-C was pressed, even where the exception was swallowed on its way.
+
+    Python drops an exception that is raised in a destructor or in a callback from compiled code.
+    """
+    signals: list[int] = []
+
+    def note(number: int, frame: object) -> None:
+        signals.append(number)
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield lambda: bool(signals)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _read(path: Path, blocks: Iterator[Rows]) -> Iterator[Rows]:
