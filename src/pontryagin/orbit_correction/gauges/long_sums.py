@@ -103,7 +103,7 @@ def _newton(whole: LongSum, b: Array, psi: Array, smoothing: float) -> Array:
         if length < 1e-6:
             break
         psi = trial
-        polish -= close
+        polish -= int(close)
         if polish == 0:
             break
     return psi
