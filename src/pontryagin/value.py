@@ -1,6 +1,7 @@
 """Value classes: frozen dataclasses of arrays that compare, hash, pickle and copy by value."""
 
 import sys
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import cached_property, partial, wraps
@@ -74,9 +75,9 @@ class Packed:
         made.__dict__["_numbers"] = numbers
         return made
 
+    @abstractmethod
     def _unpacked(self, numbers: NDArray[np.float64]) -> dict[str, Any]:
         """The fields from the numbers, which are read-only."""
-        raise NotImplementedError
 
     if not TYPE_CHECKING:  # Type checkers would take any name for an attribute.
 
