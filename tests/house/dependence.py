@@ -63,16 +63,6 @@ class Project(Source):
             part.endswith(("_cache", "__pycache__", ".egg-info")) or ".partial" in part for part in parts
         )
 
-    @cached_property
-    def _known(self) -> dict[str, set[str]]:
-        return {}
-
-    def needs(self, module: str) -> set[str]:
-        """The modules that a module may import by itself."""
-        if module not in self._known:
-            self._known[module] = super().needs(module)
-        return self._known[module]
-
     def below(self, package: str) -> set[str]:
         """All modules of a package of ours; those of the whole project, where it is no single package."""
         place, _, rest = package.partition(".")

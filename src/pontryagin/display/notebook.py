@@ -84,25 +84,25 @@ def entry(label: str, entries: Iterable[Entry]) -> None:
             "entries",
         )
     for one in found:
-        one.check()
         _publish({"text/markdown": account(one)})
 
 
 def verdicts(entries: Iterable[Entry]) -> None:
     """Check entries of the ledger; display each as `entry` does, followed by the steps of its proof."""
     for one in entries:
-        steps = "\n".join(f"- {_text(step)}" for step in one.proof())
+        steps = "\n".join(f"- {_text(step)}" for step in one.checked_steps())
         _publish({"text/markdown": f"{account(one)}\n\nChecked here, step by step:\n\n{steps}"})
 
 
 def account(entry: Entry) -> str:
-    """An entry as Markdown: its printed and derived forms as formulas, then the remark."""
+    """A checked entry as Markdown: its printed and derived forms as formulas, then the remark."""
+    printed, derived = entry.checked_forms()
     parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
-    if entry.printed_latex:
-        parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
-    if entry.derived_latex:
+    if printed:
+        parts.append(f"Printed:\n\n$${printed}$$")
+    if derived:
         same = entry.verdict == "holds"
-        parts.append("Derived: the same." if same else f"Derived:\n\n$${entry.derived_latex}$$")
+        parts.append("Derived: the same." if same else f"Derived:\n\n$${derived}$$")
     if entry.remark:
         parts.append(_text(entry.remark))
     return "\n\n".join(parts)

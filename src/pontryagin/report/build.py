@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from pontryagin.io import files
-from pontryagin.report import assemble, front, player, progress, publish, recordings
+from pontryagin.report import assemble, front, player, progress, publish, recordings, result_keys
 from pontryagin.report.execute import CellFailure, Executed, execute_all
 from pontryagin.report.execute import publish as publish_figures
 from pontryagin.report.workspace import Workspace, alone
@@ -55,6 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def build(workspace: Workspace, stage: str, workers: int) -> None:
     """Take the steps up to `stage`, `workers` notebooks or recordings at a time."""
+    result_keys.hand_down(workspace)
     if stage != "recordings":
         executed = _notebooks(workspace, workers)
         changed = publish_figures(workspace, executed)

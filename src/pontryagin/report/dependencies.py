@@ -23,7 +23,7 @@ _LEDGER = ("ledger", "ledger.collection")
 """The modules that offer the function by which the claims of all papers are loaded."""
 _COLLECTED = "entries"
 """The name of that function."""
-_CLAIMS = "claims"
+CLAIMS = "claims"
 """The module of a paper that it loads."""
 _WHOLE = "*"
 """Stands for the package as an object, from which whatever is loaded can be taken."""
@@ -88,13 +88,22 @@ class Source:
         return set(offered.values()) or self.below(package)
 
     def needs(self, module: str) -> set[str]:
-        """The modules that a module may import by itself."""
+        """The modules that a module may import by itself; its text is read once."""
+        if module not in self._needs:
+            self._needs[module] = self._needed_by(module)
+        return self._needs[module]
+
+    @cached_property
+    def _needs(self) -> dict[str, set[str]]:
+        return {}
+
+    def _needed_by(self, module: str) -> set[str]:
         if module == f"{self.folder.name}.{_PAPERS}":
             return set()  # what its computed imports reach is counted where its function is called
         text = self.modules[module].read_text(encoding="utf-8")
         found = needed(self, text, self.package_of(module)) | _parents(self, module)
         offers = module in {f"{self.folder.name}.{name}" for name in _LEDGER}
-        return found - self.rooms({_CLAIMS}) if offers else found
+        return found - self.rooms({CLAIMS}) if offers else found
 
     def rooms(self, names: set[str]) -> set[str]:
         """The modules of these names in the papers' folders."""
@@ -170,7 +179,7 @@ def needed(source: Source, text: str, package: str) -> set[str]:
         nodes = _telling(text)
     except SyntaxError:
         return source.below(source.folder.name)
-    found = source.rooms({_CLAIMS}) if _asks_the_ledger(text) else set()
+    found = source.rooms({CLAIMS}) if _asks_the_ledger(text) else set()
     for node in nodes:
         if isinstance(node, ast.Import):
             found |= set().union(*(_imported(source, alias) for alias in node.names))
