@@ -8,7 +8,8 @@ import pytest
 from pontryagin import NotConverged
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.families import bounded, least_energy, least_time, priced
-from pontryagin.rendezvous.laps.transcription import RunningCost, square
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
+from pontryagin.rendezvous.laps.transcription import square
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost, hamiltonian
 from pontryagin.rendezvous.laps.start import least_energy_guess
-from pontryagin.rendezvous.laps.transcription import Path, RunningCost, extremal, hamiltonian, transcribed
+from pontryagin.rendezvous.laps.transcription import Path, extremal, transcribed
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.shooting import meet
@@ -47,7 +48,7 @@ def test_meeting_behind_the_craft_has_no_guess():
 def test_the_regularised_hamiltonian_vanishes_along_the_path():
     cost = COSTS["unbounded"]
     path = extremal(LAP, cost, DURATION, least_energy_guess(LAP, DURATION))
-    values = hamiltonian(cost, np.vstack([path.nodes, np.full(path.nodes.shape[1], path.price)]))
+    values = hamiltonian(cost, path.nodes, path.price).value
     assert np.abs(values).max() < 2e-3 * np.abs(path.nodes[6:]).max()
 
 

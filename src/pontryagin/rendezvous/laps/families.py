@@ -15,12 +15,12 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import TAU, Lap
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import least_energy_guess
 from pontryagin.rendezvous.laps.transcription import (
     FEWEST,
     NODES_PER_LAP,
     Path,
-    RunningCost,
     extremal,
     square,
 )

@@ -15,8 +15,9 @@ from pontryagin.numerics.continuation import Point, crossings, march
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.families import ITERATIONS, LEAST_ENERGY, least_energy
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import least_energy_guess
-from pontryagin.rendezvous.laps.transcription import Path, RunningCost, extremal, square
+from pontryagin.rendezvous.laps.transcription import Path, extremal, square
 
 DURATIONS = np.geomspace(0.5, 120.0, 60)
 """Durations of the guesses, in units of sqrt(p*^3/fM)."""

@@ -13,8 +13,9 @@ from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.families import END_SHARES
 from pontryagin.rendezvous.laps import families
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import free_transfers, price
-from pontryagin.rendezvous.laps.transcription import Path, RunningCost
+from pontryagin.rendezvous.laps.transcription import Path
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
