@@ -11,8 +11,8 @@ from pontryagin.report import assemble
 from pontryagin.report.execute import (
     CellFailure,
     UncountedImport,
+    attempt,
     execute,
-    execute_all,
     notebook_key,
     publish,
     read_notebook,
@@ -46,7 +46,7 @@ def key(checkout, path):
 def test_a_failing_cell_is_named_with_its_notebook_and_error(checkout):
     good = checkout.notebook("01-good", "# Good", "1 + 1")
     bad = checkout.notebook("02-bad", "# Bad", "x = 3", "x / 0")
-    results = execute_all(checkout.workspace, [good, bad], 2, lambda *_: None)
+    results = [attempt(checkout.workspace, path) for path in (good, bad)]
     assert results[0].name == "01-good"
     assert isinstance(results[1], CellFailure)
     assert "notebooks/02-bad.ipynb, cell 3 of 3: ZeroDivisionError: division by zero" in str(results[1])

@@ -11,7 +11,6 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -53,19 +52,12 @@ class Executed:
     fresh: bool
 
 
-def execute_all(
-    workspace: Workspace, paths: list[Path], workers: int, progress: Progress
-) -> list[Executed | CellFailure]:
-    """Execute notebooks, `workers` at a time; a failure is returned in its notebook's place."""
-
-    def one(path: Path) -> Executed | CellFailure:
-        try:
-            return execute(workspace, path, progress)
-        except CellFailure as failure:
-            return failure
-
-    with ThreadPoolExecutor(max_workers=workers) as pool:
-        return list(pool.map(one, paths))
+def attempt(workspace: Workspace, path: Path, progress: Progress = lambda *_: None) -> Executed | CellFailure:
+    """Execute a notebook as `execute` does; the failure of a cell is returned."""
+    try:
+        return execute(workspace, path, progress)
+    except CellFailure as failure:
+        return failure
 
 
 def execute(workspace: Workspace, path: Path, progress: Progress = lambda *_: None) -> Executed:
