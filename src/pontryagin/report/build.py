@@ -14,7 +14,7 @@ from rich.progress import Progress as Bars
 from rich.progress import TaskID
 
 from pontryagin.io import files
-from pontryagin.report import assemble, front, player, progress, publish, recordings, result_keys
+from pontryagin.report import assemble, front, player, progress, publish, recordings, result_keys, snapshot
 from pontryagin.report.execute import CellFailure, Executed, Progress, attempt
 from pontryagin.report.execute import publish as publish_figures
 from pontryagin.report.schedule import run_all
@@ -62,6 +62,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def build(workspace: Workspace, stage: str, workers: int) -> None:
     """Take the steps up to `stage`, `workers` notebooks or papers' recordings at a time."""
+    if snapshot.is_current(workspace, stage):
+        progress.step(stage, "nothing changed since the last build")
+        return
+    snapshot.forget(workspace)
+    named = snapshot.named_by_notebooks(workspace)
+    read = snapshot.inputs(workspace, named)
+    _make(workspace, stage, workers)
+    snapshot.remember(workspace, stage, read, named)
+
+
+def _make(workspace: Workspace, stage: str, workers: int) -> None:
     result_keys.hand_down(workspace)
     watch = progress.Stopwatch()
     with progress.bars() as bars:

@@ -109,9 +109,25 @@ def notebook_key(workspace: Workspace, notebook: NotebookNode) -> str:
 
 
 def _files_of(workspace: Workspace, notebook: NotebookNode) -> set[Path]:
-    plain = [_plain_python(cell.source) for cell in notebook.cells if cell.cell_type == "code"]
+    plain = plain_code(notebook)
     parts = dependencies.closure(dependencies.Source(workspace.source), plain)
-    return parts | _files_named_in(plain, workspace.root)
+    return parts | {path for path in places_named_in(plain, workspace.root) if path.is_file()}
+
+
+def plain_code(notebook: NotebookNode) -> list[str]:
+    """The notebook's cells of code as plain Python, without IPython's own syntax."""
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    return [TransformerManager().transform_cell(source) for source in code]
+
+
+def places_named_in(code: Iterable[str], root: Path) -> set[Path]:
+    """The places below `root` that strings in code name, from the folder of the notebooks."""
+    literals = {literal for text in code for literal in dependencies.literals(text)}
+    places = ((root / "notebooks" / literal).resolve() for literal in literals)
+    inside = (place for place in places if place.is_relative_to(root.resolve()))
+    return {root / place.relative_to(root.resolve()) for place in inside}
 
 
 def publish(workspace: Workspace, executed: Iterable[Executed]) -> int:
@@ -224,22 +240,6 @@ def _with_outputs(notebook: NotebookNode, kept: NotebookNode) -> NotebookNode:
         cell["outputs"], cell["execution_count"] = ran.outputs, ran.execution_count
     notebook.metadata = kept.metadata
     return notebook
-
-
-def _plain_python(source: str) -> str:
-    from IPython.core.inputtransformer2 import TransformerManager
-
-    return TransformerManager().transform_cell(source)
-
-
-def _files_named_in(code: Iterable[str], root: Path) -> set[Path]:
-    named = set()
-    for text in code:
-        for literal in dependencies.literals(text):
-            path = (root / "notebooks" / literal).resolve()
-            if path.is_file() and path.is_relative_to(root.resolve()):
-                named.add(root / path.relative_to(root.resolve()))
-    return named
 
 
 def _forget_old_entries(folder: Path) -> None:
