@@ -22,19 +22,23 @@ from pontryagin.rendezvous.laps.transcription import ROUGH, Cost, Path, RunningC
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
 SHARES = (1.0, 0.5, 0.2, 0.05)
 """Shares of the way to the target's orbit at which a guess is tried."""
-TRIES, GROWTH = 40, 2.0
+TRIES, GROWTH = 120, 2.0
 """How many steps of a continuation are tried, and the factor by which one grows after a success."""
-SHORTEST = 1 / 64
-"""Ratio of the length of a continuation to its least step."""
+FIRST, LARGEST, LEAST = 0.3, 0.5, 1 / 16
+"""First, largest and least step of a continuation whose end is wanted, in units of its length."""
 
 Posed = Callable[[float], tuple[Lap, Cost, float | None]]
 """A function of the parameter that returns a lap, a cost, and the duration, which is None if it is free."""
 
 
 def points(
-    posed: Posed, path: Path, begin: float, end: float, first: float, largest: float, tries: int = TRIES
+    posed: Posed, path: Path, begin: float, end: float, steps: tuple[float, float, float]
 ) -> Iterator[Point[None]]:
-    """Roughly corrected extremals from one value of the parameter towards another."""
+    """Roughly corrected extremals from one value of the parameter towards another.
+
+    The first step, the largest and the one below which the continuation ends are given.
+    """
+    first, largest, least = steps
 
     def at(parameter: float, guess: Array) -> Point[None]:
         found = extremal(*posed(parameter), Path.of(guess), ROUGH)
@@ -46,9 +50,9 @@ def points(
         end,
         first=first,
         largest=largest,
-        least=SHORTEST * min(abs(end - begin), 1.0),
+        least=least,
         growth=GROWTH,
-        tries=tries,
+        tries=TRIES,
     )
 
 
@@ -61,7 +65,7 @@ def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
         If the continuation ends before.
     """
     way = abs(end - begin)
-    *_, last = points(posed, path, begin, end, 0.3 * way, 0.5 * way)
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
     if last.parameter != end:
         raise NotConverged("the continuation on this lap ended", abs(end - last.parameter) / way)
     return Path.of(last.unknowns)

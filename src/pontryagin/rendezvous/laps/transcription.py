@@ -213,9 +213,7 @@ def _transfers(h: float, defects: Array, values: Array, slopes: Array, off_start
     return found
 
 
-def extremal(
-    lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY
-) -> Path:
+def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
     """The transcribed extremal that Newton's method reaches, with full steps that become shorter.
 
     Raises

@@ -85,7 +85,8 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
         found = [ladder.duration_of_thrust(guesses, share * setting.peak) for share in (1.0, *MEAN_THRUSTS)]
         return [duration for duration in found[1:] if duration < math.inf] if found[0] < most else []
     guesses = ladder.guesses_on(lap, most / setting.ratio)
-    return [duration for price, duration in ladder.minima(guesses, setting.ratio) if price < most]
+    minima = ladder.minima(guesses, setting.ratio, setting.peak)
+    return [duration for price, duration in minima if price < most]
 
 
 def on_lap(
@@ -117,20 +118,15 @@ def _transcribed(
     if setting.bang:
         yield from _of_least_time(lap, setting.peak, durations, log, most)
         return
-    limits = RunningCost(setting.ratio if setting.free else 0.0, 1.0, setting.peak)
+    cost = RunningCost(setting.ratio if setting.free else 0.0, 1.0, setting.peak)
     try:
-        if setting.duration is not None:
-            paths = [families.least_energy(lap, setting.duration)]
+        if setting.duration is None:
+            yield from ladder.Ladder(lap, cost).transfers(durations, most)
         else:
-            paths = ladder.free_transfers(lap, setting.ratio, durations, most)
+            path = families.least_energy(lap, setting.duration)
+            yield families.bounded(lap, path, cost, setting.duration)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")
-        return
-    for path in paths:
-        try:
-            yield families.bounded(lap, path, limits, setting.duration)
-        except NotConverged as reason:
-            log.given_up.append(f"lap {lap.laps}: {reason}")
 
 
 def _of_least_time(
