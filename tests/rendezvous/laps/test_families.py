@@ -8,9 +8,9 @@ import pytest
 from pontryagin import NotConverged
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.families import bounded, least_energy, least_time
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import duration_of_thrust, guesses_on
 from pontryagin.rendezvous.laps.ladder import energy as energy_of
-from pontryagin.rendezvous.laps.transcription import RunningCost
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import Ladder, duration_of_thrust, energy, guesses_on, minima
-from pontryagin.rendezvous.laps.transcription import RunningCost, square
+from pontryagin.rendezvous.laps.transcription import square
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.shooting import meet

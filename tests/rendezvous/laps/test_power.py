@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pontryagin.numerics.complex_step import derivative
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.power import SMOOTHING, PowerCost
-from pontryagin.rendezvous.laps.transcription import RunningCost
 
 PEAK, END = 0.1, 1.7
 SIZES = np.linspace(0.0, 3.0, 40) / PEAK
@@ -15,11 +15,13 @@ SIZES = np.linspace(0.0, 3.0, 40) / PEAK
 
 
 @pytest.mark.parametrize("theta", [0.5, 0.3, 0.1, 0.0])
-def test_slope_is_the_derivative_of_the_gain(theta):
+def test_slopes_are_derivatives_of_the_gain(theta):
     cost = PowerCost(theta, END, PEAK)
-    value, slope = derivative(lambda x: cost.gain(x)[0], SIZES**2)
-    assert cost.gain(SIZES**2)[0] == pytest.approx(value) and value[0] == pytest.approx(0, abs=1e-15)
-    assert cost.gain(SIZES**2)[1] == pytest.approx(slope)
+    gain = cost.gain(SIZES**2)
+    assert gain[0][0] == pytest.approx(0, abs=1e-15)
+    for order in (0, 1):
+        value, slope = derivative(lambda x, order=order: cost.gain(x)[order], SIZES**2)
+        assert gain[order] == pytest.approx(value) and gain[order + 1] == pytest.approx(slope, abs=1e-12)
 
 
 def test_the_square_of_the_thrust_is_the_energy():
@@ -27,13 +29,13 @@ def test_the_square_of_the_thrust_is_the_energy():
     power = PowerCost(0.5, END, PEAK)
     for one, other in zip(power.gain(SIZES**2), energy.gain(SIZES**2), strict=True):
         assert one == pytest.approx(other)
-    end_thrust = 2 / PEAK * power.gain(1 / PEAK**2)[1]
+    end_thrust = 2 / PEAK * power.gain(np.array(1 / PEAK**2))[1]
     assert end_thrust == pytest.approx(END * PEAK)
 
 
 def test_the_infinite_power_bounds_the_thrust():
-    gain, slope = PowerCost(0.0, END, PEAK).gain(SIZES**2)
-    least_time, _ = RunningCost(1.0, 0.0, PEAK).gain(SIZES[1:] ** 2)
+    gain, slope, _ = PowerCost(0.0, END, PEAK).gain(SIZES**2)
+    least_time, *_ = RunningCost(1.0, 0.0, PEAK).gain(SIZES[1:] ** 2)
     thrust = 2 * SIZES * slope
     assert np.abs(gain[1:] - least_time).max() <= SMOOTHING
     assert (thrust <= PEAK).all() and thrust[SIZES > 10 * SMOOTHING / PEAK] == pytest.approx(PEAK, rel=1e-2)
@@ -41,7 +43,7 @@ def test_the_infinite_power_bounds_the_thrust():
 
 @pytest.mark.parametrize("theta", [0.5, 0.3, 0.1])
 def test_thrust_grows_with_the_power_of_the_switching_function(theta):
-    _, slope = PowerCost(theta, END, PEAK).gain(np.array([1.0, 4.0]) / PEAK**2)
+    _, slope, _ = PowerCost(theta, END, PEAK).gain(np.array([1.0, 4.0]) / PEAK**2)
     thrust = 2 / PEAK * np.array([1.0, 2.0]) * slope
     assert thrust[1] / thrust[0] == pytest.approx(2 ** (theta / (1 - theta)), rel=2e-3)
     assert thrust[0] / PEAK == pytest.approx(END ** (theta / (1 - theta)), rel=2e-3)

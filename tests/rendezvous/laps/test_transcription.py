@@ -7,15 +7,9 @@ import pytest
 
 from pontryagin import NotConverged
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost, hamiltonian
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import (
-    Path,
-    RunningCost,
-    distance,
-    extremal,
-    hamiltonian,
-    transcribed,
-)
+from pontryagin.rendezvous.laps.transcription import Path, distance, extremal, transcribed
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.shooting import meet
@@ -85,7 +79,7 @@ def test_a_guess_that_is_too_far_off_is_not_converged():
 def test_the_regularised_hamiltonian_vanishes_along_the_path():
     cost = COSTS["unbounded"]
     path = extremal(LAP, cost, DURATION, guess())
-    values = hamiltonian(cost, np.vstack([path.nodes, np.full(path.nodes.shape[1], path.price)]))
+    values = hamiltonian(cost, path.nodes, path.price).value
     assert np.abs(values).max() < 2e-3 * np.abs(path.nodes[6:]).max()
 
 

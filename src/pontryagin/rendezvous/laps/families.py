@@ -15,9 +15,10 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
+from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
 from pontryagin.rendezvous.laps.power import PowerCost
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import ROUGH, Cost, Path, RunningCost, extremal
+from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal
 
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
 SHARES = (1.0, 0.5, 0.2, 0.05)

@@ -16,8 +16,9 @@ from pontryagin.numerics.continuation import Point, between
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.families import bounded, least_energy, points
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import ROUGH, Path, RunningCost, extremal, square
+from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, square
 
 DURATIONS = np.geomspace(0.7, 120.0, 40)
 """Durations of the guesses, in units of sqrt(p*^3/fM)."""
@@ -136,7 +137,7 @@ class Ladder:
 
     def _law(self, point: Point[None]) -> float:
         """S - alpha1 at the meeting."""
-        gain, _ = self.cost.gain(square(Path.of(point.unknowns).nodes[:, -1]))
+        gain, *_ = self.cost.gain(square(Path.of(point.unknowns).nodes[:, -1]))
         return float(gain) - self.cost.time_weight
 
     def _at(self, logarithm: float) -> tuple[Lap, RunningCost, float]:

@@ -7,7 +7,9 @@ least time. Costates are scaled such that p_max |n| = 1 at the meeting, for each
 
 from dataclasses import dataclass
 
-from pontryagin.rendezvous.laps.transcription import Inputs
+import numpy as np
+
+from pontryagin.arrays import Array
 
 SMOOTHING = 0.05
 """Values of p_max |n| above this are little changed; below it the thrust falls to 0 as n does."""
@@ -34,12 +36,14 @@ class PowerCost:
     @property
     def time_weight(self) -> float:
         """kappa, for which p_max |n| is 1 where the meeting's time is free."""
-        return float(self.gain(1 / self.peak**2)[0])
+        return float(self.gain(np.array(1 / self.peak**2))[0])
 
-    def gain(self, square: Inputs) -> tuple[Inputs, Inputs]:
-        """S and its derivative, as functions of |n|^2."""
+    def gain(self, square: Array) -> tuple[Array, Array, Array]:
+        """S, the largest (n, p) less what the thrust costs, with its first two derivatives in |n|^2."""
         power = 1 / (2 * (1 - self.theta))
         factor = (1 - self.theta) * self.end_thrust ** (2 * power - 1)
         smooth = self.peak**2 * square + SMOOTHING**2
         raised = factor * smooth**power
-        return raised - factor * SMOOTHING ** (2 * power), power * self.peak**2 * raised / smooth
+        slope = power * self.peak**2 * raised / smooth
+        bend = (power - 1) * self.peak**2 * slope / smooth
+        return raised - factor * SMOOTHING ** (2 * power), slope, bend

@@ -13,8 +13,9 @@ import numpy as np
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import Path, RunningCost
+from pontryagin.rendezvous.laps.transcription import Path
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.quadrature import energy
