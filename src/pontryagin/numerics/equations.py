@@ -10,13 +10,14 @@ import types
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import STEP, jacobian
+from pontryagin.numerics.tape import Recorded, Tape, call, lifted
 
 Values = Sequence[float] | Array
 """The values of parameters, (p,)."""
@@ -54,6 +55,10 @@ class Equations(ABC):
         """The system in heyoka's expressions, without its variational equations."""
 
     @abstractmethod
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
+        """The rates and the event functions on a tape, in its states, parameters and time."""
+
+    @abstractmethod
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
         """f, (n,)."""
 
@@ -87,6 +92,7 @@ class Arithmetic(NamedTuple):
 
 
 ON_ARRAYS = Arithmetic(lambda kernel: kernel, np.sqrt, np.tanh)
+ON_TAPE = Arithmetic(lifted, partial(call, "sqrt"), partial(call, "tanh"))
 
 
 def on_heyoka() -> Arithmetic:
@@ -154,6 +160,15 @@ class Kernel(Equations):
         rates = self.right_hand_side(of, hy.time, x, p)
         events = [g(of, hy.time, x, p) - self.slack for g in self.event_functions]
         return list(zip(x, rates, strict=True)), [x[i] for i in self.wrt], events
+
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
+        """See `Equations`."""
+        time = tape.record("time")
+        x = [tape.record("state", i) for i in range(len(self.names))]
+        p = [tape.record("parameter", i) for i in range(self.parameters)]
+        rates = self.right_hand_side(ON_TAPE, time, x, p)
+        events = [g(ON_TAPE, time, x, p) for g in self.event_functions]
+        return [tape.number(rate) for rate in rates], [tape.number(g) for g in events]
 
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
         """See `Equations`."""

@@ -20,6 +20,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.numerics.equations import Equations, Values
 from pontryagin.numerics.packages import installed
 from pontryagin.numerics.symbolic import Symbolic
+from pontryagin.numerics.trajectory import compiled
 
 Flow = Callable[..., Array]
 
@@ -268,43 +269,15 @@ class _RungeKutta(Integrator):
         longest: float,
         resume: bool,
     ) -> tuple[Array, Reached]:
-        from scipy.integrate import solve_ivp
-
+        most = STEPS
+        given = np.asarray(parameters, dtype=float)
         n = len(self.equations.identity)
-
-        def rate(t: float, flat: Array) -> Array:
-            if len(flat) == n:
-                return self.equations.rates(t, flat, parameters)
-            table = self.equations.variational(t, flat[:n], flat[n:].reshape(n, -1), parameters)
-            return np.concatenate([table[:, 0], table[:, 1:].ravel()])
-
-        with np.errstate(all="ignore"):
-            found = solve_ivp(
-                rate,
-                (begin, end),
-                whole if times is None else whole[:n],
-                "DOP853",
-                times,
-                events=[self._leaving(i, n, parameters) for i in range(self.equations.events)] or None,
-                max_step=longest,
-                rtol=self._tolerance,
-                atol=self._tolerance / 10,
-            )
-        if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
-            message = f"the Runge-Kutta integrator stopped before the end: {found.message}"
-            raise NotConverged(message, end - begin)
-        if found.status == 1:
-            instants, there = found.t_events or [], found.y_events or []
-            i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))
-            return found.y.T, Reached(float(instants[i][0]), there[i][0].copy(), i)
-        return found.y.T, Reached(end, found.y[:, -1].copy() if found.y.size else whole, None)
-
-    def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:
-        """Event function i for SciPy; only growth through zero ends an arc, not a zero at its beginning."""
-
-        def event(t: float, flat: Array) -> float:
-            return self.equations.event(i, t, flat[:n], parameters)
-
-        event.terminal = True  # type: ignore[attr-defined]
-        event.direction = 1.0  # type: ignore[attr-defined]
-        return event
+        grid = np.empty(0) if times is None else times
+        start = whole if times is None else whole[:n]
+        found = compiled(self.equations).follow(
+            start, begin, end, given, self._tolerance, longest, most, grid
+        )
+        if found.code > 1:
+            message = "the Runge-Kutta integrator stopped before the end"
+            raise NotConverged(message, float(end - found.time))
+        return found.rows, Reached(found.time, found.whole, found.event if found.event >= 0 else None)

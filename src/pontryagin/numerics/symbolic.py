@@ -11,6 +11,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.equations import Equations, HeyokaSystem, Number, Values
+from pontryagin.numerics.tape import Recorded, Tape, functions
 
 SMALL = 200
 """heyoka compiles right-hand sides with more operations than this as loops.
@@ -80,6 +81,27 @@ class Symbolic(Equations):
         pairs, table = heyoka_system(self.states, self.expressions, self.parameters, self.clock)
         events = [hy.from_sympy(with_floats(g), table) for g in self.event_functions]
         return pairs, [table[symbol] for symbol in self.wrt], events
+
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
+        """See `Equations`."""
+        import sympy as sp
+
+        everything = [sp.sympify(e) for e in (*self.expressions, *self.event_functions)]
+        used = {type(f).__name__ for e in everything for f in e.atoms(sp.core.function.Application)}
+        foreign = used - {*functions()}
+        if foreign:
+            raise ArgumentValueError(
+                f"expressions must hold functions that can be compiled, got {', '.join(sorted(foreign))}",
+                "expressions",
+            )
+        evaluate = sp.lambdify(self._arguments, everything, modules=[functions(), "math"], cse=True)
+        found = evaluate(
+            tape.record("time"),
+            *(tape.record("state", i) for i in range(len(self.states))),
+            *(tape.record("parameter", i) for i in range(len(self.parameters))),
+        )
+        numbers = [tape.number(number) for number in found]
+        return numbers[: len(self.states)], numbers[len(self.states) :]
 
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
         """See `Equations`."""
