@@ -24,11 +24,9 @@ from pontryagin.numerics.trajectory import compiled
 
 Flow = Callable[..., Array]
 
-TOLERANCE = 1e-15
+TOLERANCE = 1e-14
 ROUGH = 1e-10
 """Tolerance of trajectories that only give a guess, which is polished later with `TOLERANCE`."""
-LEAST_DOP853 = 1e-13
-"""Smallest relative tolerance that DOP853 is given."""
 STEPS = 100_000
 """Largest number of steps of one call, unless another limit is given."""
 
@@ -126,8 +124,12 @@ class Integrator(ABC):
         The equations that are integrated.
     """
 
-    def __init__(self, equations: Equations, tolerance: float) -> None:
-        self.equations, self._tolerance = equations, tolerance
+    def __init__(self, equations: Equations, tolerance: float, steps_per_unit: float) -> None:
+        self.equations, self._tolerance, self._per_unit = equations, tolerance, steps_per_unit
+
+    def _most(self, span: float) -> int:
+        """Largest number of steps of an arc."""
+        return STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + abs(span)))
 
     def run(
         self,
@@ -187,9 +189,9 @@ def integrator(
         heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this,
         since it then runs into a singularity.
     """
-    if has_heyoka() if taylor is None else taylor:
+    if taylor:
         return _Taylor(equations, tolerance, steps_per_unit)
-    return _RungeKutta(equations, max(tolerance, LEAST_DOP853))
+    return _RungeKutta(equations, tolerance, steps_per_unit)
 
 
 def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
@@ -216,8 +218,7 @@ def event_of(outcome: Any) -> int | None:
 
 class _Taylor(Integrator):
     def __init__(self, equations: Equations, tolerance: float, steps_per_unit: float) -> None:
-        super().__init__(equations, tolerance)
-        self._per_unit = steps_per_unit
+        super().__init__(equations, tolerance, steps_per_unit)
         self._own = threading.local()  # heyoka's object holds the trajectory that is being followed
 
     def _compiled(self, backwards: bool) -> Any:
@@ -244,7 +245,7 @@ class _Taylor(Integrator):
         taylor.time = begin
         taylor.state[:] = whole
         taylor.pars[:] = parameters[: len(taylor.pars)]
-        steps = STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + abs(end - begin)))
+        steps = self._most(end - begin)
         if times is None:
             outcome, states = taylor.propagate_until(end, max_delta_t=longest, max_steps=steps)[0], whole
         else:
@@ -269,7 +270,7 @@ class _RungeKutta(Integrator):
         longest: float,
         resume: bool,
     ) -> tuple[Array, Reached]:
-        most = STEPS
+        most = self._most(end - begin)
         given = np.asarray(parameters, dtype=float)
         n = len(self.equations.identity)
         grid = np.empty(0) if times is None else times

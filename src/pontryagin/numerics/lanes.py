@@ -18,8 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.equations import Equations
-from pontryagin.numerics.flow import LEAST_DOP853, STEPS, TOLERANCE, compiled_taylor, event_of, has_heyoka
+from pontryagin.numerics.flow import STEPS, TOLERANCE, compiled_taylor, event_of, has_heyoka
 from pontryagin.numerics.symbolic import Symbolic
+from pontryagin.numerics.trajectory import compiled
 
 Ends = Callable[..., tuple[Array, Array]]
 
@@ -198,7 +199,7 @@ def ends(
     """
     equations = Symbolic(tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt))
     use_taylor = has_heyoka() if taylor is None else taylor
-    run = _side_by_side(equations, tolerance) if use_taylor else _as_one_system(equations, tolerance)
+    run = _side_by_side(equations, tolerance) if use_taylor else _one_by_one(equations, tolerance)
 
     def carry(
         starts: ArrayLike, begin: ArrayLike, end: ArrayLike, values: ArrayLike = ()
@@ -250,31 +251,22 @@ def _side_by_side(equations: Symbolic, tolerance: float) -> Run:
 
 
 @functools.lru_cache(maxsize=64)
-def _as_one_system(equations: Symbolic, tolerance: float) -> Run:
-    """Integration by DOP853 of all trajectories as one system, in time as a share of each one's span."""
-    from scipy.integrate import solve_ivp
-
-    rtol = max(tolerance, LEAST_DOP853)
+def _one_by_one(equations: Symbolic, tolerance: float) -> Run:
+    """Integration of one trajectory after the other."""
+    (n, m), native = equations.identity.shape, compiled(equations)
 
     def run(start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
-        (count, n), span, identity = start.shape, end - begin, equations.identity
-
-        def rate(share: float, flat: Array) -> Array:
-            whole = flat.reshape(count, n, -1)
-            slopes = equations.variational(begin + share * span, whole[..., 0], whole[..., 1:], values)
-            flown: Array = (slopes * span[:, None, None]).ravel()
-            return flown
-
-        first = np.concatenate(
-            [start[..., None], np.broadcast_to(identity, (count, *identity.shape))], axis=-1
-        )
-        result = solve_ivp(rate, (0.0, 1.0), first.ravel(), method="DOP853", rtol=rtol, atol=rtol / 10)
-        if not result.success or not np.isfinite(result.y[:, -1]).all():
-            raise NotConverged(
-                f"the Runge-Kutta integrator stopped before the end: {result.message}",
-                float(1.0 - result.t[-1]),
+        count = len(start)
+        states, slopes = np.empty((count, n)), np.empty((count, n, m))
+        for i in range(count):
+            whole = np.append(start[i], equations.identity)
+            found = native.follow(
+                whole, begin[i], end[i], values[i], tolerance, math.inf, STEPS, np.empty(0)
             )
-        last = result.y[:, -1].reshape(count, n, -1)
-        return last[..., 0], last[..., 1:]
+            if found.code:
+                left = float(abs(end[i] - found.time))
+                raise NotConverged("the Runge-Kutta integrator stopped before the end", left)
+            states[i], slopes[i] = found.whole[:n], found.whole[n:].reshape(n, m)
+        return states, slopes
 
     return run

@@ -25,8 +25,8 @@ COUNT, COLUMNS = 12, 7
 WRT = (4, 5, 6, 7, 8, 9, BOUND)  # the initial values in which the states are differentiated
 HYSTERESIS = 1e-14
 """An unsaturated arc ends where `saturation` rises to this, a saturated arc where it falls to minus this."""
-STEPS_PER_UNIT = 100
-"""An arc that needs more Taylor steps than this per unit of time is taken to run into a singularity."""
+STEPS_PER_UNIT = 800
+"""An arc that needs more steps than this per unit of time is taken to run into a singularity."""
 ECCENTRICITY, CHART, SATURATED = 0, 1, 2
 """Indices of the parameters; the last is 1 in a saturated lane and 0 in an unsaturated one."""
 

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.flow import has_heyoka
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.arcs import (
     CHART,
@@ -72,9 +71,8 @@ def fly_all(
     taylor: bool | None = None,
 ) -> Flights:
     """Integrate the extremals with the initial costates (k, 6) over the durations, (k,) or one for all."""
-    use_taylor = has_heyoka() if taylor is None else taylor
     spans = np.broadcast_to(np.asarray(durations, dtype=float), (len(costates),))
-    run = _side_by_side if use_taylor else _one_by_one
+    run = _side_by_side if taylor else _one_by_one
     return run(scaled, np.array(costates), spans, peak, bang, slopes)
 
 
