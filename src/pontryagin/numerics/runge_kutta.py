@@ -90,7 +90,7 @@ def error(
     whole = fifth + 0.01 * third
     if whole == 0.0:
         return 0.0
-    return abs(h) * fifth / (whole * counted) ** 0.5
+    return float(abs(h) * fifth / (whole * counted) ** 0.5)
 
 
 def first_step(
@@ -123,7 +123,7 @@ def first_step(
         bends += bend * bend
     largest = max(slopes, (bends / counted) ** 0.5 / h)
     other = max(1e-6, 1e-3 * h) if largest <= 1e-15 else (0.01 / largest) ** 0.125
-    return min(100.0 * h, other, abs(span))
+    return float(min(100.0 * h, other, abs(span)))
 
 
 def summit(before: float, rising: float, after: float, falling: float) -> float:
