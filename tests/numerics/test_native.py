@@ -235,6 +235,14 @@ def test_a_damaged_file_is_made_anew(folder, damage):
     assert object_code.intact(path)
 
 
+def test_a_file_that_others_may_write_is_not_opened(folder):
+    assert fresh()._start()
+    (path,) = folder.iterdir()
+    assert object_code.intact(path)
+    path.chmod(0o722)
+    assert not object_code.intact(path) and not fresh()._start(quick=True)
+
+
 def test_what_is_in_the_way_is_left_alone(folder):
     solver = fresh()
     for suffix in (".so", ".o"):

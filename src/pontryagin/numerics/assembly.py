@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from pontryagin.numerics.tape import FUNCTIONS, Recorded, Tape, operands
 
 BINARY = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
-INTRINSIC = ("sqrt", "sin", "cos", "exp", "log", "pow")
+INTRINSIC = ("sqrt", "sin", "cos", "exp", "log", "pow", "fabs", "copysign")
 """Functions that LLVM knows; the others are the C library's."""
-TWO = ("pow", "atan2")
+TWO = ("pow", "atan2", "copysign")
 """Functions of two numbers."""
 
 

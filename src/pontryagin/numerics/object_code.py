@@ -1,10 +1,10 @@
 """Object code on disk: made by LLVM once per machine, opened by later processes in less than a millisecond.
 
-Where the machine has a linker, a file is a shared library, which the system opens. Elsewhere llvmlite loads the
-object, which costs 70 ms of a process, mostly to import llvmlite. Files lie in the user's cache folder under a
-hash of all that they are made from. A process writes beside a file and then puts it in place, so that no other
-one sees a part of it, and a file that is damaged is made anew. What is opened is run: only files are opened
-that belong to the user, or to the superuser, and that nobody else may write.
+Where the machine has a linker, a file is a shared library, which the system opens. Elsewhere llvmlite loads
+the object, which costs 70 ms of a process, mostly to import llvmlite. Files lie in the user's cache folder
+under a hash of all that they are made from. A process writes beside a file and then puts it in place, so that
+no other one sees a part of it, and a file that is damaged is made anew. What is opened is run: only files are
+opened that belong to the user, or to the superuser, and that nobody else may write.
 """
 
 import ctypes

@@ -1,10 +1,10 @@
-"""Adaptive integration by the Runge-Kutta method of order 8 of Dormand and Prince, up to an event, as plain source.
+"""Adaptive integration by the Runge-Kutta method of order 8 of Dormand and Prince, up to an event.
 
-`follow` is the whole loop. It becomes native code once per machine and calls native right-hand sides by their
-addresses; the same source runs on NumPy arrays and Python functions. The step sizes are those of DOP853: Hairer,
-Norsett & Wanner, Solving Ordinary Differential Equations I, sections II.4 and II.10. Between the ends of a
-step, at an event or at a time of the user's, the state is found by a shorter step from the same beginning,
-which is as accurate as the step itself and needs no interpolant.
+`follow` is the whole loop, as plain source. It becomes native code once per machine and calls native
+right-hand sides by their addresses; the same source runs on NumPy arrays and Python functions. The step sizes
+are those of DOP853: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, sections II.4 and
+II.10. Inside a step, at an event or at a time of the user's, the state is found by a shorter step from the
+same beginning, which is as accurate as the step itself and needs no interpolant.
 """
 
 from math import inf
@@ -113,7 +113,7 @@ def first_step(
         slopes += (k[i] / allowed) * (k[i] / allowed)
     states, slopes = (states / counted) ** 0.5, (slopes / counted) ** 0.5
     h = 1e-6 if states < 1e-5 or slopes < 1e-5 else 0.01 * states / slopes
-    h = min(h, abs(span))
+    h = min(max(h, 1e-8 * abs(span)), abs(span))
     signed = h if span > 0 else -h
     for i in range(size):
         new[i] = y[i] + signed * k[i]
@@ -131,7 +131,7 @@ def summit(before: float, rising: float, after: float, falling: float) -> float:
     a = 3.0 * (rising + falling) - 6.0 * (after - before)
     b = 6.0 * (after - before) - 4.0 * rising - 2.0 * falling
     root = max(b * b - 4.0 * a * rising, 0.0) ** 0.5
-    return 2.0 * rising / (root - b)
+    return float(2.0 * rising / (root - b))
 
 
 def locate(
@@ -225,6 +225,7 @@ def earliest(
 
 def follow(
     rates: Function,
+    plain: Function,
     guards: Function,
     events: int,
     size: int,
@@ -240,6 +241,7 @@ def follow(
     states: int,
     rows: Numbers,
     k: Numbers,
+    inner: Numbers,
     table: Numbers,
     new: Numbers,
     trial: Numbers,
@@ -250,8 +252,9 @@ def follow(
 
     Parameters
     ----------
-    rates, guards : function
-        The rates of all numbers in y; the event functions and their slopes along the trajectory.
+    rates, plain, guards : function
+        The rates of all numbers in y; of the first ``states`` numbers; the event functions and their slopes
+        along the trajectory.
     events, size, counted : int
         Number of event functions; of numbers in y; of those among them that are not there to fill a row.
     y : (size,) numbers
@@ -264,8 +267,9 @@ def follow(
         Largest number of steps.
     times, samples, states, rows : (samples,) numbers, int, int, (samples, states) numbers
         The times at which the first ``states`` numbers of the state are kept in ``rows``.
-    k, table, new, trial, values : numbers
-        Room for 13 stages; the coefficients; room for two states and for 6 ``events``.
+    k, inner, table, new, trial, values : numbers
+        Room for 13 stages of the state and of its first numbers; the coefficients; room for two states and
+        for 6 ``events``.
     report : (4,) numbers
         The time reached, the number of steps, the event, the number of rows.
 
@@ -314,20 +318,27 @@ def follow(
             event, share = earliest(rates, guards, events, size, t, h, y, p, k, table, trial, values, first)
             if event >= 0:
                 reached = t + share * h
+        if event >= 0:
+            step(rates, size, t, share * h, y, p, k, table, trial)
+            for i in range(size):
+                new[i] = trial[i]
+        for i in range(states):
+            inner[i] = k[i]
         while done < samples and (times[done] - reached) * sense <= 0.0:
-            step(rates, size, t, times[done] - t, y, p, k, table, trial)
+            if times[done] == reached:
+                for i in range(states):
+                    trial[i] = new[i]
+            else:
+                step(plain, states, t, times[done] - t, y, p, inner, table, trial)
             for i in range(states):
                 rows[done * states + i] = trial[i]
             done += 1
-        if event >= 0:
-            step(rates, size, t, reached - t, y, p, k, table, trial)
-            for i in range(size):
-                y[i] = trial[i]
-            t, outcome = reached, EVENT
-            break
         for i in range(size):
             y[i] = new[i]
             k[i] = k[STAGES * size + i]
+        if event >= 0:
+            t, outcome = reached, EVENT
+            break
         for i in range(2 * events):
             values[i] = values[4 * events + i]
         t, first = reached, False

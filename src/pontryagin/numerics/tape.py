@@ -139,6 +139,10 @@ class Recorded:
     def __pos__(self) -> "Recorded":
         return self
 
+    def __abs__(self) -> "Recorded":
+        result: Recorded = call("fabs", self)
+        return result
+
     def __pow__(self, exponent: Operand) -> "Recorded":
         power = exponent.constant if isinstance(exponent, Recorded) else float(exponent)
         if power is None or abs(power) > LARGEST_POWER or (2 * power) % 1:
@@ -208,6 +212,8 @@ SLOPES: dict[str, Slopes] = {
     "asinh": lambda a, y: (1.0 / call("sqrt", a * a + 1.0),),
     "acosh": lambda a, y: (1.0 / call("sqrt", a * a - 1.0),),
     "atanh": lambda a, y: (1.0 / (1.0 - a * a),),
+    "fabs": lambda a, y: (call("copysign", 1.0, a),),
+    "copysign": lambda a, b, y: (call("copysign", 1.0, a) * call("copysign", 1.0, b), 0.0),
     "erf": lambda a, y: (2.0 / math.sqrt(math.pi) * call("exp", -(a * a)),),
     "erfc": lambda a, y: (-2.0 / math.sqrt(math.pi) * call("exp", -(a * a)),),
 }

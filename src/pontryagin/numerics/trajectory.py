@@ -1,14 +1,15 @@
 """Native code that integrates one system of equations: its right-hand sides and the loop around them.
 
-The right-hand sides are recorded on a `Tape` and compiled by LLVM in some 50 ms, the loop of `runge_kutta` by
-Numba in some seconds. Both happen once per machine: `object_code` keeps what is made, and later processes open
-it in less than a millisecond, without Numba.
+The right-hand sides are recorded on a `Tape` and compiled by LLVM in some 50 ms, the loop of `runge_kutta`
+by Numba in some seconds. Both happen once per machine: `object_code` keeps what is made, and later processes
+open it in less than a millisecond, without Numba.
 """
 
 import ctypes
 import threading
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -60,8 +61,8 @@ class Compiled:
     Attributes
     ----------
     rates, directions, guards : int
-        Addresses of the rates of n states, of the same with those of m derivatives, and of the event functions
-        with their slopes along the trajectory.
+        Addresses of the rates of n states, of the same with those of m derivatives, and of the event
+        functions with their slopes along the trajectory.
     states, columns, width, events : int
         n, m, numbers that a row of derivatives has room for, and how many event functions there are.
     code : object
@@ -92,12 +93,10 @@ class Compiled:
         n, moved = self.states, len(whole) > self.states
         size = n * (1 + self.width) if moved else n
         counted, events, samples = len(whole), self.events, len(times)
-        lengths = (size, 13 * size, size, size, 6 * events, 4, samples, samples * n, len(parameters))
+        lengths = (size, 13 * size, 12 * n, size, size, 6 * events, 4, samples, samples * n, len(parameters))
         places = np.cumsum((0, *lengths))
         room = np.zeros(places[-1])
-        y, _, _, _, _, report, grid, rows, given = (
-            room[a:b] for a, b in zip(places[:-1], places[1:], strict=True)
-        )
+        y, _, _, _, _, _, report, grid, rows, given = (room[a:b] for a, b in pairwise(places))
         y[:n], report[0], grid[:], given[:] = whole[:n], begin, times, parameters
         if moved:
             table = y[n:].reshape(n, self.width)[:, : self.columns]
@@ -106,26 +105,25 @@ class Compiled:
         at = [base + 8 * int(place) for place in places]
         code = _loop().follow(
             self.directions if moved else self.rates,
+            self.rates,
             self.guards,
             events,
             size,
             counted,
             at[0],
-            at[8],
+            at[9],
             end,
             longest,
             tolerance,
             most,
-            at[6],
+            at[7],
             samples,
             n,
-            at[7],
+            at[8],
             at[1],
-            _TABLE.ctypes.data,
             at[2],
-            at[3],
-            at[4],
-            at[5],
+            _TABLE.ctypes.data,
+            *at[3:7],
         )
         reached = np.concatenate([y[:n], table.ravel()]) if moved else y.copy()
         time, steps, event, done = report.tolist()
@@ -173,7 +171,7 @@ def right_hand_sides(equations: Equations) -> str:
 
 
 def table() -> Array:
-    """The coefficients in the order of `runge_kutta`: c, the rows of A, b, and both estimates of the error."""
+    """The coefficients in the order of `runge_kutta`: c, the rows of A, b, both estimates of the error."""
     rows = np.zeros((len(dop853.STAGES) + 1, len(dop853.STAGES)))
     for row, weights in zip(rows, (*dop853.STAGES, dop853.STEP), strict=True):
         row[list(weights)] = list(weights.values())
@@ -202,12 +200,12 @@ def _loop() -> _Loop:
     with _LOCK:
         opened = object_code.kept(path, ["follow"]) or _made_loop(closure, path)
     whole, real, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
-    kinds = {"i64": whole, "double": real, "ptr": place}
+    kinds: dict[str, Any] = {"i64": whole, "double": real, "ptr": place}
     kind = ctypes.CFUNCTYPE(whole, *(kinds[name] for name in ARGUMENTS))
     return _Loop(kind(opened.addresses[0]), opened)
 
 
-ARGUMENTS = (*["i64"] * 5, *["ptr"] * 2, *["double"] * 3, "i64", "ptr", *["i64"] * 2, *["ptr"] * 7)
+ARGUMENTS = (*["i64"] * 6, *["ptr"] * 2, *["double"] * 3, "i64", "ptr", *["i64"] * 2, *["ptr"] * 8)
 """The types of the arguments of `runge_kutta.follow`; functions are given by their addresses."""
 
 
@@ -215,7 +213,8 @@ def _made_loop(closure: Any, path: Any) -> Opened:
     """The loop, compiled by Numba."""
     from numba import types
 
-    numbers = types.CPointer(types.float64)
+    pointer: Any = types.CPointer
+    numbers = pointer(types.float64)
     kinds = {"i64": types.int64, "double": types.float64, "ptr": numbers}
     signature = types.int64(*(kinds[name] for name in ARGUMENTS))
     name, text = compiled_text(closure, signature, {"evaluate": _by_address()})
@@ -239,7 +238,7 @@ def _by_address() -> Any:
     from numba import types
     from numba.extending import intrinsic
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def evaluate(
         context: Any, function: Any, t: Any, x: Any, x_at: Any, p: Any, out: Any, out_at: Any
     ) -> Any:

@@ -109,9 +109,9 @@ def equations(mode: Mode) -> Kernel:
 
 
 @functools.cache
-def arc(mode: Mode, taylor: bool | None = None, rough: bool = False) -> Integrator:
+def arc(mode: Mode, rough: bool = False) -> Integrator:
     """The integrator of a mode."""
-    return integrator(equations(mode), taylor, ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)
+    return integrator(equations(mode), ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)
 
 
 def longest_step(mode: Mode, constants: Constants) -> float:
