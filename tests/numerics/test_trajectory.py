@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import DOP853
 
 from pontryagin.errors import NotConverged
-from pontryagin.numerics import dop853, object_code, runge_kutta, trajectory
+from pontryagin.numerics import arc_loop, dop853, object_code, runge_kutta, trajectory
 from pontryagin.numerics.equations import Kernel
 from pontryagin.numerics.flow import integrator
 from pontryagin.numerics.symbolic import Symbolic
@@ -54,10 +54,10 @@ def test_the_native_loop_computes_what_its_source_does():
 
     y, report, rows = whole.copy(), np.zeros(4), np.zeros(6)
     room = [np.zeros(6 * 13), np.zeros(2 * 12), trajectory.table(), *np.zeros((2, 6)), np.zeros(6), report]
-    code = runge_kutta.follow(
+    code = arc_loop.follow(
         rates, plain, guards, 1, 6, 6, y, np.array([1.5]), 3.0, 0.3, 1e-10, 1000, grid, 3, 2, rows, *room
     )
-    assert code == found.code == runge_kutta.EVENT
+    assert code == found.code == arc_loop.EVENT
     assert (report[1], report[2], report[3]) == (found.steps, found.event, len(found.rows))
     assert_allclose(report[0], found.time, rtol=1e-14)
     assert_allclose(y, found.whole, rtol=1e-13)

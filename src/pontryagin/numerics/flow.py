@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.arc_loop import EVENT
 from pontryagin.numerics.equations import Equations, Values
-from pontryagin.numerics.runge_kutta import EVENT
 from pontryagin.numerics.symbolic import Symbolic
 from pontryagin.numerics.trajectory import compiled
 

@@ -1,8 +1,8 @@
 """Native code that integrates one system of equations: its right-hand sides and the loop around them.
 
-The right-hand sides are recorded on a `Tape` and compiled by LLVM in some 50 ms, the loop of `runge_kutta`
-by Numba in some seconds. Both happen once per machine: `object_code` keeps what is made, and later processes
-open it in less than a millisecond, without Numba.
+The right-hand sides are recorded on a `Tape` and compiled by LLVM in some 50 ms, `arc_loop` by Numba in some
+seconds. Both happen once per machine: `object_code` keeps what is made, and later processes open it in less
+than a millisecond, without Numba.
 """
 
 import ctypes
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.numerics import assembly, dop853, object_code, runge_kutta
+from pontryagin.numerics import arc_loop, assembly, dop853, object_code
 from pontryagin.numerics.closure import closure_of
 from pontryagin.numerics.equations import Equations
 from pontryagin.numerics.native import compiled_text
@@ -27,13 +27,13 @@ _LOCK = threading.Lock()
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ArcEnd:
     """How an arc ended.
 
     Attributes
     ----------
     code : int
-        0 at the end, otherwise `EVENT`, `SHORT` or `MANY` of `runge_kutta`.
+        0 at the end, otherwise `EVENT`, `SHORT` or `MANY` of `arc_loop`.
     time : float
         The time reached.
     whole : array
@@ -88,8 +88,8 @@ class Compiled:
         longest: float,
         most: int,
         times: Array,
-    ) -> Outcome:
-        """Integrate to the end or to an event; see `runge_kutta.follow`."""
+    ) -> ArcEnd:
+        """Integrate to the end or to an event; see `arc_loop.follow`."""
         n, moved = self.states, len(whole) > self.states
         size = n * (1 + self.width) if moved else n
         counted, events, samples = len(whole), self.events, len(times)
@@ -127,7 +127,7 @@ class Compiled:
         )
         reached = np.concatenate([y[:n], table.ravel()]) if moved else y.copy()
         time, steps, event, done = report.tolist()
-        return Outcome(
+        return ArcEnd(
             code, time, reached, int(event), int(steps), rows.reshape(samples, n)[: int(done)].copy()
         )
 
@@ -186,7 +186,7 @@ _TABLE = table()
 
 @dataclass(frozen=True)
 class _Loop:
-    """`runge_kutta.follow` in native code."""
+    """`arc_loop.follow` in native code."""
 
     follow: Any
     code: object
@@ -195,7 +195,7 @@ class _Loop:
 @cache
 def _loop() -> _Loop:
     """The loop, opened or made."""
-    closure = closure_of(runge_kutta.follow)
+    closure = closure_of(arc_loop.follow)
     path = object_code.kept_path(closure.identity, object_code.instructions())
     with _LOCK:
         opened = object_code.kept(path, ["follow"]) or _made_loop(closure, path)
@@ -206,7 +206,7 @@ def _loop() -> _Loop:
 
 
 ARGUMENTS = (*["i64"] * 6, *["ptr"] * 2, *["double"] * 3, "i64", "ptr", *["i64"] * 2, *["ptr"] * 8)
-"""The types of the arguments of `runge_kutta.follow`; functions are given by their addresses."""
+"""The types of the arguments of `arc_loop.follow`; functions are given by their addresses."""
 
 
 def _made_loop(closure: Any, path: Any) -> Opened:
