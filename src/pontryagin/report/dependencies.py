@@ -148,6 +148,11 @@ def reached(source: Source, modules: Iterable[str]) -> set[Path]:
     return files | {data for path in files for data in _data_beside(source, path)}
 
 
+def uncounted(source: Source, loaded: Iterable[str], counted: set[Path]) -> list[str]:
+    """Which of the modules that a process has loaded, by name, are not among the files that were counted."""
+    return [name for name in loaded if name in source.modules and source.modules[name] not in counted]
+
+
 def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
     """A key that changes when any part does; a path counts with its place below `root` and its content."""
     state = hashlib.sha256()

@@ -160,9 +160,8 @@ def _run_into(
 
 
 def _check_counted(workspace: Workspace, path: Path, notebook: NotebookNode, loaded: list[str]) -> None:
-    modules = dependencies.Source(workspace.source).modules
-    known = _files_of(workspace, notebook)
-    missing = [name for name in loaded if name in modules and modules[name] not in known]
+    source = dependencies.Source(workspace.source)
+    missing = dependencies.uncounted(source, loaded, _files_of(workspace, notebook))
     if missing:
         raise UncountedImport(
             f"notebooks/{path.name} loads {', '.join(missing)}, but no import that can be followed leads "
