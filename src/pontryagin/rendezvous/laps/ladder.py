@@ -152,7 +152,7 @@ class Ladder:
     def _along(self, start: Path, end: float, most: float, reached: list[float]) -> Iterator[Point[None]]:
         """Points of the curve in one direction, while they cost little; their durations are recorded."""
         begin = math.log(start.duration)
-        for point in points(self._at, start, begin, begin + end, STEPS):
+        for point in points(lambda x, _: self._at(x), start, begin, begin + end, STEPS):
             yield point
             path = Path.of(point.unknowns)
             reached.append(path.duration)

@@ -27,7 +27,7 @@ WORSE = 2.0
 """Transfers that cost more than this many times the best extremal are not continued."""
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
-MEAN_THRUSTS = (0.7, 0.9, 0.8, 1.0, 0.6)
+MEAN_THRUSTS = (1.0, 0.7, 0.9, 0.8, 0.6)
 """Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
 LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
