@@ -44,7 +44,7 @@ def guesses_on(lap: Lap, needed: Callable[[Guesses], float], limit: float = math
     """Guesses over longer and longer durations, until the longest that is needed or the limit is reached."""
     for horizon in HORIZONS:
         guesses = least_energy_guesses(lap, DURATIONS[min(horizon, limit) >= DURATIONS], per_lap=COARSE)
-        if guesses.durations.size and min(limit, needed(guesses)) <= horizon:
+        if horizon >= limit or (guesses.durations.size and needed(guesses) <= horizon):
             break
     return guesses
 
