@@ -95,7 +95,9 @@ def members(problem: Shooting, theta: Array, guess: Array, iterations: int = ITE
         def jacobians(w: Array, some: NDArray[np.intp]) -> Array:
             return problem.slopes(theta[rows[some]], w).residual_w
 
-        return _Conditions(w, _residuals(lambda: problem.shoot(theta[rows], w).residual, w.shape), jacobians)
+        return _Conditions(
+            w, _residuals(lambda: _shoot(problem, theta[rows], w).residual, w.shape), jacobians
+        )
 
     found = newton_stack(
         conditions, guess, tolerance=CLOSE, iterations=iterations, halvings=4, decrease=0.25, size=_largest
@@ -106,7 +108,7 @@ def members(problem: Shooting, theta: Array, guess: Array, iterations: int = ITE
         )
     moved = not np.array_equal(found.unknowns, guess)
     slopes = problem.slopes(theta, found.unknowns) if moved else first
-    return _members(problem.shoot(theta, found.unknowns), slopes.matrix)
+    return _members(_shoot(problem, theta, found.unknowns), slopes.matrix)
 
 
 def _members(shot: Shot, matrix: Array) -> MemberTable:
@@ -126,7 +128,7 @@ def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[f
     """
 
     def missing(z: Array) -> Array:
-        shot = problem.shoot(z[:, -1], z[:, :-1])
+        shot = problem.shoot(z[:, -1], z[:, :-1], together=False)
         return np.column_stack([shot.residual, shot.hamiltonian / problem.price])
 
     def jacobians(z: Array, _: NDArray[np.intp]) -> Array:
@@ -157,6 +159,10 @@ def _residuals(evaluate: Callable[[], Array], shape: tuple[int, ...]) -> Array:
         return np.full(shape, np.nan)
 
 
+def _shoot(problem: Shooting, theta: Array, w: Array) -> Shot:
+    return problem.shoot(theta, w, together=len(theta) > 1)
+
+
 def _largest(_: NDArray[np.intp], __: Array, residuals: Array) -> Array:
     return np.asarray(np.abs(residuals).max(axis=1))
 
@@ -170,13 +176,13 @@ def chord(problem: Shooting, theta: Array, w: Array, derivatives: Array) -> Memb
 def close_chord(problem: Shooting, theta: Array, w: Array, derivatives: Array) -> MemberTable | None:
     """Members by Broyden's method from a guess of them and of their derivatives; None where it is slow."""
     jacobians = derivatives[:, :-1, :-1]
-    shot = problem.shoot(theta, w)
+    shot = _shoot(problem, theta, w)
     for _ in range(CHORDS):
         if (shot.error <= CLOSE).all():
             return _members(shot, problem.slopes(theta, w).matrix)
         step = solved(jacobians, -shot.residual)
         w, before = w + step, shot
-        shot = problem.shoot(theta, w)
+        shot = _shoot(problem, theta, w)
         if not (shot.error <= np.maximum(0.3 * before.error, CLOSE)).all():
             return None
         jacobians = updated(jacobians, step, shot.residual)

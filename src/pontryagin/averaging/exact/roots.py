@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import arrivals, fixed_ending
-from pontryagin.averaging.exact.certificate import ExactCertificates
+from pontryagin.averaging.exact.certificate import certificate
 from pontryagin.averaging.exact.extremal import Extremal, Extremals
 from pontryagin.averaging.exact.family import Family, family
 from pontryagin.averaging.exact.members import nearby_extremal, updated
@@ -71,7 +71,6 @@ def extremals(
     problem = shooting(reference, epsilon, start)
     guess = np.concatenate([reference.costate([0.0])[0], np.atleast_1d(reference.multipliers)])
     traced, found = _found(problem, end, guess)
-    certificates = ExactCertificates(problem, found.shot)
     starts = problem.starts(found.shot.unknowns)
     items = [
         Extremal(
@@ -85,7 +84,7 @@ def extremals(
             initial=starts[i],
             equations=problem.equations,
             parameters=problem.parameters,
-            certify=partial(certificates.one, int(i)),
+            certify=partial(certificate, problem, found.shot[[int(i)]]),
             turn_to_phase=to_phase,
             view=getattr(reference, "to_slow_variables", None),
         )

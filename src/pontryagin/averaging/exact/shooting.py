@@ -139,17 +139,22 @@ class Shooting:
     scale_m: Array
     price: float
 
-    def shoot(self, theta: Array, w: Array) -> Shot:
-        """Follow the extremals with the initial costates p0 to the anomalies theta."""
+    def shoot(self, theta: Array, w: Array, together: bool = True) -> Shot:
+        """Follow the extremals with the initial costates p0 to the anomalies theta.
+
+        Those that are not followed together are followed by the integrator for single trajectories, which is
+        the faster one for one or two.
+        """
         starts = self.starts(w)
-        reached, _ = _carry(self.equations, False)(starts, self.anomaly, theta, self.parameters)
+        carry = _carry(self.equations) if together else _carry_one(self.equations)
+        reached, _ = carry(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> Slopes:
         """Conditions at the ends and their derivatives, by the variational equations without tau and J."""
         n, r, count = len(self.start), len(self.scale_m), len(w)
         starts = self.starts(w)[:, : 2 * n + 1]
-        reached, through = _carry(self.equations, True)(starts, self.anomaly, theta, self.parameters)
+        reached, through = _derived(self.equations)(starts, self.anomaly, theta, self.parameters)
         rates = _rates(self.equations)(*reached.T, theta, *self.parameters)[0][..., 0]
         _, *motion = _start(self.equations)(*starts.T, self.anomaly, *self.parameters)
         y0_p = -np.stack(motion[:-1], axis=-1) / motion[-1][:, None]
@@ -189,7 +194,7 @@ class Shooting:
 
     def carry(self, starts: Array, begin: float, end: float) -> Array:
         """States (k, 2n + 3) carried from one anomaly to another, forwards or backwards."""
-        return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
+        return _carry(self.equations)(starts, begin, end, self.parameters)[0]
 
     def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
         """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
@@ -242,14 +247,28 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
 
 
 @lru_cache(maxsize=32)
-def _carry(equations: Canonical, derivatives: bool) -> Ends:
-    wrt = (*equations.costates, y) if derivatives else ()
-    count = 2 * len(equations.slow) + 1 if derivatives else None  # tau and J enter no condition
+def _carry(equations: Canonical) -> Ends:
+    return _ends(equations, (), TOLERANCE, None)
+
+
+@lru_cache(maxsize=32)
+def _carry_one(equations: Canonical) -> Ends:
+    return _ends(equations, (), TOLERANCE, False)
+
+
+@lru_cache(maxsize=32)
+def _derived(equations: Canonical) -> Ends:
+    """(a, p, y) with derivatives, without tau and J, which enter no condition."""
+    return _ends(equations, (*equations.costates, y), ROUGH, False)
+
+
+def _ends(equations: Canonical, wrt: tuple[sp.Symbol, ...], tolerance: float, taylor: bool | None) -> Ends:
+    count = -2 if wrt else None
     states, rates = equations.states[:count], equations.rates[:count]
     arguments = (states, rates, equations.parameters, equations.anomaly, wrt)
     if equations.modes:
         return switched_ends(equations.modes, *arguments)
-    return ends(*arguments, tolerance=ROUGH if derivatives else TOLERANCE)
+    return ends(*arguments, taylor=taylor, tolerance=tolerance)
 
 
 @lru_cache(maxsize=32)
