@@ -168,7 +168,7 @@ def compiled(equations: Equations) -> Compiled:
 
 
 def right_hand_sides(equations: Equations) -> tuple[str, int]:
-    """The rates, their derivatives and the event functions as LLVM's text, and how many parameters it reads."""
+    """Rates, derivatives and event functions as LLVM's text, and how many parameters they read."""
     tape = Tape()
     n, m = equations.identity.shape
     states = [tape.record("state", i) for i in range(n)]
