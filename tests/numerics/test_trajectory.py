@@ -187,3 +187,15 @@ def test_code_for_vectors_and_for_any_processor_computes_the_same(tmp_path, monk
         ends.append(native.follow(whole, 0.0, 2.0, np.array([1.5]), 1e-13, math.inf, 1000, np.empty(0)).whole)
     trajectory.compiled.cache_clear()
     assert_array_equal(*ends)
+
+
+def test_without_a_linker_the_same_code_is_loaded_by_llvmlite(tmp_path, monkeypatch):
+    whole, arguments = np.array([0.2, -0.9]), (0.0, 2.0, np.array([1.5]), 1e-13, math.inf, 1000, np.empty(0))
+    expected = trajectory.compiled(PENDULUM).follow(whole, *arguments)
+    monkeypatch.setattr(object_code, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(object_code.shutil, "which", lambda _: None)
+    for _ in range(2):  # It is made, and then it is opened.
+        trajectory.compiled.cache_clear()
+        assert_array_equal(trajectory.compiled(PENDULUM).follow(whole, *arguments).whole, expected.whole)
+    trajectory.compiled.cache_clear()
+    assert [path.suffix for path in tmp_path.iterdir()] == [".o"]
