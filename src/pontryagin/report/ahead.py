@@ -4,10 +4,10 @@ import ast
 import importlib
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from pontryagin.io import files
-from pontryagin.report import dependencies
+from pontryagin.report import dependencies, execute, recordings
 from pontryagin.report.environment import environment
 from pontryagin.report.workspace import Workspace
 
@@ -32,6 +32,19 @@ def modules(workspace: Workspace, keys: Mapping[str, str]) -> list[str]:
     source = dependencies.Source(workspace.source)
     offering = [module for module in keys if _offers(source.modules[module].read_text(encoding="utf-8"))]
     return [module for module in offering if not _is_done(workspace, module, keys[module])]
+
+
+def users(workspace: Workspace, dear: Sequence[str]) -> set[str]:
+    """The notebooks and the papers' playback modules, by name, that may use results of some modules."""
+    source = dependencies.Source(workspace.source)
+    wanted = {source.modules[module] for module in dear}
+    if not wanted:
+        return set()
+    files_read = {
+        path.stem: execute.files_of(workspace, execute.read_notebook(path)) for path in workspace.notebooks
+    }
+    files_read |= {name: dependencies.reached(source, [name]) for name in recordings.modules(workspace)}
+    return {name for name, known in files_read.items() if known & wanted}
 
 
 def compute(workspace: Workspace, module: str, key: str) -> None:
