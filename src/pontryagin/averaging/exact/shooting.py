@@ -19,10 +19,11 @@ from pontryagin.averaging.exact.arcs import switched_ends
 from pontryagin.averaging.exact.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.lanes import Ends, ends
 from pontryagin.numerics.newton_stack import solved
 
+TOLERANCE = 3e-15
+"""Relative error allowed in a step; over hundreds of turns the errors add up to about 1e-11."""
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which serves Newton's matrices only and not the residuals."""
 
