@@ -67,6 +67,7 @@ class Recipe:
     groups: tuple[int, ...]
     outputs: int
     packed: bool
+    tables: int = 0
 
     @cached_property
     def closure(self) -> Closure:
@@ -84,7 +85,7 @@ class Recipe:
         """
         import llvmlite
 
-        text = wrapper("kernel", self.groups, self.outputs, self.packed)
+        text = wrapper("kernel", self.groups, self.outputs, self.packed, self.tables)
         here = (EXTENSION_SUFFIXES[0], sys.platform, platform.machine())
         parts = (self.closure.identity, text, llvmlite.__version__, *here)
         digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:20]
@@ -139,7 +140,9 @@ class Recipe:
         name, text = self._compiled()
         start_llvm()
         module = binding.parse_assembly(text)
-        module.link_in(binding.parse_assembly(wrapper(name, self.groups, self.outputs, self.packed)))
+        module.link_in(
+            binding.parse_assembly(wrapper(name, self.groups, self.outputs, self.packed, self.tables))
+        )
         for part in (*module.functions, *module.global_variables):
             if not part.is_declaration and part.name not in ("call", "loop"):
                 part.linkage = "internal"
@@ -158,7 +161,8 @@ class Recipe:
             own = types.FunctionType(function.__code__, scope, name, function.__defaults__)
             scope[name] = njit(nogil=True, error_model="numpy")(own)
         kernel = scope[self.kernel.__name__]
-        kernel.compile(f"UniTuple(float64, {self.outputs})({', '.join(['float64'] * sum(self.groups))})")
+        taken = ["float64"] * sum(self.groups) + ["CPointer(float64)"] * self.tables
+        kernel.compile(f"UniTuple(float64, {self.outputs})({', '.join(taken)})")
         (given,) = kernel.signatures
         return kernel.overloads[given].fndesc.llvm_func_name, kernel.inspect_llvm(given)
 
