@@ -54,9 +54,9 @@ def side_by_side(quick: bool) -> list[Row]:
     result = transfers.rows(quick)
     for problem in fixed_time.OURS:
         opponents: dict[str, fixed_time.Peer] = {}
-        if problem != "least energy":
+        if problem in ("least peak", "least impulse"):
             opponents |= grids.peers(problem, quick)
-        if problem != "least impulse":
+        if problem in collocation.EXPONENTS:
             opponents |= collocation.peers(problem, quick)
         result += fixed_time.rows(problem, opponents, count, large, rounds)
     return result

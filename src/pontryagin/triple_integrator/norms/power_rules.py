@@ -23,8 +23,8 @@ class Grade(NamedTuple):
     steepness : float
         Largest difference of p log h over a panel.
     depth : float
-        Parts of a piece on which |h|^(p-1/2) is smaller than at its top by more than exp(-depth) are left out:
-        next to a double zero their share in the integral of |h|^(p-1) is as small.
+        Parts of a piece on which |h|^(p-1/2) is smaller than at its top by more than exp(-depth) are left
+        out: next to a double zero their share in the integral of |h|^(p-1) is as small.
     reach : float
         How far the rule for zeros reaches over convex pieces, in distances of the two zeros.
     """
