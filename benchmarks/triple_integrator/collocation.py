@@ -76,6 +76,6 @@ def peers(problem: str, quick: bool) -> dict[str, Peer]:
         for tolerance in ("1e-3", "1e-6"):
             solver = boundary_value_problem(float(tolerance))
             found[f"solve_bvp, tolerance {tolerance}"] = Peer(solver, size)
-    if not absent("casadi"):
+    if problem in EXPONENTS and not absent("casadi"):
         found[f"CasADi + Ipopt, {NODES} cells"] = Peer(direct(EXPONENTS[problem]), size)
     return found

@@ -1,4 +1,4 @@
-"""Least energy, peak, impulse and other norms for a given time: our solvers, certified, and any other."""
+"""Least energy, peak, impulse and L4 norm for a given time: our solvers, certified, and any other."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -21,7 +21,6 @@ OURS: dict[str, Callable[[Maneuver], Any]] = {
     "least peak": minimum_peak,
     "least impulse": minimum_impulse,
     "least L4 norm": partial(minimum_norm, q=4.0),
-    "least L1.5 norm": partial(minimum_norm, q=1.5),
 }
 
 
