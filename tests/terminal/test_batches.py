@@ -27,11 +27,23 @@ def problems(count):
     return [[f"n{i}", "0", "0", "0", repr(1 + i / 7), "0", "0", "2"] for i in range(count)]
 
 
-def process(*arguments, script=SCRIPT, **streams):
-    command = [sys.executable, "-c", script, *map(str, arguments)]
-    return subprocess.Popen(
-        command, text=True, **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams
-    )
+PATIENCE = 300
+"""Seconds after which a process counts as one that will never end."""
+
+
+@pytest.fixture
+def process():
+    """A function that starts the command line in a process; what still runs after the test is killed."""
+    with contextlib.ExitStack() as started:
+
+        def start(*arguments, script=SCRIPT, **streams):
+            command = [sys.executable, "-X", "faulthandler", "-c", script, *map(str, arguments)]
+            pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+            running = started.enter_context(subprocess.Popen(command, text=True, **pipes | streams))
+            started.callback(running.kill)
+            return running
+
+        yield start
 
 
 @pytest.fixture
@@ -92,13 +104,13 @@ class TestBlocks:
 
     @pytest.mark.slow
     @pytest.mark.skipif(not STATUS.exists(), reason="needs the most memory of a process by itself")
-    def test_twice_the_rows_take_the_same_memory(self, tmp_path):
+    def test_twice_the_rows_take_the_same_memory(self, tmp_path, process):
         most = []
         for count in (200_000, 400_000):
             table = write_table(tmp_path / "in.csv", HEADER, problems(count))
             script = f"{SCRIPT[:-6]}\ntry: main()\nfinally: print(open({str(STATUS)!r}).read())"
             running = process(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv", script=script)
-            most.append(int(re.search(r"VmHWM:\s+(\d+)", running.communicate()[0])[1]))
+            most.append(int(re.search(r"VmHWM:\s+(\d+)", running.communicate(timeout=PATIENCE)[0])[1]))
             assert (running.returncode, (tmp_path / "out.csv").read_bytes().count(b"\n")) == (0, count + 1)
         assert most[1] < 1.05 * most[0]
 
@@ -177,7 +189,7 @@ class TestInterruption:
         assert not (tmp_path / "out.csv").exists()
 
     @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
-    def test_a_signal_while_the_next_rows_are_awaited(self, tmp_path):
+    def test_a_signal_while_the_next_rows_are_awaited(self, tmp_path, process):
         pipe = tmp_path / "pipe"
         os.mkfifo(pipe)
         running = process(*SOLVE, "--batch", pipe)
@@ -194,12 +206,12 @@ class TestInterruption:
 
 
 class TestBar:
-    def test_there_is_none_where_standard_error_is_no_terminal(self, tmp_path):
+    def test_there_is_none_where_standard_error_is_no_terminal(self, tmp_path, process):
         table = write_table(tmp_path / "in.csv", HEADER, problems(3))
         running = process(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
-        assert running.communicate() == ("", f"wrote {tmp_path / 'out.csv'}\n")
+        assert running.communicate(timeout=PATIENCE) == ("", f"wrote {tmp_path / 'out.csv'}\n")
 
-    def test_a_terminal_shows_the_rows_done(self, tmp_path):
+    def test_a_terminal_shows_the_rows_done(self, tmp_path, process):
         pty = pytest.importorskip("pty")
         table = write_table(tmp_path / "in.csv", HEADER, problems(3 * rows.BLOCK))
         ours, theirs = pty.openpty()

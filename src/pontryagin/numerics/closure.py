@@ -23,7 +23,7 @@ class Closure:
     constants : dict of str to number
         The numbers that they take from their modules.
     imported : set of str
-        The names that they take from the `math` module.
+        The names that they take from the `math` module, or from NumPy for what both have.
     arrays : bool
         Whether they use NumPy, as ``np``.
     """
@@ -85,7 +85,7 @@ def _visit(target: Any, found: Closure) -> bool:
         value = target.__globals__[name]
         if isinstance(value, types.FunctionType):
             arrays |= _visit(value, found)
-        elif getattr(math, name, None) is value:
+        elif getattr(math, name, None) is value or (isinstance(value, np.ufunc) and hasattr(math, name)):
             found.imported.add(name)
         elif isinstance(value, int | float):
             if found.constants.setdefault(name, value) != value:

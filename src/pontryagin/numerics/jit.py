@@ -138,7 +138,8 @@ def batched(
     Parameters
     ----------
     kernel : function of n floats returning a tuple of floats
-        Written in plain arithmetic and the `math` module, as are all functions that it calls.
+        Written in plain arithmetic and the `math` module, or NumPy's functions of the same names, as are all
+        functions that it calls.
     outputs : int
         Number of floats that the kernel returns.
     groups : tuple of int, optional

@@ -194,16 +194,46 @@ def _elements() -> list[str]:
 def _equinoctial() -> list[str]:
     x, costates = [*equinoctial.ELEMENTS], [*equinoctial.COSTATES]
     place = [part for vector in equinoctial.place() for part in vector]
-    rates = [part for vector in equinoctial.regular_rates() for part in vector]
     weight = {"weight": 1 / equinoctial.coasting_rate()}
-    constants = [equinoctial.gain, equinoctial.slope, equinoctial.price]
     n = _named("n", equinoctial.switching())
-    doc = "Rates by s of the equinoctial elements and of their costates, and dt/ds."
     return [
         source("equinoctial_place", x, _named("x", place), "R, V of equinoctial elements, fM = 1."),
         source("equinoctial_switching", x + costates, n, "n in radial, transverse and normal components."),
         source("equinoctial_weight", x[:3] + x[5:], weight, "dt/ds."),
-        source("equinoctial_rates", [*x, *costates, *constants], _named("d", rates) | weight, doc),
+        *_equinoctial_slopes(),
+    ]
+
+
+def _equinoctial_slopes() -> list[str]:
+    x = [*equinoctial.ELEMENTS, *equinoctial.COSTATES]
+    n = equinoctial.switching()
+    by_element = {(i, j): slope for i, part in enumerate(n) for j, slope in equinoctial.slopes(part).items()}
+    bends = equinoctial.switching_curvatures()
+    weight = 1 / equinoctial.coasting_rate()
+    slopes, curvatures = equinoctial.slopes(weight), equinoctial.curvatures(weight)
+    return [
+        f'SWITCHING_SLOPES = {tuple(by_element)}\n"""Component and variable of each slope of n."""',
+        source(
+            "equinoctial_switching_slopes",
+            x,
+            _named("n", n) | _named("s", by_element.values()),
+            "n and its slopes in elements and costates that do not vanish.",
+        ),
+        f'SWITCHING_CURVATURES = {tuple(bends)}\n"""Both variables of each second derivative of n."""',
+        source(
+            "equinoctial_switching_curvatures",
+            [*x, *equinoctial.factors],
+            _named("c", bends.values()),
+            "Second derivatives of (m, n) in elements and costates that do not vanish.",
+        ),
+        f"WEIGHT_SLOPES, WEIGHT_CURVATURES = {tuple(slopes)}, {tuple(curvatures)}\n"
+        '"""The variables of the derivatives of dt/ds."""',
+        source(
+            "equinoctial_weight_slopes",
+            [*x[:3], x[5]],
+            {"weight": weight} | _named("s", slopes.values()) | _named("c", curvatures.values()),
+            "dt/ds with its first and second derivatives that do not vanish.",
+        ),
     ]
 
 

@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from pontryagin.rendezvous.derivation import equinoctial
-from pontryagin.rendezvous.derivation.equinoctial import COSTATES, ELEMENTS, gain, price, slope, thrust
+from pontryagin.rendezvous.derivation.equinoctial import COSTATES, ELEMENTS, gain, price, thrust
 
 
 @pytest.mark.slow
@@ -25,16 +25,3 @@ def test_without_thrust_the_longitude_alone_moves():
 def test_the_regularised_hamiltonian_is_the_hamiltonian_times_the_weight():
     plain = gain + price + COSTATES[-1] * equinoctial.coasting_rate()
     assert equinoctial.reduced(equinoctial.regular_hamiltonian() * equinoctial.coasting_rate() - plain) == 0
-
-
-@pytest.mark.slow
-def test_the_regular_rates_are_canonical():
-    """For S = |n|^2/4, the gain of unsaturated thrust with alpha2 = 1."""
-    square = equinoctial.square()
-    whole = equinoctial.regular_hamiltonian().subs(gain, square / 4)
-    forward, backward = equinoctial.regular_rates()
-    at = {gain: square / 4, slope: sp.Rational(1, 4)}
-    for found, variable in zip(forward, COSTATES, strict=True):
-        assert equinoctial.reduced(found.subs(at) - whole.diff(variable)) == 0
-    for found, variable in zip(backward, ELEMENTS, strict=True):
-        assert equinoctial.reduced(found.subs(at) + whole.diff(variable)) == 0

@@ -21,7 +21,8 @@ f, g, h, k, longitude = sp.symbols("f g h k L", real=True)
 ELEMENTS = (parameter, f, g, h, k, longitude)
 COSTATES = sp.symbols("l_p l_f l_g l_h l_k l_L", real=True)
 thrust = sp.Matrix(sp.symbols("p1:4", real=True))
-gain, slope, price = sp.symbols("gain slope price", real=True)
+gain, price = sp.symbols("gain price", real=True)
+factors = sp.Matrix(sp.symbols("m0:3", real=True))
 
 
 def plane() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
@@ -108,11 +109,6 @@ def switching() -> sp.Matrix:
     return (sp.Matrix([COSTATES]) * rates().jacobian(thrust)).T
 
 
-def square() -> sp.Expr:
-    """|n|^2."""
-    return switching().dot(switching())
-
-
 def regular_hamiltonian() -> sp.Expr:
     """K = (S(|n|^2) + c) dt/ds + l_L, zero along extremals; c is minus the value of H, less alpha1.
 
@@ -121,11 +117,18 @@ def regular_hamiltonian() -> sp.Expr:
     return (gain + price) / coasting_rate() + COSTATES[-1]
 
 
-def regular_rates() -> tuple[sp.Matrix, sp.Matrix]:
-    """Rates by s of the six elements and of their costates; ``slope`` is the derivative of S in |n|^2."""
-    weight = 1 / coasting_rate()
+def slopes(expression: sp.Expr) -> dict[int, sp.Expr]:
+    """First derivatives of an expression in elements and costates that do not vanish, by the index."""
+    found = {i: expression.diff(x) for i, x in enumerate([*ELEMENTS, *COSTATES])}
+    return {i: slope for i, slope in found.items() if slope != 0}
 
-    def change(variable: sp.Symbol) -> sp.Expr:
-        return regular_hamiltonian().diff(variable) + slope * weight * square().diff(variable)
 
-    return sp.Matrix([change(x) for x in COSTATES]), -sp.Matrix([change(x) for x in ELEMENTS])
+def curvatures(expression: sp.Expr) -> dict[tuple[int, int], sp.Expr]:
+    """Second derivatives in elements and costates that do not vanish, by both indices in ascending order."""
+    firsts = slopes(expression)
+    return {(i, j): second for i in firsts for j, second in slopes(firsts[i]).items() if i <= j}
+
+
+def switching_curvatures() -> dict[tuple[int, int], sp.Expr]:
+    """Second derivatives of (m, n) for a constant m."""
+    return curvatures(factors.dot(switching()))

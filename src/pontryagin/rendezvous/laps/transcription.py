@@ -7,55 +7,26 @@ of s and the duration. Newton's step eliminates the nodes one after the other, s
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.complex_step import jacobian
-from pontryagin.numerics.newton import newton
+from pontryagin.numerics.newton import expected
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
+from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian, hamiltonian
 
-Inputs = NDArray[Any]
-"""Floats, or complex numbers for derivatives by a complex step."""
-
-NODES_PER_LAP, FEWEST = 48, 32
+NODES_PER_LAP, FEWEST = 32, 32
 """Intervals of s for each turn, and the fewest intervals."""
-ACCURACY = 1e-7
-"""Relative correction at which Newton's method ends."""
-ACCEPTED = 1e-6
-"""Largest residual of a transcribed extremal."""
+ACCURACY, ROUGH = 1e-7, 1e-2
+"""Relative correction at which Newton's method ends, and the one that suffices along a continuation."""
+ITERATIONS = 8
+"""Largest number of steps of Newton's method."""
+LARGEST, CONTRACTION = 0.8, 0.7
+"""Largest relative correction, and the largest ratio of one to that before."""
 THINNEST, ROUNDEST = 0.02, 0.98
 """Smallest parameter, in units of p*, and largest square of the eccentricity, on the way of an iteration."""
-STRETCH = 3.0
-"""Largest factor by which a step may change the duration."""
-
-
-@dataclass(frozen=True)
-class RunningCost:
-    """alpha1 + alpha2 p^2 under a bound on the thrust, with alpha2 = 0 for least time."""
-
-    time_weight: float
-    energy_weight: float
-    peak: float
-
-    def gain(self, square: Inputs) -> tuple[Inputs, Inputs]:
-        """S, the largest (n, p) - alpha2 p^2, and its derivative, as functions of |n|^2."""
-        weight, peak = self.energy_weight, self.peak
-        if peak == math.inf:
-            return square / (4 * weight), np.full_like(square, 1 / (4 * weight))
-        size = np.sqrt(square)
-        saturated = peak * size - weight * peak**2, peak / (2 * size)
-        if weight == 0:
-            return saturated
-        inside = size.real <= 2 * weight * peak
-        return (
-            np.where(inside, square / (4 * weight), saturated[0]),
-            np.where(inside, 1 / (4 * weight), saturated[1]),
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,24 +66,10 @@ class Path:
         return np.asarray(np.linalg.norm(n, axis=0))
 
 
-def square(nodes: Inputs) -> Inputs:
+def square(nodes: Array) -> Array:
     """|n|^2 at elements and costates (12, ...)."""
     n = np.array(kernels.equinoctial_switching(*nodes))
     return np.asarray((n * n).sum(axis=0))
-
-
-def rates(cost: RunningCost, nodes: Inputs) -> Inputs:
-    """Rates by s of elements and costates, and dt/ds, (13, ...), at these and c, (13, ...)."""
-    gain, slope = cost.gain(square(nodes[:12]))
-    values = kernels.equinoctial_rates(*[*nodes[:12], gain, slope, nodes[12]])
-    return np.array(np.broadcast_arrays(*values))
-
-
-def hamiltonian(cost: RunningCost, node: Inputs) -> Inputs:
-    """K at elements, costates and c, (13, ...)."""
-    gain, _ = cost.gain(square(node[:12]))
-    weight = kernels.equinoctial_weight(*[*node[:3], node[5]])
-    return np.asarray((gain + node[12]) * weight + node[11])
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,115 +88,117 @@ class Transcription:
     step: Array | None
 
 
-def transcribed(lap: Lap, cost: RunningCost, duration: float | None, path: Path) -> Transcription:
+def transcribed(lap: Lap, cost: Cost, duration: float | None, path: Path) -> Transcription:
     """The equations of the transfer on a lap, for a fixed duration or a free one, at a path."""
     nodes, count = path.nodes, path.nodes.shape[1] - 1
     h = path.span / count
-    middles = np.vstack([(nodes[:, 1:] + nodes[:, :-1]) / 2, np.full(count, path.price)])
-    values, slopes = jacobian(lambda x: rates(cost, x), middles)
-    defects = nodes[:, 1:] - nodes[:, :-1] - h * values[:12]
-    first = np.append(nodes[:, 0], path.price)
-    energy, by_first = jacobian(lambda x: hamiltonian(cost, x)[None], first)
+    middles = (nodes[:, 1:] + nodes[:, :-1]) / 2
+    here = hamiltonian(cost, np.hstack([middles, nodes[:, [0, -1]]]), path.price)
+    changes = canonical(here.slopes[:-2]).T
+    defects = nodes[:, 1:] - nodes[:, :-1] - h * changes
     longitude, pace = lap.longitude(path.duration)
     off_start = nodes[:6, 0] - lap.start
-    if duration is None:
-        law, by_last = jacobian(lambda x: cost.gain(square(x))[0][None], nodes[:, -1])
-        last = law[0] - cost.time_weight
-    else:
-        last = path.duration - duration
+    time, free = here.weight[:-2].sum() / count, duration is None
     ends = np.array(
         [
             *(nodes[:5, -1] - lap.goal),
             nodes[5, -1] - longitude,
-            h * values[12].sum() - path.duration,
-            energy[0],
-            last,
+            time * path.span - path.duration,
+            here.value[-2],
+            here.gain[-1] - cost.time_weight if duration is None else path.duration - duration,
         ]
     )
-    transfers = _transfers(h, defects, values, slopes, off_start)
-    if transfers is None:
-        return Transcription(np.concatenate([defects.ravel(), off_start, ends]), None)
-    final, middle = transfers[-1], (transfers[1:] + transfers[:-1]) / 2
-    matrix = np.zeros((9, 10))  # columns: six costates at t0, c, span, duration; the constant
-    kept = [*range(8), 9]
-    matrix[:6, kept] = final[:6]
-    matrix[5, 8] = -pace
-    matrix[6, kept] = h * np.einsum("an,nak->k", slopes[12, :12], middle)
-    matrix[6, 7] += values[12].sum() / count
-    matrix[6, 8] = -1.0
-    matrix[7, kept] = by_first[0, :12] @ transfers[0]
-    matrix[7, 6] += by_first[0, 12]
-    if duration is None:
-        matrix[8, kept] = by_last[0] @ final
-    else:
-        matrix[8, 8] = 1.0
-    step = None
+    residual = np.concatenate([defects.ravel(), off_start, ends])
     try:
+        transfers = _transfers(h, here, changes, defects, off_start)
+        final, middle = transfers[-1], (transfers[1:] + transfers[:-1]) / 2
+        matrix = np.zeros((9, 10))  # columns: six costates at t0, c, span, duration; the constant
+        kept = [*range(8), 9]
+        matrix[:6, kept] = final[:6]
+        matrix[5, 8] = -pace
+        matrix[6, kept] = h * np.tensordot(here.weight_slopes[:-2], middle, 2)
+        matrix[6, 7] += time
+        matrix[6, 8] = -1.0
+        matrix[7, kept] = here.slopes[-2] @ transfers[0]
+        matrix[7, 6] += here.weight[-2]
+        matrix[8, kept] = here.gain_slopes[-1] @ final if free else 0.0
+        matrix[8, 8] = 0.0 if free else 1.0
         found = np.linalg.solve(matrix[:, :9], -ends - matrix[:, 9])
-        moved = np.moveaxis(transfers @ np.append(found[:8], 1.0), 0, 1)
-        step = np.append(moved.ravel(), [found[6], found[7], found[8]])
     except np.linalg.LinAlgError:
-        pass
-    return Transcription(np.concatenate([defects.ravel(), off_start, ends]), step)
+        return Transcription(residual, None)
+    moved = (transfers @ np.append(found[:8], 1.0)).T
+    return Transcription(residual, np.append(moved.ravel(), found[6:]))
 
 
-def _transfers(h: float, defects: Array, values: Array, slopes: Array, off_start: Array) -> Array | None:
-    """Changes of the nodes, (N + 1, 12, 9), by six costates at t0, c, span, and the constant part."""
+def canonical(slopes: Array) -> Array:
+    """Rates of elements and costates from the derivatives of a Hamiltonian, (n, 12, ...)."""
+    return np.concatenate([slopes[:, 6:], -slopes[:, :6]], axis=1)
+
+
+def _transfers(h: float, here: Hamiltonian, changes: Array, defects: Array, off_start: Array) -> Array:
+    """Changes of the nodes, (N + 1, 12, 9), by six costates at t0, c, span, and the constant part.
+
+    A step of the midpoint rule, (1 - A) x' = (1 + A) x + b, is x' = (2 M - 1) x + M b with M = 1/(1 - A).
+
+    Raises
+    ------
+    LinAlgError
+        If the length of a step makes its equations singular.
+    """
     count = defects.shape[1]
-    by_node = np.moveaxis(slopes[:12, :12], -1, 0) * h / 2
-    others = [h * slopes[:12, 12].T, values[:12].T / count, -defects.T]
-    right = np.concatenate([np.eye(12) + by_node, np.stack(others, axis=2)], axis=2)
-    try:
-        solved = np.linalg.solve(np.eye(12) - by_node, right)
-    except np.linalg.LinAlgError:
-        return None
-    found = np.zeros((count + 1, 12, 9))
-    found[0, 6:, :6] = np.eye(6)
+    unit = np.eye(12)
+    others = [h * canonical(here.weight_slopes[:-2]), changes.T / count, -defects.T]
+    right = np.concatenate([np.broadcast_to(unit, (count, 12, 12)), np.stack(others, axis=2)], axis=2)
+    solved = np.linalg.solve(unit - h / 2 * canonical(here.curvatures[:-2]), right)
+    # Three further rows hold the factors of c, span and the constant part, which do not change.
+    steps = np.zeros((count, 15, 15))
+    steps[:, :12] = solved
+    steps[:, :12, :12] *= 2
+    steps += np.diag([-1.0] * 12 + [1.0] * 3)
+    found = np.zeros((count + 1, 15, 9))
+    found[0, 6:12, :6] = np.eye(6)
     found[0, :6, 8] = -off_start
-    for i in range(count):
-        np.matmul(solved[i, :, :12], found[i], out=found[i + 1])
-        found[i + 1, :, 6:] += solved[i, :, 12:]
-    return found
+    found[0, 12:, 6:] = np.eye(3)
+    for step, before, after in zip(steps, found[:-1], found[1:], strict=True):
+        np.matmul(step, before, out=after)
+    return found[:, :12]
 
 
-def extremal(lap: Lap, cost: RunningCost, duration: float | None, guess: Path, iterations: int = 12) -> Path:
-    """The transcribed extremal that Newton's method reaches.
+def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
+    """The transcribed extremal that Newton's method reaches, with full steps that become shorter.
 
     Raises
     ------
     NotConverged
         If it reaches none.
     """
-    with np.errstate(all="ignore"):
-        found = newton(
-            lambda x: _finite(transcribed(lap, cost, duration, Path.of(x))),
-            guess.unknowns,
-            tolerance=ACCURACY,
-            iterations=iterations,
-            halvings=7,
-            admissible=_admissible,
-            solve=lambda here: here.step,
-        )
-    if not np.abs(found.equations.residual).max() < ACCEPTED:
-        raise NotConverged(
-            "no extremal was reached on this lap", float(np.abs(found.equations.residual).max())
-        )
-    return Path.of(found.unknowns)
+    path, last = guess, math.inf
+    for _ in range(ITERATIONS):
+        with np.errstate(all="ignore"):
+            step = transcribed(lap, cost, duration, path).step
+        if step is None or not np.isfinite(step).all():
+            raise NotConverged("the equations of a transfer on this lap are singular", math.inf)
+        before, path = path, Path.of(path.unknowns + step)
+        correction = distance(before, path)
+        if correction > min(LARGEST, CONTRACTION * last) or not _admissible(path):
+            raise NotConverged("no extremal was reached on this lap", correction)
+        if (correction**2 if last == math.inf else expected(correction, last)) < accuracy:
+            return path
+        last = correction
+    raise NotConverged("no extremal was reached on this lap", last)
 
 
-def _finite(here: Transcription) -> Transcription:
-    if not np.isfinite(here.residual).all() or (here.step is not None and not np.isfinite(here.step).all()):
-        raise NotConverged("the path leaves the domain of the elements", math.inf)
-    return here
+def distance(one: Path, other: Path) -> float:
+    """The largest change of an element, or relative change of the costates, the span or the duration."""
+    elements, costates = np.split(np.abs(other.nodes - one.nodes), 2)
+    size = max(np.abs(one.nodes[6:]).max(), np.abs(other.nodes[6:]).max())
+    dual = max(costates.max(), abs(other.price - one.price)) / size
+    times = abs(other.span / one.span - 1), abs(other.duration / one.duration - 1)
+    return float(max(elements.max(), dual, *times))
 
 
-def _admissible(before: Array, after: Array) -> bool:
-    """Whether a step keeps to ellipses, and does not change the duration too much."""
-    path, last = Path.of(after), float(before[-1])
+def _admissible(path: Path) -> bool:
+    """Whether a path keeps to ellipses and runs forward."""
     p, f, g = path.nodes[:3]
-    return bool(
-        (p > THINNEST).all()
-        and (f**2 + g**2 < ROUNDEST).all()
-        and path.span > 0
-        and last / STRETCH < path.duration < last * STRETCH
-    )
+    near = (p > THINNEST).all() and (f**2 + g**2 < ROUNDEST).all()
+    return bool(near and path.span > 0 and path.duration > 0)

@@ -110,7 +110,7 @@ def cold_start(setting: Setting, revolutions: int = 0, seed: Array = SEED) -> Ro
     loose = setting.replace(peak=math.inf, ratio=1.0)
     scaled, duration = loose.scaled, float(loose.duration or 0)
     costates, done, step = seed, 0.0, 1.0
-    first = fly(scaled, costates, duration, taylor=loose.taylor)
+    first = fly(scaled, costates, duration)
     path = _path(first, goal_of(loose, float(first.end[3]))[0], revolutions)
     for _ in range(TRIES):
         reached = min(1.0, done + step)
@@ -178,7 +178,7 @@ def _chase(setting: Setting, costates: Array, done: float, reached: float, path:
     goal, rate = path(done)
 
     def towards(goal: Array, z: Array) -> Mismatch:
-        flight = fly(scaled, z, duration, taylor=setting.taylor, rough=True)
+        flight = fly(scaled, z, duration, rough=True)
         return mismatch(flight, goal)
 
     try:
