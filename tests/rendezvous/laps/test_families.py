@@ -7,9 +7,10 @@ import pytest
 
 from pontryagin import NotConverged
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
-from pontryagin.rendezvous.laps.families import bounded, least_energy, least_time, priced
+from pontryagin.rendezvous.laps.families import bounded, least_energy, least_time
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
-from pontryagin.rendezvous.laps.transcription import square
+from pontryagin.rendezvous.laps.ladder import duration_of_thrust, guesses_on
+from pontryagin.rendezvous.laps.ladder import energy as energy_of
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
@@ -47,18 +48,35 @@ def test_bounded_thrust_is_at_its_bound_in_the_middle():
     assert [piece.mode for piece in found.flight.pieces].count("saturated") > 0
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("laps", "duration"), [(0, 2.190545), (1, 5.050061), (2, 6.453185)])
-def test_least_time_on_each_lap_leads_to_an_exact_extremal(laps, duration):
-    scaled, setting = posed("circle")
-    lap, ratio = Lap.of(scaled, laps), (0.7 * scaled.peak) ** 2
-    free = priced(lap, least_energy(lap, 1.5 * duration), ratio)
-    assert square(free.nodes[:, -1]) / 4 == pytest.approx(ratio, rel=1e-6)
-    limited = bounded(lap, free, RunningCost(ratio, 1.0, scaled.peak), None)
-    path = least_time(lap, limited, RunningCost(ratio, 1.0, scaled.peak))
+LEAST_TIMES = [
+    ("circle", 0, 2.190545),
+    ("circle", 1, 5.050061),
+    ("ellipse", 0, 3.277713),
+    ("ellipse", 2, 6.385067),
+    ("inclined-60", 2, 9.156920),
+    ("glonass", 0, 5.506520),
+]
+
+
+@pytest.mark.parametrize(("name", "laps", "duration"), LEAST_TIMES)
+def test_least_time_on_each_lap_leads_to_an_exact_extremal(name, laps, duration):
+    scaled, setting = posed(name)
+    lap = Lap.of(scaled, laps)
+    start = duration_of_thrust(guesses_on(lap), 0.9 * scaled.peak)
+    path = least_time(lap, least_energy(lap, start), scaled.peak)
     found = meet(setting, np.append(reduced_costates(scaled, path.nodes[:, 0]), path.duration))
     assert found.flight.duration == pytest.approx(duration, abs=1e-6)
-    assert path.duration == pytest.approx(duration, rel=3e-3)
+    assert path.duration == pytest.approx(duration, rel=0.02)
+    assert scaled.peak * path.switching()[-1] == pytest.approx(1, abs=2e-3)
+
+
+@pytest.mark.parametrize(("name", "laps", "duration"), LEAST_TIMES)
+def test_the_energy_at_the_least_time_is_at_most_that_of_full_thrust(name, laps, duration):
+    """So that the duration at which the least energy is that of full thrust is a lower bound."""
+    scaled, _ = posed(name)
+    lap = Lap.of(scaled, laps)
+    assert energy_of(least_energy(lap, duration)) < scaled.peak**2 * duration
+    assert duration_of_thrust(guesses_on(lap), scaled.peak) < duration
 
 
 def test_a_lap_that_ends_before_the_start_is_refused():

@@ -3,7 +3,8 @@
 equinoctial      elements of craft and target; costates of the reduced form
 hamiltonian      the running cost, the regularised Hamiltonian and its derivatives
 transcription    the extremal on a lap, by the midpoint rule and Newton's method
-start            a first guess: the best transfer for equations linearised about a given path
-families         continuation to the duration, the bound and the cost that are asked for
+start            first guesses: the best transfers for equations linearised about a given path
+power            a cost between least energy and least time: a power of the thrust
+families         continuation to the target, to the bound and to least time
 ladder           all transfers of free duration on a lap
 """

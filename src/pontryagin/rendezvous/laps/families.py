@@ -1,12 +1,12 @@
-"""Continuation of a transfer on a lap: to the target, to a price of time, to a bound, to least time.
+"""Continuation of a transfer on a lap: to the target, to a bound, to least time.
 
-Each continuation follows transcribed extremals over one parameter, from 0 to 1, with guesses by the secant.
+Each continuation follows transcribed extremals over one parameter, with guesses by the secant. Its points are
+guesses for the next and, at its end, for Newton's method on flights, so that a rough correction suffices.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -14,104 +14,102 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.laps.equinoctial import TAU, Lap
-from pontryagin.rendezvous.laps.hamiltonian import RunningCost
-from pontryagin.rendezvous.laps.start import least_energy_guess
-from pontryagin.rendezvous.laps.transcription import (
-    FEWEST,
-    NODES_PER_LAP,
-    Path,
-    extremal,
-    square,
-)
+from pontryagin.rendezvous.laps.equinoctial import Lap
+from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
+from pontryagin.rendezvous.laps.power import PowerCost
+from pontryagin.rendezvous.laps.start import least_energy_guesses
+from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal
 
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
-FIRST, LARGEST, LEAST, TRIES = 0.3, 0.5, 1 / 64, 60
-"""First, largest and least step of a continuation, and how many steps are tried."""
-ITERATIONS = 8
-"""Steps of Newton's method at each point of a continuation."""
-ROUNDS = (3, 1)
-"""Numbers of rounds of the guess that are tried."""
-SHRINK = 4.0
-"""Factor by which alpha2 falls on the way to least time."""
-STAGES = 14
-"""Largest number of these factors."""
+SHARES = (1.0, 0.5, 0.2, 0.05)
+"""Shares of the way to the target's orbit at which a guess is tried."""
+TRIES, GROWTH = 120, 2.0
+"""How many steps of a continuation are tried, and the factor by which one grows after a success."""
+FIRST, LARGEST, LEAST = 0.3, 0.5, 1 / 16
+"""First, largest and least step of a continuation whose end is wanted, in units of its length."""
 
-Posed = Callable[[float], tuple[Lap, RunningCost, float | None]]
+Posed = Callable[[float], tuple[Lap, Cost, float | None]]
 """A function of the parameter that returns a lap, a cost, and the duration, which is None if it is free."""
 
 
-def continued(posed: Posed, path: Path, first: float = FIRST, least: float = LEAST) -> Path:
-    """The extremal at the parameter 1, from that at 0.
+def points(
+    posed: Posed, path: Path, begin: float, end: float, steps: tuple[float, float, float]
+) -> Iterator[Point[None]]:
+    """Roughly corrected extremals from one value of the parameter towards another.
+
+    The first step, the largest and the one below which the continuation ends are given.
+    """
+    first, largest, least = steps
+
+    def at(parameter: float, guess: Array) -> Point[None]:
+        found = extremal(*posed(parameter), Path.of(guess), ROUGH)
+        return Point(found.unknowns, parameter, None)
+
+    return march(
+        at,
+        Point(path.unknowns, begin, None),
+        end,
+        first=first,
+        largest=largest,
+        least=least,
+        growth=GROWTH,
+        tries=TRIES,
+    )
+
+
+def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
+    """The extremal at the last value of the parameter, from that at the first.
 
     Raises
     ------
     NotConverged
         If the continuation ends before.
     """
-
-    def at(parameter: float, guess: Array) -> Point[None]:
-        found = extremal(*posed(parameter), Path.of(guess), ITERATIONS)
-        return Point(found.unknowns, parameter, None)
-
-    start = Point(path.unknowns, 0.0, None)
-    *_, last = march(at, start, 1.0, first=first, largest=LARGEST, least=least, tries=TRIES)
-    if last.parameter < 1.0:
-        raise NotConverged("the continuation on this lap ended", 1.0 - last.parameter)
+    way = abs(end - begin)
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
+    if last.parameter != end:
+        raise NotConverged("the continuation on this lap ended", abs(end - last.parameter) / way)
     return Path.of(last.unknowns)
 
 
 def least_energy(lap: Lap, duration: float) -> Path:
     """The extremal of least energy, without a bound, of a fixed duration.
 
+    If it is not reached from a guess, that for a nearer goal is continued: the goal moves from the craft's
+    orbit to the target's, at the same longitude.
+
     Raises
     ------
     NotConverged
-        If it is reached neither from a guess nor from coasting.
+        If it is not reached.
     """
-    for rounds in ROUNDS:
-        guess = least_energy_guess(lap, duration, rounds)
-        if guess is not None:
-            try:
-                return extremal(lap, LEAST_ENERGY, duration, guess)
-            except NotConverged:
-                continue
-    return _from_coasting(lap, duration)
-
-
-def _from_coasting(lap: Lap, duration: float) -> Path:
-    """The extremal as the goal moves from the craft's orbit to the target's, at a fixed longitude."""
     end = lap.longitude(duration)[0]
-    if end <= 0:
-        raise NotConverged("the meeting is not ahead of the craft", math.inf)
-    count = max(FEWEST, math.ceil(NODES_PER_LAP * end / TAU))
-    nodes = np.zeros((12, count + 1))
-    nodes[:5] = lap.start[:5, None]
-    nodes[5] = np.linspace(0.0, end, count + 1)
-    middles = (nodes[:, 1:] + nodes[:, :-1]) / 2
-    coasting = float(kernels.equinoctial_weight(*[*middles[:3], middles[5]]).sum()) * end / count
+    coasting = _coasting_time(lap, end)
+    reason = NotConverged("the meeting is not ahead of the craft", math.inf)
 
-    def posed(share: float) -> tuple[Lap, RunningCost, float]:
+    def posed(share: float) -> tuple[Lap, Cost, float]:
+        if share == 1.0:
+            return lap, LEAST_ENERGY, duration
         goal = lap.start[:5] + share * (lap.goal - lap.start[:5])
         return replace(lap, goal=goal, end=end), LEAST_ENERGY, coasting + share * (duration - coasting)
 
-    return continued(posed, Path(nodes, 0.0, end, coasting))
+    for share in SHARES:
+        nearer, _, time = posed(share)
+        guesses = least_energy_guesses(nearer, np.array([time]))
+        if guesses.durations.size:
+            try:
+                start = extremal(*posed(share), guesses.path(0), ROUGH)
+                return continued(posed, start, share, 1.0) if share < 1 else start
+            except NotConverged as failure:
+                reason = failure
+    raise reason
 
 
-def priced(lap: Lap, path: Path, ratio: float) -> Path:
-    """The extremal of free duration for alpha1/alpha2, without a bound, from one of a fixed duration.
-
-    alpha1 is changed from the value for which the given duration is free.
-
-    Raises
-    ------
-    NotConverged
-        If the continuation ends before.
-    """
-    own = float(square(path.nodes[:, -1])) / 4
-    return continued(
-        lambda share: (lap, RunningCost(own * (ratio / own) ** share, 1.0, math.inf), None), path, first=0.5
-    )
+def _coasting_time(lap: Lap, end: float) -> float:
+    """The time in which the craft coasts to a longitude."""
+    longitude = (np.arange(200) + 0.5) * end / 200
+    p, f, g = lap.start[:3]
+    return float(kernels.equinoctial_weight(p, f, g, longitude).sum()) * end / 200
 
 
 def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> Path:
@@ -125,38 +123,27 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     largest = float(path.switching().max()) / (2 * cost.energy_weight)
     if largest <= cost.peak:
         return path
-    return continued(
-        lambda share: (lap, replace(cost, peak=largest * (cost.peak / largest) ** share), duration), path
-    )
+
+    def posed(logarithm: float) -> tuple[Lap, Cost, float | None]:
+        return lap, replace(cost, peak=math.exp(logarithm)), duration
+
+    return continued(posed, path, math.log(largest), math.log(cost.peak))
 
 
-def least_time(lap: Lap, path: Path, cost: RunningCost) -> Path:
-    """The extremal of least time, alpha1 = 1 and alpha2 = 0, from one with the same bound and alpha2 > 0.
-
-    alpha2 falls until the thrust is saturated at all nodes. Where the transcription with alpha2 = 0 has no
-    solution, as may be where |n| nearly vanishes between nodes, the path with the least alpha2 is returned.
+def least_time(lap: Lap, path: Path, peak: float) -> Path:
+    """The extremal of least time under a bound, from one of least energy whose thrust has about this size.
 
     Raises
     ------
     NotConverged
-        If alpha2 could not be lowered until the thrust is saturated at all nodes.
+        If the continuation ends before.
     """
-    scale = cost.time_weight
+    size = float(path.switching()[-1])
     nodes = path.nodes.copy()
-    nodes[6:] /= scale
-    path = replace(path, nodes=nodes, price=path.price / scale)
-    weight = cost.energy_weight / scale
-    for _ in range(STAGES):
-        if float(path.switching().min()) > 2 * weight * cost.peak:
-            break
-        path = continued(partial(_cheaper, lap, cost.peak, weight), path, first=1.0, least=1 / 16)
-        weight /= SHRINK
-    try:
-        return extremal(lap, RunningCost(1.0, 0.0, cost.peak), None, path)
-    except NotConverged:
-        return path
+    nodes[6:] /= peak * size
+    start = replace(path, nodes=nodes, price=path.price / (peak * size))
 
+    def posed(theta: float) -> tuple[Lap, Cost, None]:
+        return lap, PowerCost(theta, size / (2 * peak), peak), None
 
-def _cheaper(lap: Lap, peak: float, weight: float, share: float) -> tuple[Lap, RunningCost, None]:
-    """Least time with a share of one factor `SHRINK` taken off the weight of energy."""
-    return lap, RunningCost(1.0, weight * SHRINK**-share, peak), None
+    return continued(posed, start, 0.5, 0.0)

@@ -6,7 +6,7 @@ The derivation gives the derivatives of n and of dt/ds; K is made of them by the
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -68,6 +68,17 @@ _CURVATURES = _symmetric(2, SWITCHING_CURVATURES)
 _WEIGHT_CURVATURES = _symmetric(5, WEIGHT_CURVATURES)
 
 
+class Cost(Protocol):
+    """A running cost that depends on the length of the thrust."""
+
+    @property
+    def time_weight(self) -> float:
+        """The cost without thrust."""
+
+    def gain(self, square: Array) -> tuple[Array, Array, Array]:
+        """S, the largest (n, p) less what the thrust costs, with its first two derivatives in |n|^2."""
+
+
 @dataclass(frozen=True)
 class RunningCost:
     """alpha1 + alpha2 p^2 under a bound on the thrust, with alpha2 = 0 for least time."""
@@ -124,7 +135,7 @@ class Hamiltonian:
     gain_slopes: Array
 
 
-def hamiltonian(cost: RunningCost, nodes: Array, price: float) -> Hamiltonian:
+def hamiltonian(cost: Cost, nodes: Array, price: float) -> Hamiltonian:
     """K and its derivatives at elements and costates (12, n), for the price c of time."""
     count = nodes.shape[1]
     found = np.zeros((count, _STARTS[-1] + 1))

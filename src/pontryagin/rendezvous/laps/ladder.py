@@ -6,103 +6,171 @@ until a transfer costs more than a given multiple of the best one.
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
-from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.continuation import Point, crossings, march
+from pontryagin.numerics.continuation import Point, between
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
-from pontryagin.rendezvous.laps.families import ITERATIONS, LEAST_ENERGY, least_energy
+from pontryagin.rendezvous.laps.families import bounded, least_energy, points
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
-from pontryagin.rendezvous.laps.start import least_energy_guess
-from pontryagin.rendezvous.laps.transcription import Path, extremal, square
+from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
+from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, square
 
-DURATIONS = np.geomspace(0.5, 120.0, 60)
+DURATIONS = np.geomspace(0.7, 120.0, 40)
 """Durations of the guesses, in units of sqrt(p*^3/fM)."""
-COARSE = 20
+COARSE = 12
 """Intervals for each turn of a guess that only estimates a cost."""
 SEEDS = 3
 """Largest number of durations from which a curve is begun."""
-FIRST, LARGEST, LEAST, TRIES = 0.05, 0.2, 1e-3, 60
-"""Steps of the curve over the logarithm of the duration, and how many are tried in each direction."""
+STEPS = 0.05, 0.05, 0.005
+"""First, largest and least step of the curve over the logarithm of the duration."""
+ROOM = 0.8
+"""Largest mean thrust of a guess from which a curve is begun, in units of the bound."""
+WORSE = 2.0
+"""Transfers that cost more than this many times the best one on the lap are left out."""
+SHORTENINGS = 4
+"""How often two points of the curve are brought nearer to each other."""
 RANGE = 3.0
 """Largest change of the logarithm of the duration along the curve."""
 
 
-def energy(path: Path) -> float:
-    """The integral of p^2 along a path without bound, alpha2 = 1."""
+def guesses_on(lap: Lap, longest: float = math.inf) -> Guesses:
+    """Guesses over the durations up to the longest of interest."""
+    return least_energy_guesses(lap, DURATIONS[longest > DURATIONS], per_lap=COARSE)
+
+
+def energy(path: Path, peak: float = math.inf) -> float:
+    """The integral of p^2 along a path of least energy under a bound, alpha2 = 1."""
     weight = kernels.equinoctial_weight(*[*path.nodes[:3], path.nodes[5]])
-    rate = square(path.nodes) / 4 * weight
+    rate = np.minimum(path.switching() / 2, peak) ** 2 * weight
     return float((rate[1:] + rate[:-1]).sum() * path.span / (2 * (rate.size - 1)))
 
 
-def price(path: Path, ratio: float) -> float:
-    """The integral of alpha1 + alpha2 p^2 for alpha2 = 1."""
-    return ratio * path.duration + energy(path)
+def minima(guesses: Guesses, ratio: float, peak: float = math.inf) -> list[tuple[float, float]]:
+    """Prices and durations of the guesses that cost less than their neighbours, the best first.
 
-
-def promising_durations(lap: Lap, ratio: float) -> list[float]:
-    """Durations at which the guess costs least, the best first: the minima over a grid."""
-    guesses = [least_energy_guess(lap, duration, 2, COARSE) for duration in DURATIONS]
-    costs = np.array([math.inf if one is None else price(one, ratio) for one in guesses])
-    inner = np.pad(costs, 1, constant_values=math.inf)
-    least = np.isfinite(costs) & (costs <= inner[:-2]) & (costs <= inner[2:])
-    return [float(DURATIONS[i]) for i in np.argsort(costs) if least[i]]
-
-
-def free_transfers(lap: Lap, ratio: float, worse: float, best: float = math.inf) -> list[Path]:
-    """The transfers of free duration for alpha1/alpha2 on the curves through the most promising durations.
-
-    Curves are followed while they cost less than ``worse`` times the best transfer, or the given best cost.
-
-    Raises
-    ------
-    NotConverged
-        If no curve could be begun.
+    Those whose mean thrust is not well below the bound do not count.
     """
-    found: list[Path] = []
-    reason: NotConverged | None = None
-    begun = False
-    for duration in promising_durations(lap, ratio)[:SEEDS]:
-        try:
-            start = least_energy(lap, duration)
-        except NotConverged as failure:
-            reason = failure
-            continue
-        begun = True
-        for end in (RANGE, -RANGE):
-            for path in _along(lap, start, ratio, end, worse, best):
-                if all(abs(path.duration / other.duration - 1) > 1e-3 for other in found):
+    possible = guesses.energies <= (ROOM * peak) ** 2 * guesses.durations
+    costs = np.where(possible, ratio * guesses.durations + guesses.energies, math.inf)
+    inner = np.pad(costs, 1, constant_values=math.inf)
+    least = possible & (costs <= inner[:-2]) & (costs <= inner[2:])
+    return sorted(zip(costs[least].tolist(), guesses.durations[least].tolist(), strict=True))
+
+
+def duration_of_thrust(guesses: Guesses, thrust: float) -> float:
+    """The shortest duration for which the root mean square of a guess's thrust is this; inf if none is."""
+    sizes = np.log(np.sqrt(guesses.energies / guesses.durations) / thrust)
+    (low,) = np.nonzero(sizes <= 0)
+    if low.size == 0:
+        return math.inf
+    pair = slice(max(low[0] - 1, 0), low[0] + 1)
+    return float(np.exp(np.interp(0.0, -sizes[pair], np.log(guesses.durations[pair]))))
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The transfers of free duration on a lap.
+
+    Attributes
+    ----------
+    lap : Lap
+        The lap.
+    cost : RunningCost
+        alpha1 + p^2 under a bound.
+    """
+
+    lap: Lap
+    cost: RunningCost
+
+    def price(self, path: Path) -> float:
+        """The cost of a transfer."""
+        return self.cost.time_weight * path.duration + energy(path, self.cost.peak)
+
+    def transfers(self, seeds: list[float], most: float = math.inf) -> list[Path]:
+        """The transfers on the curves through some durations, the best first.
+
+        Curves are followed, and transfers kept, while they cost less than ``most`` and `WORSE` times the
+        best one.
+
+        Raises
+        ------
+        NotConverged
+            If no curve could be begun.
+        """
+        found: list[Path] = []
+        passed: list[tuple[float, float]] = []
+        reason: NotConverged | None = None
+        for duration in seeds[:SEEDS]:
+            if any(shortest <= duration <= longest for shortest, longest in passed):
+                continue
+            try:
+                start = bounded(self.lap, least_energy(self.lap, duration), self.fixed, duration)
+            except NotConverged as failure:
+                reason = failure
+                continue
+            reached = [duration]
+            for end in (RANGE, -RANGE):
+                for one, other in pairwise(self._along(start, end, most, reached)):
+                    if self._law(one) * self._law(other) > 0:
+                        continue
+                    try:
+                        path = self._between(one, other)
+                    except NotConverged as failure:
+                        reason = failure
+                        continue
                     found.append(path)
-                    best = min(best, price(path, ratio))
-    if not begun:
-        raise reason or NotConverged("no meeting is ahead of the craft on this lap", math.inf)
-    return sorted(found, key=lambda path: price(path, ratio))
+                    most = min(most, WORSE * self.price(path))
+            passed.append((min(reached), max(reached)))
+        if reason and not passed:
+            raise reason
+        return sorted((path for path in found if self.price(path) < most), key=self.price)
 
+    @property
+    def fixed(self) -> RunningCost:
+        """The cost of a transfer whose duration is fixed."""
+        return replace(self.cost, time_weight=0.0)
 
-def _along(lap: Lap, start: Path, ratio: float, end: float, worse: float, best: float) -> Iterator[Path]:
-    def at(logarithm: float, guess: Array) -> Point[None]:
-        found = extremal(lap, LEAST_ENERGY, math.exp(logarithm), Path.of(guess), ITERATIONS)
-        return Point(found.unknowns, logarithm, None)
+    def _law(self, point: Point[None]) -> float:
+        """S - alpha1 at the meeting."""
+        gain, *_ = self.cost.gain(square(Path.of(point.unknowns).nodes[:, -1]))
+        return float(gain) - self.cost.time_weight
 
-    def near() -> Iterator[Point[None]]:
-        least = best
+    def _at(self, logarithm: float) -> tuple[Lap, RunningCost, float]:
+        return self.lap, self.fixed, math.exp(logarithm)
+
+    def _along(self, start: Path, end: float, most: float, reached: list[float]) -> Iterator[Point[None]]:
+        """Points of the curve in one direction, while they cost little; their durations are recorded."""
         begin = math.log(start.duration)
-        first = Point(start.unknowns, begin, None)
-        for point in march(at, first, begin + end, first=FIRST, largest=LARGEST, least=LEAST, tries=TRIES):
+        for point in points(self._at, start, begin, begin + end, STEPS):
             yield point
-            cost = price(Path.of(point.unknowns), ratio)
-            least = min(least, cost)
-            if cost > worse * least:
+            path = Path.of(point.unknowns)
+            reached.append(path.duration)
+            most = min(most, WORSE * self.price(path))
+            if self.price(path) > most:
                 return
 
-    def law(point: Point[None]) -> float:
-        return float(square(Path.of(point.unknowns).nodes[:, -1])) / 4 - ratio
+    def _between(self, one: Point[None], other: Point[None]) -> Path:
+        """The transfer of free duration between two points of the curve, where the law changes its sign.
 
-    for unknowns, _ in crossings(near(), law):
-        try:
-            yield extremal(lap, RunningCost(ratio, 1.0, math.inf), None, Path.of(unknowns))
-        except NotConverged:
-            continue
+        While Newton's method does not end between them, the distance is shortened by a point of the curve.
+        """
+        for _ in range(SHORTENINGS):
+            here, there = self._law(one), self._law(other)
+            logarithm = one.parameter + here / (here - there) * (other.parameter - one.parameter)
+            guess = Path.of(between(one, other, logarithm))
+            try:
+                found = extremal(self.lap, self.cost, None, guess, ROUGH)
+                reached = math.log(found.duration)
+                if (reached - one.parameter) * (reached - other.parameter) <= 0:
+                    return found
+            except NotConverged:
+                pass
+            middle = extremal(*self._at(logarithm), guess, ROUGH)
+            point = Point(middle.unknowns, logarithm, None)
+            one, other = (point, other) if self._law(point) * here > 0 else (one, point)
+        raise NotConverged("the transfer of free duration was not reached", other.parameter - one.parameter)

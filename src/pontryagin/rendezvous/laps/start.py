@@ -1,11 +1,13 @@
-"""A first path for a lap: the transfer of least energy for equations linearised about a given path.
+"""First paths for a lap: transfers of least energy for equations linearised about a given path.
 
 The elements of the reference path go from those of the craft to those of the target. Along it the best thrust
 is linear in six constants, the costates at the end and the price of time, and so are the changes of the
-elements and of the duration: six linear equations. Then the path found is the next reference.
+elements and of the duration: six linear equations. Then the path found is the next reference. This is done
+for a stack of durations side by side.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,63 +15,120 @@ from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import TAU, Lap
-from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path
+from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path, square
+
+ROUNDS = 4
+"""Number of references, the first of which is straight."""
+NEAREST = 0.3
+"""Least longitude of the meeting, in radians, measured from the craft's at t0."""
+THINNEST, ROUNDEST = 0.05, 0.95
+"""Smallest parameter, in units of p*, and largest square of the eccentricity, of a reference."""
 
 
-def least_energy_guess(
-    lap: Lap, duration: float, rounds: int = 2, per_lap: int = NODES_PER_LAP
-) -> Path | None:
-    """The path of least energy after some rounds, for alpha1 = 0 and alpha2 = 1.
+@dataclass(frozen=True, eq=False)
+class Guesses:
+    """Paths of least energy, for alpha1 = 0 and alpha2 = 1, at those durations for which there is one.
 
-    It is None if the meeting is not ahead of the craft, or if a reference path leaves the ellipses.
+    Attributes
+    ----------
+    durations : (D,) array
+        The durations.
+    nodes : (12, D, N + 1) array
+        Elements and costates at equal steps of the longitude.
+    prices : (D,) array
+        Prices of time.
     """
-    end = lap.longitude(duration)[0]
-    if end < 0.3:
-        return None
-    longitude = np.linspace(0.0, end, max(FEWEST, math.ceil(per_lap * end / TAU)) + 1)
-    reference = lap.start[:5, None] + longitude / end * (lap.goal - lap.start[:5])[:, None]
+
+    durations: Array
+    nodes: Array
+    prices: Array
+
+    def path(self, index: int) -> Path:
+        """One of the paths."""
+        nodes = self.nodes[:, index]
+        return Path(nodes, float(self.prices[index]), float(nodes[5, -1]), float(self.durations[index]))
+
+    @property
+    def energies(self) -> Array:
+        """The integrals of p^2, (D,)."""
+        rate = square(self.nodes) / 4 * kernels.equinoctial_weight(*[*self.nodes[:3], self.nodes[5]])
+        return np.asarray((rate[:, 1:] + rate[:, :-1]).sum(axis=1) / 2 * self.nodes[5, :, 1])
+
+
+def least_energy_guesses(
+    lap: Lap, durations: Array, rounds: int = ROUNDS, per_lap: int = NODES_PER_LAP
+) -> Guesses:
+    """Paths of least energy after some rounds.
+
+    There is none where the meeting is not ahead of the craft, or where a reference path leaves the ellipses.
+    """
+    ends = np.array([lap.longitude(duration)[0] for duration in durations])
+    durations, ends = durations[ends > NEAREST], ends[ends > NEAREST]
+    count = max(FEWEST, math.ceil(per_lap * ends.max(initial=0.0) / TAU))
+    share = np.linspace(0.0, 1.0, count + 1)
+    reference = (lap.start[:5] + share[:, None, None] * (lap.goal - lap.start[:5])).T
+    reference = np.repeat(reference, ends.size, axis=1)
+    nodes, prices = np.zeros((12, 0, count + 1)), np.zeros(0)
+    for _ in range(rounds):
+        with np.errstate(all="ignore"):
+            nodes, prices = _best_about(lap, reference, ends[:, None] * share, durations)
+            p, f, g = nodes[:3]
+            kept = ((p > THINNEST) & (f**2 + g**2 < ROUNDEST) & np.isfinite(nodes[11])).all(axis=1)
+        nodes, prices, durations, ends = nodes[:, kept], prices[kept], durations[kept], ends[kept]
+        reference = nodes[:5]
+    return Guesses(durations, nodes, prices)
+
+
+def _best_about(lap: Lap, reference: Array, longitude: Array, durations: Array) -> tuple[Array, Array]:
+    """Nodes (12, D, N + 1) and prices (D,) of the best thrust for equations linearised about references."""
+    steps = longitude[:, 1:2]
 
     def integral(values: Array) -> Array:
-        steps = (values[..., 1:] + values[..., :-1]) / 2 * np.diff(longitude)
-        return np.concatenate([np.zeros((*values.shape[:-1], 1)), np.cumsum(steps, axis=-1)], axis=-1)
+        found = np.zeros(values.shape)
+        np.cumsum((values[..., 1:] + values[..., :-1]) / 2 * steps, axis=-1, out=found[..., 1:])
+        return found
 
-    for _ in range(rounds):
-        weight, by_element = _weight(reference, longitude)
-        factors = _thrust_factors(reference, longitude)
-        spread = np.einsum("iKn,jKn->ijn", factors, factors) * weight / 2
-        passed = integral(by_element)
-        left = passed[:, -1:] - passed
-        by_costate = integral(spread)
-        by_price = integral(np.einsum("ijn,jn->in", spread, left))
-        matrix = np.zeros((6, 6))
-        matrix[:5, :5], matrix[:5, 5] = by_costate[..., -1], by_price[:, -1]
-        matrix[5, :5] = integral(np.einsum("in,ijn->jn", by_element, by_costate))[:, -1]
-        matrix[5, 5] = integral((by_element * by_price).sum(axis=0))[-1]
-        off = (by_element * (lap.start[:5, None] - reference)).sum(axis=0)
-        late = duration - integral(weight)[-1] - integral(off)[-1]
-        try:
-            found = np.linalg.solve(matrix, np.append(lap.goal - lap.start[:5], late))
-        except np.linalg.LinAlgError:
-            return None
-        costates = found[:5, None] + found[5] * left
-        reference = lap.start[:5, None] + np.einsum("ijn,j->in", by_costate, found[:5]) + by_price * found[5]
-        if not ((reference[0] > 0.05).all() and (reference[1] ** 2 + reference[2] ** 2 < 0.95).all()):
-            return None
-    gain = (np.einsum("iKn,in->Kn", factors, costates) ** 2).sum(axis=0) / 4
-    fast = -_weight(reference, longitude)[0] * (gain + found[5])
-    nodes = np.vstack([reference, longitude, costates, fast])
-    return Path(nodes, float(found[5]), end, duration)
+    change = lap.goal - lap.start[:5]
+    weight, by_element = _weight(reference, longitude)
+    factors = _thrust_factors(reference, longitude)
+    spread = np.einsum("iK...,jK...->ij...", factors, factors) * weight / 2
+    passed = integral(by_element)
+    left = passed[..., -1:] - passed
+    by_costate = integral(spread)
+    by_price = integral(np.einsum("ij...,j...->i...", spread, left))
+    matrix = np.zeros((6, 6, durations.size))
+    matrix[:5, :5], matrix[:5, 5] = by_costate[..., -1], by_price[..., -1]
+    matrix[5, :5] = integral(np.einsum("i...,ij...->j...", by_element, by_costate))[..., -1]
+    matrix[5, 5] = integral((by_element * by_price).sum(axis=0))[..., -1]
+    off = (by_element * (lap.start[:5, None, None] - reference)).sum(axis=0)
+    late = durations - integral(weight + off)[:, -1]
+    right = np.vstack([np.repeat(change[:, None], durations.size, axis=1), late])
+    found = _solutions(matrix, right)
+    costates = found[:5, :, None] + found[5, :, None] * left
+    elements = lap.start[:5, None, None] + np.einsum("ijdn,jd->idn", by_costate, found[:5])
+    elements += by_price * found[5, :, None]
+    gain = (np.einsum("iK...,i...->K...", factors, costates) ** 2).sum(axis=0) / 4
+    fast = -_weight(elements, longitude)[0] * (gain + found[5, :, None])
+    return np.concatenate([elements, longitude[None], costates, fast[None]]), found[5]
+
+
+def _solutions(matrix: Array, right: Array) -> Array:
+    """Solutions (6, D) of a stack of linear systems (6, 6, D); nan where one is singular or not finite."""
+    systems = np.moveaxis(matrix, -1, 0)
+    regular = np.isfinite(systems).all(axis=(1, 2)) & (np.linalg.matrix_rank(np.nan_to_num(systems)) == 6)
+    systems = np.where(regular[:, None, None], systems, np.eye(6))
+    found = np.linalg.solve(systems, right.T[..., None])[..., 0].T
+    return np.where(regular, found, np.nan)
 
 
 def _weight(elements: Array, longitude: Array) -> tuple[Array, Array]:
-    """dt/ds, (n,), and its derivatives in p, f, g, h, k, (5, n)."""
+    """dt/ds, (D, n), and its derivatives in p, f, g, h, k, (5, D, n)."""
     value, slopes = jacobian(lambda x: [kernels.equinoctial_weight(*[*x, longitude])], elements[:3])
-    return value[0], np.vstack([slopes[0], np.zeros((2, longitude.size))])
+    return value[0], np.concatenate([slopes[0], np.zeros((2, *longitude.shape))])
 
 
 def _thrust_factors(elements: Array, longitude: Array) -> Array:
-    """The factors of the five costates in n, (5, 3, n)."""
-    units = np.eye(6)[:5, :, None]
-    x = np.broadcast_to(elements[:, None], (5, 5, longitude.size))
-    n = kernels.equinoctial_switching(*[*x, longitude[None], *np.moveaxis(units, 1, 0)])
-    return np.stack([np.broadcast_to(part, (5, longitude.size)) for part in n], axis=1)
+    """The factors of the five costates in n, (5, 3, D, n)."""
+    units = np.moveaxis(np.eye(6)[:5, :, None, None], 1, 0)
+    n = kernels.equinoctial_switching(*[*elements[:, None], longitude[None], *units])
+    return np.stack([np.broadcast_to(part, (5, *longitude.shape)) for part in n], axis=1)

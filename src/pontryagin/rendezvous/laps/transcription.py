@@ -12,21 +12,21 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.newton import newton
+from pontryagin.numerics.newton import expected
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import Lap
-from pontryagin.rendezvous.laps.hamiltonian import Hamiltonian, RunningCost, hamiltonian
+from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian, hamiltonian
 
-NODES_PER_LAP, FEWEST = 48, 32
+NODES_PER_LAP, FEWEST = 32, 32
 """Intervals of s for each turn, and the fewest intervals."""
-ACCURACY = 1e-7
-"""Relative correction at which Newton's method ends."""
-ACCEPTED = 1e-6
-"""Largest residual of a transcribed extremal."""
+ACCURACY, ROUGH = 1e-7, 1e-2
+"""Relative correction at which Newton's method ends, and the one that suffices along a continuation."""
+ITERATIONS = 8
+"""Largest number of steps of Newton's method."""
+LARGEST, CONTRACTION = 0.8, 0.7
+"""Largest relative correction, and the largest ratio of one to that before."""
 THINNEST, ROUNDEST = 0.02, 0.98
 """Smallest parameter, in units of p*, and largest square of the eccentricity, on the way of an iteration."""
-STRETCH = 3.0
-"""Largest factor by which a step may change the duration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +88,7 @@ class Transcription:
     step: Array | None
 
 
-def transcribed(lap: Lap, cost: RunningCost, duration: float | None, path: Path) -> Transcription:
+def transcribed(lap: Lap, cost: Cost, duration: float | None, path: Path) -> Transcription:
     """The equations of the transfer on a lap, for a fixed duration or a free one, at a path."""
     nodes, count = path.nodes, path.nodes.shape[1] - 1
     h = path.span / count
@@ -164,44 +164,41 @@ def _transfers(h: float, here: Hamiltonian, changes: Array, defects: Array, off_
     return found[:, :12]
 
 
-def extremal(lap: Lap, cost: RunningCost, duration: float | None, guess: Path, iterations: int = 12) -> Path:
-    """The transcribed extremal that Newton's method reaches.
+def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
+    """The transcribed extremal that Newton's method reaches, with full steps that become shorter.
 
     Raises
     ------
     NotConverged
         If it reaches none.
     """
-    with np.errstate(all="ignore"):
-        found = newton(
-            lambda x: _finite(transcribed(lap, cost, duration, Path.of(x))),
-            guess.unknowns,
-            tolerance=ACCURACY,
-            iterations=iterations,
-            halvings=7,
-            admissible=_admissible,
-            solve=lambda here: here.step,
-        )
-    if not np.abs(found.equations.residual).max() < ACCEPTED:
-        raise NotConverged(
-            "no extremal was reached on this lap", float(np.abs(found.equations.residual).max())
-        )
-    return Path.of(found.unknowns)
+    path, last = guess, math.inf
+    for _ in range(ITERATIONS):
+        with np.errstate(all="ignore"):
+            step = transcribed(lap, cost, duration, path).step
+        if step is None or not np.isfinite(step).all():
+            raise NotConverged("the equations of a transfer on this lap are singular", math.inf)
+        before, path = path, Path.of(path.unknowns + step)
+        correction = distance(before, path)
+        if correction > min(LARGEST, CONTRACTION * last) or not _admissible(path):
+            raise NotConverged("no extremal was reached on this lap", correction)
+        if (correction**2 if last == math.inf else expected(correction, last)) < accuracy:
+            return path
+        last = correction
+    raise NotConverged("no extremal was reached on this lap", last)
 
 
-def _finite(here: Transcription) -> Transcription:
-    if not np.isfinite(here.residual).all() or (here.step is not None and not np.isfinite(here.step).all()):
-        raise NotConverged("the path leaves the domain of the elements", math.inf)
-    return here
+def distance(one: Path, other: Path) -> float:
+    """The largest change of an element, or relative change of the costates, the span or the duration."""
+    elements, costates = np.split(np.abs(other.nodes - one.nodes), 2)
+    size = max(np.abs(one.nodes[6:]).max(), np.abs(other.nodes[6:]).max())
+    dual = max(costates.max(), abs(other.price - one.price)) / size
+    times = abs(other.span / one.span - 1), abs(other.duration / one.duration - 1)
+    return float(max(elements.max(), dual, *times))
 
 
-def _admissible(before: Array, after: Array) -> bool:
-    """Whether a step keeps to ellipses, and does not change the duration too much."""
-    path, last = Path.of(after), float(before[-1])
+def _admissible(path: Path) -> bool:
+    """Whether a path keeps to ellipses and runs forward."""
     p, f, g = path.nodes[:3]
-    return bool(
-        (p > THINNEST).all()
-        and (f**2 + g**2 < ROUNDEST).all()
-        and path.span > 0
-        and last / STRETCH < path.duration < last * STRETCH
-    )
+    near = (p > THINNEST).all() and (f**2 + g**2 < ROUNDEST).all()
+    return bool(near and path.span > 0 and path.duration > 0)

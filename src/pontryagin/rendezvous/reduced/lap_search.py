@@ -1,20 +1,20 @@
 """Extremals lap by lap: transcribed transfers in equinoctial elements, then Newton's method on exact flights.
 
 Laps are counted from the target's own: lap 0 ends at the target's longitude next ahead of its start, each
-further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, until a lap
-has nothing that costs less than `WORSE` times the best extremal.
+further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, until a guess
+of the least cost on a lap is more than `WORSE` times the best extremal.
 """
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.rendezvous.families import END_SHARES
-from pontryagin.rendezvous.laps import families
+from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
-from pontryagin.rendezvous.laps.ladder import free_transfers, price
+from pontryagin.rendezvous.laps.start import least_energy_guesses
 from pontryagin.rendezvous.laps.transcription import Path
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
@@ -24,13 +24,17 @@ from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
 WORSE = 2.0
-"""A lap is the last one in its direction if all of its extremals cost more than this many times the best."""
+"""Transfers that cost more than this many times the best extremal are not continued."""
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
-HOPELESS = 3.0
-"""A transfer that costs more than this many times the best extremal is not continued to the bound."""
-FEW = 2
-"""Number of transfers without a bound from which least time is sought on each lap."""
+MEAN_THRUSTS = (0.7, 0.9, 0.8, 1.0, 0.6)
+"""Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
+LONGER = 2.0
+"""Factor by which the duration of such a transfer may exceed the longest duration of interest."""
+MARGIN = 1.2
+"""Factor by which the energy of a guess may exceed the largest possible energy under the bound."""
+ALIKE, SAME = 1e-2, 1e-7
+"""Relative difference of the durations of one extremal, as transcribed from two starts, and as flown."""
 
 
 def extremals_on_laps(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
@@ -44,14 +48,17 @@ def extremals_on_laps(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
     roots: list[Root[Flight]] = []
     best = math.inf
     for sense in (1, -1):
-        for laps in range(0 if sense > 0 else -1, sense * (FARTHEST + 1), sense):
-            found = on_lap(setting, laps, log, best)
-            roots += found
-            least = min((cost(setting, root) for root in found), default=math.inf)
-            best = min(best, least)
-            if least > WORSE * best or not found:
-                log.ends.append(f"{'more' if sense > 0 else 'fewer'} laps were tried up to {laps:+d}")
+        laps = 0 if sense > 0 else -1
+        while abs(laps) <= FARTHEST:
+            lap = Lap.of(setting.scaled, laps)
+            starts = first_durations(setting, lap, WORSE * best)
+            if not starts and (roots or sense < 0):
                 break
+            found = on_lap(setting, lap, starts, log, WORSE * best)
+            best = min([best, *(cost(setting, root) for root in found)])
+            roots += found
+            laps += sense
+        log.ends.append(f"{'more' if sense > 0 else 'fewer'} laps were tried up to {laps:+d}")
     if not roots:
         raise NotConverged(f"no extremal was reached on any lap: {'; '.join(log.given_up)}", math.inf)
     return roots
@@ -64,64 +71,78 @@ def cost(setting: Setting, root: Root[Flight]) -> float:
     return time_weight * root.flight.duration + spent
 
 
-def on_lap(setting: Setting, laps: int, log: SearchLog, best: float = math.inf) -> list[Root[Flight]]:
-    """The extremals of a problem on one lap, without those that can hardly cost less than the best one known.
+def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[float]:
+    """Durations of the first transfers of a lap; none if, by guesses, all its extremals cost more than that.
 
-    For least time several values of alpha1/alpha2 are tried until one of them leads to an extremal.
+    The guesses are of least energy without a bound. Under a bound the mean of p^2 is at most p_max^2, so that
+    no transfer is shorter than the duration at which the least mean is that.
     """
-    lap = Lap.of(setting.scaled, laps)
+    if setting.duration is not None:
+        guesses = least_energy_guesses(lap, np.array([setting.duration]))
+        largest = min(most, MARGIN * setting.peak**2 * setting.duration)
+        return [setting.duration] if (guesses.energies < largest).any() else []
+    if setting.bang:
+        guesses = ladder.guesses_on(lap, LONGER * most)
+        found = [ladder.duration_of_thrust(guesses, share * setting.peak) for share in (1.0, *MEAN_THRUSTS)]
+        return [duration for duration in found[1:] if duration < math.inf] if found[0] < most else []
+    guesses = ladder.guesses_on(lap, most / setting.ratio)
+    minima = ladder.minima(guesses, setting.ratio, setting.peak)
+    return [duration for price, duration in minima if price < most]
+
+
+def on_lap(
+    setting: Setting, lap: Lap, durations: list[float], log: SearchLog, most: float = math.inf
+) -> list[Root[Flight]]:
+    """The extremals of a problem on one lap, sought from first transfers of some durations.
+
+    Those whose transcription costs more than ``most`` are left out.
+    """
     found: list[Root[Flight]] = []
-    for ratio in _ratios(setting):
-        for path in _without_bound(setting, lap, ratio, log):
-            if setting.peak < math.inf and _estimate(setting, path, ratio) > HOPELESS * best:
-                log.given_up.append(f"lap {laps}: a transfer in the time {path.duration:.4g} costs too much")
-                continue
-            try:
-                found.append(_transcribed(setting, lap, path, RunningCost(ratio, 1.0, setting.peak)))
-                log.revolutions.append(laps)
-            except (NotConverged, Infeasible) as reason:
-                log.given_up.append(f"lap {laps}: {reason}")
-        if found:
-            break
+    log.durations.extend(durations)
+    for path in _transcribed(setting, lap, durations, log, most):
+        try:
+            costates = reduced_costates(setting.scaled, path.nodes[:, 0])
+            root = meet(setting, np.append(costates, path.duration) if setting.free else costates)
+        except (NotConverged, Infeasible) as reason:
+            log.given_up.append(f"lap {lap.laps}: {reason}")
+            continue
+        if all(abs(cost(setting, root) / cost(setting, other) - 1) > SAME for other in found):
+            found.append(root)
+            log.revolutions.append(lap.laps)
     return found
 
 
-def _estimate(setting: Setting, path: Path, ratio: float) -> float:
-    """The cost of a transfer without a bound; its duration where the least time is sought."""
-    return path.duration if setting.bang else price(path, ratio)
-
-
-def _ratios(setting: Setting) -> list[float]:
-    """Values of alpha1/alpha2 of the transfers without a bound; 0 where the duration is fixed."""
-    if not setting.free:
-        return [0.0]
+def _transcribed(
+    setting: Setting, lap: Lap, durations: list[float], log: SearchLog, most: float
+) -> Iterator[Path]:
+    """Transcribed extremals under the bound, as guesses of exact ones."""
     if setting.bang:
-        return [(share * setting.peak) ** 2 for share in reversed(END_SHARES)]
-    return [setting.ratio]
-
-
-def _without_bound(setting: Setting, lap: Lap, ratio: float, log: SearchLog) -> list[Path]:
-    """Transfers without a bound from which the extremals of the problem are sought."""
+        yield from _of_least_time(lap, setting.peak, durations, log, most)
+        return
+    cost = RunningCost(setting.ratio if setting.free else 0.0, 1.0, setting.peak)
     try:
-        if setting.duration is not None:
-            return [families.least_energy(lap, setting.duration)]
-        paths = free_transfers(lap, ratio, WORSE)
+        if setting.duration is None:
+            yield from ladder.Ladder(lap, cost).transfers(durations, most)
+        else:
+            path = families.least_energy(lap, setting.duration)
+            yield families.bounded(lap, path, cost, setting.duration)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")
-        return []
-    log.durations.extend(path.duration for path in paths)
-    return paths[:FEW] if setting.bang else paths
 
 
-def _transcribed(setting: Setting, lap: Lap, path: Path, limits: RunningCost) -> Root[Flight]:
-    """The extremal reached by continuing the transcribed transfer to the bound, and to least time."""
-    if setting.peak < math.inf:
-        path = families.bounded(lap, path, limits, setting.duration)
-    if setting.bang:
-        path = families.least_time(lap, path, limits)
-    return _met(setting, path)
-
-
-def _met(setting: Setting, path: Path) -> Root[Flight]:
-    costates = reduced_costates(setting.scaled, path.nodes[:, 0])
-    return meet(setting, np.append(costates, path.duration) if setting.free else costates)
+def _of_least_time(
+    lap: Lap, peak: float, durations: list[float], log: SearchLog, most: float
+) -> Iterator[Path]:
+    """Transcribed extremals of least time, until two first transfers lead to the same."""
+    known: list[float] = []
+    for duration in durations:
+        try:
+            path = families.least_time(lap, families.least_energy(lap, duration), peak)
+        except NotConverged as reason:
+            log.given_up.append(f"lap {lap.laps}, from the duration {duration:.4g}: {reason}")
+            continue
+        if any(abs(path.duration / other - 1) < ALIKE for other in known):
+            return
+        known.append(path.duration)
+        if path.duration < most:
+            yield path
