@@ -58,9 +58,10 @@ def extremals_on_laps(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
             best = min([best, *(cost(setting, root) for root in found)])
             roots += found
             laps += sense
-        log.ends.append(f"{'more' if sense > 0 else 'fewer'} laps were tried up to {laps:+d}")
+        log.ends.append(f"laps from {laps:+d} {'up' if sense > 0 else 'down'} were not tried")
     if not roots:
-        raise NotConverged(f"no extremal was reached on any lap: {'; '.join(log.given_up)}", math.inf)
+        reasons = log.given_up or ["each lap costs too much thrust, or is over before the start"]
+        raise NotConverged(f"no extremal was reached on any lap: {'; '.join(reasons)}", math.inf)
     return roots
 
 
