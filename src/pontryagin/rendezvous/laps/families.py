@@ -127,7 +127,16 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     def posed(logarithm: float) -> tuple[Lap, Cost, float | None]:
         return lap, replace(cost, peak=math.exp(logarithm)), duration
 
-    return continued(posed, path, math.log(largest), math.log(cost.peak))
+    begin, end = math.log(largest), math.log(cost.peak)
+    way = abs(end - begin)
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
+    if last.parameter != end:
+        factor = math.exp(last.parameter - end)
+        raise NotConverged(
+            f"the bound on the thrust could be lowered to {factor:.4g} times the peak, but not to it",
+            factor - 1,
+        )
+    return Path.of(last.unknowns)
 
 
 def least_time(lap: Lap, path: Path, peak: float) -> Path:

@@ -13,6 +13,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import jacobian
+from pontryagin.numerics.rotation import about_third, product
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.flight import (
@@ -42,6 +43,8 @@ class Setting:
         alpha1/alpha2; inf for alpha2 = 0.
     peak : float
         p_max, inf for no bound.
+    lead : float
+        Angle by which the target's orbit is turned ahead in its plane, in radians.
     duration : float or None
         t_k if it is fixed.
     taylor : bool or None
@@ -53,6 +56,7 @@ class Setting:
     scaled: Scaled
     ratio: float
     peak: float
+    lead: float = 0.0
     duration: float | None = None
     taylor: bool | None = None
     rough: bool = False
@@ -138,6 +142,12 @@ def end_rates(flight: Flight) -> Array:
     return np.array([*kernel(*end, 1.0, 1.0, flight.scaled.eccentricity, 1.0, scale, flight.chart), 0.0])
 
 
+def goal_of(setting: Setting, anomaly: float) -> tuple[Array, Array]:
+    """The goal at an anomaly of the target, with its orbit turned ahead by the lead, and the goal's rate."""
+    ahead = product(setting.scaled.orientation, about_third(setting.lead))
+    return setting.scaled.target(anomaly, ahead)
+
+
 def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
     """Residuals of a setting and their derivatives.
 
@@ -157,7 +167,7 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
         taylor=setting.taylor,
         rough=setting.rough,
     )
-    goal, moving = setting.scaled.target(float(flight.end[3]))
+    goal, moving = goal_of(setting, float(flight.end[3]))
     met = mismatch(flight, goal)
     columns = met.by_start[:, :6]
     if not setting.free:

@@ -1,8 +1,8 @@
 """Extremals lap by lap: transcribed transfers in equinoctial elements, then Newton's method on exact flights.
 
 Laps are counted from the target's own: lap 0 ends at the target's longitude next ahead of its start, each
-further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, until a guess
-of the least cost on a lap is more than `WORSE` times the best extremal.
+further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, up to the first
+lap that guesses of the least cost show to be dearer than `WORSE` times the best extremal.
 """
 
 import math
@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.progress import report
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
@@ -24,7 +25,9 @@ from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
 WORSE = 2.0
-"""Transfers that cost more than this many times the best extremal are not continued."""
+"""The search ends in a direction with the first lap that costs more than this many times the best extremal."""
+FURTHER = 2.5
+"""Extremals of free duration on that last lap are taken if they cost less than this many times the best."""
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
 MEAN_THRUSTS = (0.7, 0.9, 0.8, 1.0, 0.6)
@@ -37,32 +40,50 @@ ALIKE, SAME = 1e-2, 1e-7
 """Relative difference of the durations of one extremal, as transcribed from two starts, and as flown."""
 
 
-def extremals_on_laps(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
+def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
     """The extremals of a problem that are found lap by lap, in no particular order.
 
     Raises
     ------
+    Infeasible
+        If on every lap a fixed duration needs a larger mean thrust than the bound.
     NotConverged
-        If none was reached on any lap.
+        If no extremal was reached for another reason.
     """
-    roots: list[Root[Flight]] = []
     best = math.inf
     for sense in (1, -1):
-        laps = 0 if sense > 0 else -1
-        while abs(laps) <= FARTHEST:
-            lap = Lap.of(setting.scaled, laps)
-            starts = first_durations(setting, lap, WORSE * best)
-            if not starts and (roots or sense < 0):
-                break
-            found = on_lap(setting, lap, starts, log, WORSE * best)
-            best = min([best, *(cost(setting, root) for root in found)])
-            roots += found
+        laps, last = 0 if sense > 0 else -1, False
+        while abs(laps) <= FARTHEST and not last:
+            report(f"seeking extremals on lap {laps:+d}")
+            lap, most = Lap.of(setting.scaled, laps), WORSE * best
+            starts = first_durations(setting, lap, most)
+            if not starts and best < math.inf:
+                last, most = True, FURTHER * best if setting.free else math.inf
+                starts = first_durations(setting, lap, most)
+            for root in on_lap(setting, lap, starts, log, most):
+                best = min(best, cost(setting, root))
+                yield root
             laps += sense
         log.ends.append(f"laps from {laps:+d} {'up' if sense > 0 else 'down'} were not tried")
-    if not roots:
-        reasons = log.given_up or ["each lap costs too much thrust, or is over before the start"]
-        raise NotConverged(f"no extremal was reached on any lap: {'; '.join(reasons)}", math.inf)
-    return roots
+    if best == math.inf:
+        raise _failure(setting, log)
+
+
+def _failure(setting: Setting, log: SearchLog) -> Infeasible | NotConverged:
+    """The reason why a search found nothing."""
+    if setting.duration is not None and not log.durations:
+        laps = [Lap.of(setting.scaled, number) for number in range(-FARTHEST, FARTHEST + 1)]
+        guesses = [least_energy_guesses(lap, np.array([setting.duration])) for lap in laps]
+        least = min((float(energy) for guess in guesses for energy in guess.energies), default=math.inf)
+        if least < math.inf:
+            mean, unit = math.sqrt(least / setting.duration), setting.scaled.acceleration
+            return Infeasible(
+                "no transfer of this duration keeps the thrust within the peak: its root mean square is at "
+                f"least about {mean * unit:.4g} on each lap, which is above the peak of "
+                f"{setting.peak * unit:.4g}"
+            )
+    reasons = log.given_up or ["each lap costs too much thrust, or is over before the start"]
+    return NotConverged(f"no extremal was reached on any lap: {'; '.join(reasons)}", math.inf)
 
 
 def cost(setting: Setting, root: Root[Flight]) -> float:
