@@ -27,8 +27,7 @@ ATTITUDE = np.array([0.8, 0.1, -0.5, 0.31]) / np.linalg.norm([0.8, 0.1, -0.5, 0.
 
 
 def trajectory(form, start, scale):
-    # SciPy integrates: for a few trajectories, compiling the Taylor integrator takes longer than it saves.
-    integrate = flow(form.states, form.rates, form.parameters, taylor=False)
+    integrate = flow(form.states, form.rates, form.parameters)
     return integrate(start, SPAN, [*TARGET, scale])
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from benchmarks.averaging.flows import OURS, TOGETHER
+from benchmarks.averaging.flows import OURS, TAYLOR, TOGETHER
 from benchmarks.figures import Table, where
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.display.plotting import (
@@ -26,7 +26,8 @@ TIMES = {
     "all exact extremals, ms": ("all exact extremals", "D", RED),
 }
 INTEGRATORS = {
-    OURS: ("o", BLUE),
+    OURS: ("D", GREEN),
+    TAYLOR: ("o", BLUE),
     TOGETHER: ("P", BLUE),
     "DOP853, solve_ivp": ("s", RED),
     "LSODA, solve_ivp": ("^", ORANGE),

@@ -13,7 +13,7 @@ NOTES = (
     "least exact cost.",
     "Integrators follow the best extremal at epsilon 0.01 with the anomaly as the clock, at the tolerance",
     "1e-12; SciPy's call the same expressions compiled by Numba. Errors are against a long-double reference.",
-    "Ours carries eight trajectories at a time, so that one alone costs as much as eight.",
+    "heyoka carries eight trajectories at a time, so that one alone costs as much as eight.",
     "solve_bvp gets the exact problem with the Jacobian of its right-hand side, the averaged solution as its",
     "guess at 24 points a turn, the tolerance 1e-6 and up to 20000 nodes; it finds one extremal, ours all.",
 )
@@ -29,7 +29,7 @@ def measure(quick: bool) -> Measured:
             start.table(quick),
         ),
         "exact-and-averaged": ("Exact extremals beside the averaged solve", exact),
-        "integrators": ("The exact equations by three integrators", flown),
+        "integrators": ("The exact equations by four integrators", flown),
         "solve-bvp": ("solve_bvp on the exact problem", collocation.table(quick)),
     }
     landings = {epsilon: collocation.landing(epsilon) for epsilon in collocation.SHOWN}

@@ -7,10 +7,11 @@ starts            Newton's method from random starts in each form, and the condi
 collocation       SciPy's solve_bvp on the repaired form, with its Jacobian
 pykep_peer        pykep's least-time problem, in an interpreter of its own
 pykep_least_time  the program that this interpreter runs
-integrators       Taylor series and DOP853
+integrators       native code, heyoka and SciPy
+first_solve       a solve in a fresh process
 solves            solve times of several methods
 aims              times of our solver against their aims
-stacks            flights one by one and in heyoka's vector mode
+stacks            flights one by one and many in one call
 figures           the plots
 measure           all tables and plots
 """

@@ -98,13 +98,13 @@ def solve_times(table: Table, aim: float) -> Figure:
 
 @styled
 def stacks(table: Table) -> Figure:
-    """Flights per second, one by one and in vector mode."""
+    """Flights per second, one by one and many in one call."""
     figure, axis = subplots(height=2.6)
     places = np.arange(len(table["flights"]))
     ways = (
         ("one by one, microseconds", ORANGE, "one by one, with derivatives"),
-        ("many, microseconds", BLUE, "many at once, with derivatives"),
-        ("many, ends alone, microseconds", SKY, "many at once, ends alone"),
+        ("many, microseconds", BLUE, "many in one call, with derivatives"),
+        ("many, ends alone, microseconds", SKY, "many in one call, ends alone"),
     )
     for k, (heading, colour, label) in enumerate(ways):
         speeds = 1e6 / np.array(table[heading])

@@ -11,7 +11,7 @@ from benchmarks.rendezvous import problems, systems
 from benchmarks.rendezvous.systems import SYSTEMS
 from benchmarks.table import by_heading
 from pontryagin.arrays import Array
-from pontryagin.numerics.symbolic import heyoka_system
+from pontryagin.numerics.vector_mode import heyoka_system
 from pontryagin.rendezvous.derivation.principle import Mode
 
 REFERENCE = "inclined-energy"

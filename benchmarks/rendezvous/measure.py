@@ -4,6 +4,7 @@ from benchmarks.papers import Measured
 from benchmarks.rendezvous import (
     aims,
     figures,
+    first_solve,
     forms,
     integrators,
     problems,
@@ -33,9 +34,7 @@ NOTES = (
     "and the missing parameter for the second, that problem, its mass as good as constant, is the same work",
     "as ours; its gradient is integrated to 1e-8, its default, ours to rounding. Its other problem, least",
     "mass, is other work: a fixed time, and the integral of |p| behind a logarithmic barrier; none of its",
-    "problems minimises that of p^2. In heyoka's vector mode as many flights go side by side as the",
-    "processor has lanes; a switch of one stops all, its lane's mode is turned, and they go on, so that",
-    "flights with switches go in it as well. Flights one by one carry their derivatives always.",
+    "problems minimises that of p^2. Flights one by one carry their derivatives always.",
 )
 
 
@@ -47,14 +46,15 @@ def measure(quick: bool) -> Measured:
     times, flights = solves.table(quick), stacks.flights(quick)
     tables = {
         "forms": ("Right-hand sides and flights of the four forms", costs),
-        "integrators": ("A flight with its derivatives by two integrators", integrators.table(quick)),
+        "integrators": ("A flight with its derivatives by three integrators", integrators.table(quick)),
+        "first-solve": ("The first solve in a fresh process", first_solve.table(quick)),
         "starts": ("Newton's method from random starts, and the Jacobian at the solution", ends),
         "solves": ("Warm solves side by side, one thread", times),
         "warm": ("Warm solves against the aim", aims.warm(quick)),
         "least-time": ("From nothing to least time against the aim", aims.least_time(quick)),
-        "stacks": ("Flights one by one and in vector mode", flights),
+        "stacks": ("Flights one by one and many in one call", flights),
         "multistart": (
-            "Newton's method from many starts, one by one and in vector mode",
+            "Newton's method from many starts, one by one and together",
             stacks.multistarts(quick),
         ),
     }

@@ -1,4 +1,4 @@
-"""Flights one by one and in vector mode, and Newton's method from many starts in both ways."""
+"""Flights one by one and many in one call, and Newton's method from many starts in both ways."""
 
 from functools import partial
 
@@ -69,7 +69,7 @@ def flights(quick: bool) -> dict[str, list]:
 
 
 def multistarts(quick: bool) -> dict[str, list]:
-    """Times of Newton's method from random starts, one by one and in vector mode."""
+    """Times of Newton's method from random starts, one by one and together."""
     best = problems.solved_leap(DEGREES)
     setting = problems.setting(best.problem)
     starts = problems.deviations(8 if quick else STARTS, SPREAD)

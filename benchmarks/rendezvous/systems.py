@@ -16,7 +16,7 @@ from pontryagin.arrays import Array
 from pontryagin.numerics import complex_step
 from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.rotation import conjugate, product
-from pontryagin.numerics.symbolic import heyoka_system
+from pontryagin.numerics.vector_mode import heyoka_system
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form

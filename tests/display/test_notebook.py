@@ -44,7 +44,7 @@ def test_sides_must_pair():
 
 
 def test_an_entry_is_checked_and_shown(published):
-    notebook.entry("(2.3)", "Gorelov")
+    notebook.entry("(2.3)", ledger.entries("Gorelov"))
     (shown,) = published
     (entry,) = [e for e in ledger.entries("Gorelov") if e.label == "(2.3)"]
     text = shown["text/markdown"]
@@ -52,31 +52,30 @@ def test_an_entry_is_checked_and_shown(published):
     assert f"$${entry.printed_latex}$$" in text and f"$${entry.derived_latex}$$" in text
 
 
-def test_an_entry_whose_verdict_breaks_is_not_shown(published, monkeypatch):
+def test_an_entry_whose_verdict_breaks_is_not_shown(published):
     from dataclasses import replace
 
     wrong = replace(ledger.entries("Gorelov", "misprint")[0], verdict="holds")
-    monkeypatch.setattr(ledger, "entries", lambda paper=None, verdict=None: (wrong,))
     with pytest.raises(ledger.Unsupported):
-        notebook.entry(wrong.label)
+        notebook.entry(wrong.label, [wrong])
     assert published == []
 
 
 def test_an_unknown_label_is_refused():
     with pytest.raises(ValueError, match=r"label: got '\(9.9\)'"):
-        notebook.entry("(9.9)")
+        notebook.entry("(9.9)", ledger.entries("Gorelov"))
 
 
 def test_a_label_of_two_papers_needs_the_paper(published):
     with pytest.raises(ValueError, match="Gorelov & Morozova 2012, Akulenko 1977"):
-        notebook.entry("(2.3)")
+        notebook.entry("(2.3)", ledger.entries())
     assert published == []
 
 
 @pytest.mark.slow
 def test_verdicts_show_every_step(published):
-    notebook.verdicts("false")
     entries = ledger.entries(verdict="false")
+    notebook.verdicts(entries)
     assert len(published) == len(entries)
     for shown, entry in zip(published, entries, strict=True):
         assert shown["text/markdown"].count("\n- ") == len(entry.proof())
@@ -88,9 +87,13 @@ def test_words_mean_themselves():
 
 def test_every_entry_is_a_tile_and_counted():
     total = len(ledger.entries())
-    tiles = [patch for patch in notebook.verdict_tiles().axes[0].patches if isinstance(patch, Rectangle)]
+    tiles = [
+        patch
+        for patch in notebook.verdict_tiles(ledger.entries()).axes[0].patches
+        if isinstance(patch, Rectangle)
+    ]
     assert len(tiles) == total
-    table = notebook.counts_table()
+    table = notebook.counts_table(ledger.entries())
     assert table["entries"][-1] == total == sum(table["entries"][:-1])
     assert sum(table[verdict][-1] for verdict in ledger.VERDICTS if verdict in table) == total
 

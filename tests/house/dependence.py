@@ -1,8 +1,7 @@
 """Which files of the project the tests of a file depend on; what cannot be told counts as depending on all.
 
 The imports are followed as the report follows those of a notebook, into the benchmarks and the tests' own
-modules too. Two things are finer here: a lazy package attaches what its stub names, and a claim that is
-handed to the ledger does not need the other papers' claims.
+modules too.
 """
 
 import ast
@@ -11,7 +10,7 @@ import textwrap
 from functools import cache, cached_property
 from pathlib import Path
 
-from pontryagin.report.dependencies import Source, closure, needed
+from pontryagin.report.dependencies import Source, closure
 
 BUILT = {"build", "dist", ".git", ".venv", ".hypothesis"}
 ANYWHERE = {"repository", "cwd", "getcwd", "walk_packages", "iter_modules"}
@@ -34,9 +33,6 @@ MENTIONS = re.compile(r"\b(pontryagin|benchmarks|tests|import)\b")
 MODULE = re.compile(r"(pontryagin|benchmarks|tests)(\.\w+)+")
 FILLED = "_filled_"
 """Stands for what an f-string is filled with."""
-LEDGER, COLLECTION = "pontryagin.ledger", "pontryagin.ledger.collection"
-COLLECTED = "entries"
-"""The function of the ledger that loads the claims of all papers."""
 
 
 class Project(Source):
@@ -67,34 +63,12 @@ class Project(Source):
             part.endswith(("_cache", "__pycache__", ".egg-info")) or ".partial" in part for part in parts
         )
 
-    @cached_property
-    def _known(self) -> dict[str, set[str]]:
-        return {}
-
-    def needs(self, module: str) -> set[str]:
-        """The modules that a module may import by itself; all claims, if it asks the ledger for them."""
-        if module not in self._known:
-            found = super().needs(module)
-            if module == COLLECTION:
-                found = found - self.rooms({"claims"})
-            elif module != LEDGER and _asks_the_ledger(self.modules[module].read_text(encoding="utf-8")):
-                found = found | self.rooms({"claims"})
-            self._known[module] = found
-        return self._known[module]
-
     def below(self, package: str) -> set[str]:
         """All modules of a package of ours; those of the whole project, where it is no single package."""
         place, _, rest = package.partition(".")
         if place == "benchmarks" or (place == self.folder.name and rest):
             return super().below(package)
         return set(self.modules) if place in {"", "tests", self.folder.name, *self.modules} else set()
-
-    def attached(self, package: str) -> set[str]:
-        """What the stub of a lazy package names."""
-        stub = self.modules[package].with_suffix(".pyi")
-        if not stub.is_file():
-            return super().attached(package)
-        return needed(self, stub.read_text(encoding="utf-8"), package)
 
     def files(self, test: Path) -> frozenset[Path]:
         """All files that the tests of a file depend on."""
@@ -106,7 +80,7 @@ class Project(Source):
             code = _code([path.read_text(encoding="utf-8") for path in sorted(own)])
             if code is None or any(self._reads_anything(text) for text in code):
                 return self.everything
-            reached = closure(self, [*code, *self._claims(code)])
+            reached = closure(self, code)
             found = own | {path for path in reached if path.suffix == ".py" and self._is_beside(path)}
         drawn = self.everything if any("figures_folder" in _names(text) for text in code) else frozenset()
         return frozenset(
@@ -115,11 +89,6 @@ class Project(Source):
 
     def _is_beside(self, path: Path) -> bool:
         return not path.is_relative_to(self.folder)
-
-    def _claims(self, code: list[str]) -> list[str]:
-        if not any(map(_asks_the_ledger, code)):
-            return []
-        return [f"import {name}" for name in sorted(self.rooms({"claims"}))]
 
     def _reads_anything(self, text: str) -> bool:
         names = _names(text)
@@ -164,23 +133,6 @@ def _names(text: str) -> frozenset[str]:
         elif isinstance(node, ast.Attribute):
             found.add(node.attr)
     return frozenset(found)
-
-
-@cache
-def _asks_the_ledger(text: str) -> bool:
-    """Whether it takes the function from the ledger, or calls the ledger by another name."""
-    places = {"ledger", "collection"}
-    for node in ast.walk(ast.parse(text)) if "ledger" in text else ():
-        if isinstance(node, ast.Attribute) and node.attr == COLLECTED:
-            asks = getattr(node.value, "attr", getattr(node.value, "id", "")) in places
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").rpartition(".")[2] in places:
-            asks = bool({alias.name for alias in node.names} & {COLLECTED, "*"})
-        else:
-            renamed = isinstance(node, ast.alias) and node.asname not in {None, node.name}
-            asks = renamed and node.name.rpartition(".")[2] in places
-        if asks:
-            return True
-    return False
 
 
 @cache

@@ -8,17 +8,16 @@ from numpy.testing import assert_allclose
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.arcs import Arc, SwitchedFlow, follow, follow_on_grid, places, sample
 from pontryagin.numerics.equations import Kernel
-from pontryagin.numerics.flow import has_heyoka, integrator
+from pontryagin.numerics.flow import integrator
 from pontryagin.numerics.symbolic import Symbolic
 
 x, v, u = sp.symbols("x v u", real=True)
-KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]
 
 
-def relay(taylor):
+def relay():
     """x'' = -u with u the sign of x: one system with a parameter that changes its sign at every event."""
     system = Symbolic((x, v), (v, -u), (u,), wrt=(x, v), event_functions=(-u * x,))
-    along = integrator(system, taylor)
+    along = integrator(system)
     return SwitchedFlow(lambda sign: Arc(along, (sign,)), lambda sign, _: -sign, jumps=True)
 
 
@@ -27,10 +26,9 @@ def start(flow, mode, state):
     return np.append(state, flow.arc(mode).integrator.equations.identity)
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_a_relay_oscillator_switches_every_half_period(taylor):
+def test_a_relay_oscillator_switches_every_half_period():
     """From rest at x0 the first switch is after sqrt(2 x0), the others every 2 sqrt(2 x0)."""
-    flow, x0 = relay(taylor), 0.8
+    flow, x0 = relay(), 0.8
     pieces, last = follow(flow, start(flow, 1.0, [x0, 0.0]), 1.0, 0.0, 10.0)
     quarter = np.sqrt(2 * x0)
     begins = np.array([piece.begin for piece in pieces])
@@ -52,9 +50,8 @@ def test_a_relay_oscillator_switches_every_half_period(taylor):
     assert_allclose(last[2:].reshape(2, 2)[:, 0], by_x0, atol=1e-8)
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
-    flow, x0 = relay(taylor), 0.5
+def test_both_ways_to_sample_agree_with_the_parabolas():
+    flow, x0 = relay(), 0.5
     times = np.linspace(0.0, 4.0, 41)  # the grid holds the switches at 1 and 3
     s = (times + 1) % 4 - 1
     s, sign = np.where(s > 1, s - 2, s), np.where(s > 1, -1.0, 1.0)
@@ -66,21 +63,20 @@ def test_both_ways_to_sample_agree_with_the_parabolas(taylor):
     assert places(pieces, np.array([0.0, 0.9, 1.1, 3.9])).tolist() == [0, 0, 1, 2]
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_an_oscillator_that_runs_backwards_is_where_it_began(taylor):
-    flow = relay(taylor)
+def test_an_oscillator_that_runs_backwards_is_where_it_began():
+    flow = relay()
     pieces, last = follow(flow, start(flow, 1.0, [0.8, 0.3]), 1.0, 0.0, 7.0)
     _, back = follow(flow, start(flow, pieces[-1].mode, last[:2]), pieces[-1].mode, 7.0, 0.0)
     assert_allclose(back[:2], [0.8, 0.3], atol=1e-12)
     assert_allclose(back[2:].reshape(2, 2) @ last[2:].reshape(2, 2), np.eye(2), atol=1e-10)
 
 
-def bang_bang(taylor):
+def bang_bang():
     """Least time to rest at 0 for x'' = u, |u| <= 1: u = -1 above the curve x = -v|v|/2, then +1."""
     names = ("x", "v")
     braking = Kernel(names, lambda of, t, z, p: [z[1], -1.0 + 0.0 * z[1]], 0, (0, 1), (curve,))
     final = Kernel(names, lambda of, t, z, p: [z[1], 1.0 + 0.0 * z[1]], 0, (0, 1))
-    arcs = {name: Arc(integrator(system, taylor), ()) for name, system in (("-", braking), ("+", final))}
+    arcs = {name: Arc(integrator(system), ()) for name, system in (("-", braking), ("+", final))}
     return SwitchedFlow(arcs.__getitem__, lambda mode, event: "+", jumps=True)
 
 
@@ -89,10 +85,9 @@ def curve(of, t, z, p):
     return z[1] * z[1] / 2 - z[0]
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
+def test_the_double_integrator_switches_where_the_curve_is_met():
     """From rest at x0 the switch is at sqrt(x0); each mode has a kernel of its own."""
-    flow, x0 = bang_bang(taylor), 1.3
+    flow, x0 = bang_bang(), 1.3
     pieces, last = follow(flow, start(flow, "-", [x0, 0.0]), "-", 0.0, 2 * np.sqrt(x0))
     assert [piece.mode for piece in pieces] == ["-", "+"]
     assert_allclose(pieces[1].begin, np.sqrt(x0), rtol=1e-14)
@@ -102,11 +97,10 @@ def test_the_double_integrator_switches_where_the_curve_is_met(taylor):
     assert_allclose(last[2:].reshape(2, 2)[:, 0], by_x0, atol=1e-12)
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_a_tangency_is_no_switch_to_differentiate(taylor):
+def test_a_tangency_is_no_switch_to_differentiate():
     """x reaches 0 at a speed of 0.14, below the grazing limit of 0.2; short steps do not skip the event."""
     flow = SwitchedFlow(
-        lambda mode: Arc(integrator(Kernel(("x", "v"), gravity, 0, (0,), (height,)), taylor), (), 0.1),
+        lambda mode: Arc(integrator(Kernel(("x", "v"), gravity, 0, (0,), (height,))), (), 0.1),
         lambda mode, event: mode + 1,
         jumps=True,
         grazing=0.2,
@@ -126,9 +120,8 @@ def height(of, t, z, p):
     return -z[0]
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_switches_without_end_are_given_up(taylor):
-    flow = relay(taylor)
+def test_switches_without_end_are_given_up():
+    flow = relay()
     few = SwitchedFlow(flow.arc, flow.following, jumps=True, most=5)
     with pytest.raises(NotConverged, match="switches more than 5 times"):
         follow(few, start(flow, 1.0, [0.01, 0.0]), 1.0, 0.0, 50.0)

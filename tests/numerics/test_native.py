@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
-from pontryagin.numerics import jit, native
+from pontryagin.numerics import jit, native, object_code
 from pontryagin.triple_integrator.least_time.arrival import solve_stack as time_stack
 from pontryagin.triple_integrator.norms.energy import solve_stack as energy_stack
 from pontryagin.triple_integrator.norms.impulse import solve_stack as impulse_stack
@@ -47,7 +47,7 @@ def math_root(r):
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """An empty cache."""
-    monkeypatch.setattr(native, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(object_code, "cache_folder", lambda: tmp_path)
     return tmp_path
 
 
@@ -226,12 +226,21 @@ def test_a_damaged_file_is_made_anew(folder, damage):
     text = path.read_bytes()
     path.unlink()  # The process has it open.
     path.write_bytes(damage(text))
+    path.chmod(0o600)
     again = fresh()
     assert not again._start(quick=True)
     assert again.call([1.0, 2.0], 4.0) is None
     assert again._start()
     assert np.frombuffer(again.call([1.0, 2.0], 4.0)).tolist() == [1, 2, 4, 21, 2]
-    assert native.intact(path)
+    assert object_code.intact(path)
+
+
+def test_a_file_that_others_may_write_is_not_opened(folder):
+    assert fresh()._start()
+    (path,) = folder.iterdir()
+    assert object_code.intact(path)
+    path.chmod(0o722)
+    assert not object_code.intact(path) and not fresh()._start(quick=True)
 
 
 def test_what_is_in_the_way_is_left_alone(folder):
@@ -246,10 +255,10 @@ def test_what_is_in_the_way_is_left_alone(folder):
 
 @pytest.mark.parametrize("linker", [None, "false", "no-such-program"])
 def test_without_a_linker_llvmlite_loads_the_object_code(folder, monkeypatch, linker):
-    monkeypatch.setattr(native.shutil, "which", lambda _: linker)
+    monkeypatch.setattr(object_code.shutil, "which", lambda _: linker)
     assert fresh()._start()
     (path,) = folder.iterdir()
-    assert path.suffix == ".o" and native.intact(path)
+    assert path.suffix == ".o" and object_code.intact(path)
     again = fresh()
     assert not again._start(quick=True)
     monkeypatch.setattr(native.Recipe, "made", None)
@@ -259,11 +268,11 @@ def test_without_a_linker_llvmlite_loads_the_object_code(folder, monkeypatch, li
 
 
 def test_where_no_file_may_be_executed_llvmlite_loads_the_object_code(folder, monkeypatch):
-    def refuse(path, name):
+    def refuse(path, symbols, externals):
         raise OSError("failed to map segment from shared object")
 
-    monkeypatch.setattr(native, "open_library", refuse)
-    monkeypatch.setitem(native.FORMS, ".so", refuse)
+    monkeypatch.setattr(object_code, "open_library", refuse)
+    monkeypatch.setitem(object_code.FORMS, ".so", refuse)
     assert fresh()._start()
     assert [path.suffix for path in folder.iterdir()] == [".o"]
 
@@ -312,7 +321,7 @@ def test_other_kernels_and_other_versions_have_other_files(folder, monkeypatch):
     paths.append(path())
     monkeypatch.setattr(native, "EXTENSION_SUFFIXES", [".cpython-311-aarch64-linux-gnu.so"])
     paths.append(path())
-    monkeypatch.setattr(native.platform, "machine", lambda: "another")
+    monkeypatch.setattr(object_code.platform, "machine", lambda: "another")
     paths.append(path())
     assert len({*paths}) == len(paths)
 

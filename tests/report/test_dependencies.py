@@ -5,9 +5,11 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import nbformat
 import pytest
 
 from pontryagin.io import files
+from pontryagin.papers import PAPERS as ALL_PAPERS
 from pontryagin.report.dependencies import Source, closure, digest, literals
 
 REAL = Source(files.repository() / "src" / "pontryagin")
@@ -22,8 +24,10 @@ MODULES = {
     "plain/energy.py": "from .. import certificate\ndef solve(): ...",
     "plain/figures.py": "",
     "paper/__init__.py": "import lazy_loader\nlazy_loader.attach_stub(__name__, __file__)",
-    "paper/__init__.pyi": "from .peak import solve as solve",
-    "paper/peak.py": "import pontryagin.compile",
+    "paper/__init__.pyi": "from . import notes as notes\nfrom .peak import solve as solve",
+    "paper/notes.py": "",
+    "paper/peak.py": "from pontryagin.compile import f",
+    "paper/unnamed.py": "",
     "computed/__init__.py": "",
     "computed/all.py": "from importlib import import_module\nimport_module('.' + input())",
     "computed/hidden.py": "",
@@ -36,6 +40,7 @@ MODULES = {
     "report/__init__.py": "",
     "cli.py": "import pontryagin.report",
 }
+LAZY = {"pontryagin", "paper", "__init__.pyi"}
 PAPERS = {
     "__init__.py": "",
     "papers.py": "from importlib import import_module\ndef room(a, b): return import_module(a + b)",
@@ -72,10 +77,11 @@ def names(source, *code):
         ("from pontryagin.certificate import Certificate", {"pontryagin", "certificate"}),
         ("import pontryagin.compile", {"pontryagin", "compile", "certificate"}),
         ("from pontryagin.plain import solve", {"pontryagin", "plain", "plain.energy", "certificate"}),
-        (
-            "import pontryagin.paper",
-            {"pontryagin", "paper", "__init__.pyi", "paper.peak", "compile", "certificate"},
-        ),
+        ("from pontryagin.paper import notes", LAZY | {"paper.notes"}),
+        ("from pontryagin.paper import solve", LAZY | {"paper.peak", "compile", "certificate"}),
+        ("from pontryagin.paper import solve as s", LAZY | {"paper.peak", "compile", "certificate"}),
+        ("from pontryagin.paper.peak import solve", LAZY | {"paper.peak", "compile", "certificate"}),
+        ("from pontryagin.paper.unnamed import x", LAZY | {"paper.unnamed"}),
         ("import pontryagin.computed.all", {"pontryagin", "computed", "computed.all", "computed.hidden"}),
         ("import pontryagin.exact.one", {"pontryagin", "exact", "exact.one", "lonely"}),
         ("import pontryagin.table", {"pontryagin", "table", "lonely"}),
@@ -85,6 +91,23 @@ def names(source, *code):
 )
 def test_code_depends_on_what_its_imports_reach_and_on_nothing_else(source, code, needed):
     assert names(source, code) == needed
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import pontryagin.paper",
+        "import pontryagin.paper as p",
+        "from pontryagin import paper",
+        "from pontryagin.paper import mystery",
+        "sys.modules['pontryagin.paper'].solve",
+        "from pontryagin.paper.unnamed import x\nimport pontryagin\npontryagin.paper.solve",
+        "import pontryagin.paper.unnamed\npontryagin.paper.solve",
+    ],
+)
+def test_a_lazy_package_at_hand_may_import_all_that_it_names(source, code):
+    needed = LAZY | {"paper.notes", "paper.peak", "compile", "certificate"}
+    assert names(source, code) - {"paper.unnamed"} == needed
 
 
 @pytest.mark.parametrize(
@@ -168,17 +191,53 @@ def papers(checkout):
     return Source(checkout.root / "src" / "pontryagin")
 
 
-def test_the_ledger_depends_on_all_papers_claims_and_not_on_their_commands(papers):
-    claims = {f"{name}.claims{part}" for name in "ab" for part in ("", ".first")}
-    ledger = {"pontryagin", "papers", "ledger", "ledger.collection", "a", "b"}
-    assert names(papers, "from pontryagin import ledger") == ledger | claims
+CLAIMS = {f"{paper}{part}" for paper in "ab" for part in ("", ".claims", ".claims.first")}
+LEDGER = {"pontryagin", "papers", "ledger", "ledger.collection"}
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "from pontryagin.ledger import entries",
+        "from pontryagin.ledger import entries as all_of_them",
+        "from pontryagin.ledger.collection import entries",
+        "from pontryagin import ledger\nledger.entries('a')",
+        "from pontryagin import ledger as book\nbook.entries('a')",
+        "import pontryagin.ledger\npontryagin.ledger.entries('a')",
+        "from pontryagin import ledger\nbook = ledger",
+        "from pontryagin import ledger\ngetattr(ledger, 'ent' + 'ries')()",
+        "import sys\nsys.modules['pontryagin.ledger'].entries()",
+    ],
+)
+def test_who_asks_the_ledger_depends_on_all_papers_claims_and_not_on_their_commands(papers, code):
+    assert names(papers, code) == LEDGER | CLAIMS
+
+
+def test_who_uses_the_ledger_of_one_paper_depends_on_its_claims_alone(papers):
+    assert names(papers, "from pontryagin import ledger\nledger.Entry") == LEDGER
     assert names(papers, "import pontryagin.papers") == {"pontryagin", "papers"}
+    papers.modules["pontryagin.a.claims.first"].write_text("from pontryagin.ledger import Page")
+    found = names(papers, "from pontryagin.a.claims import ENTRIES")
+    assert found == LEDGER | {name for name in CLAIMS if name[0] == "a"}
+
+
+CODE = {
+    path.stem: [cell.source for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
+    for path in sorted((files.repository() / "notebooks").glob("*.ipynb"))
+}
 
 
 @pytest.mark.parametrize("module", [name for name in REAL.modules if name.endswith(".claims")])
 def test_a_changed_claims_file_changes_the_key_of_what_uses_the_ledger(module):
     assert len(module.split(".")) == 3
-    for code in ("import pontryagin.ledger", "from pontryagin.display import notebook"):
-        files_read = closure(REAL, [code])
-        assert set(REAL.modules[module].parent.glob("*.py")) <= files_read
+    for code in ("from pontryagin.ledger import entries", *CODE["00-overview"]):
+        if "entries" in code:
+            assert set(REAL.modules[module].parent.glob("*.py")) <= closure(REAL, [code])
     assert REAL.modules[module] not in closure(REAL, ["from pontryagin.display import plotting"])
+
+
+@pytest.mark.parametrize("notebook", [name for name in CODE if name != "00-overview"])
+def test_a_chapter_depends_on_the_modules_of_its_own_paper_alone(notebook):
+    folders = {path.relative_to(REAL.folder).parts[0] for path in closure(REAL, CODE[notebook])}
+    own = {paper.package for paper in ALL_PAPERS if paper.chapter == notebook[0]}
+    assert folders & {paper.package for paper in ALL_PAPERS} == own

@@ -8,7 +8,15 @@ import pytest
 
 from pontryagin.io import files
 from pontryagin.report import assemble
-from pontryagin.report.execute import CellFailure, execute, execute_all, notebook_key, publish, read_notebook
+from pontryagin.report.execute import (
+    CellFailure,
+    UncountedImport,
+    attempt,
+    execute,
+    notebook_key,
+    publish,
+    read_notebook,
+)
 
 COUNT = "open('../../runs', 'a').write('x')"
 SLOW_AT_FIRST = "import time; time.sleep(60 if len(open('../../runs').read()) < 2 else 0)"
@@ -21,6 +29,7 @@ def line():
     return figure
 show(line())
 """
+HIDE = "exec('import pontryagin.' + 'hidden')"
 TABLE = "import numpy as np; show_table({'x': np.random.default_rng(3).normal(size=4)}, 'sample')"
 
 
@@ -37,7 +46,7 @@ def key(checkout, path):
 def test_a_failing_cell_is_named_with_its_notebook_and_error(checkout):
     good = checkout.notebook("01-good", "# Good", "1 + 1")
     bad = checkout.notebook("02-bad", "# Bad", "x = 3", "x / 0")
-    results = execute_all(checkout.workspace, [good, bad], 2, lambda *_: None)
+    results = [attempt(checkout.workspace, path) for path in (good, bad)]
     assert results[0].name == "01-good"
     assert isinstance(results[1], CellFailure)
     assert "notebooks/02-bad.ipynb, cell 3 of 3: ZeroDivisionError: division by zero" in str(results[1])
@@ -75,6 +84,21 @@ def test_the_key_changes_with_what_the_notebook_depends_on_and_with_nothing_else
         change()
         keys.append(key(checkout, path))
     assert len(set(keys)) == len(keys)
+
+
+@pytest.mark.slow
+def test_a_notebook_that_loads_what_its_key_does_not_count_is_refused(checkout):
+    checkout.modules({"__init__.py": "", "hidden.py": "x = 1", "seen.py": ""})
+    path = checkout.notebook(
+        "01-hides", "# Hides", "from pontryagin import seen", "exec('import pontryagin.' + 'hidden')"
+    )
+    with pytest.raises(UncountedImport, match=r"notebooks/01-hides\.ipynb loads pontryagin\.hidden, but"):
+        execute(checkout.workspace, path)
+    assert not list((checkout.workspace.cache / "notebooks" / "01-hides").glob("[!.]*"))
+    checkout.notebook(
+        "01-hides", "# Hides", "from pontryagin import hidden", "exec('import pontryagin.' + 'hidden')"
+    )
+    assert len(execute(checkout.workspace, path).notebook.cells) == 3
 
 
 @pytest.mark.slow

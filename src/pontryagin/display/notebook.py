@@ -1,7 +1,7 @@
 """Formulas and entries of the ledger as notebooks display them; each entry shown is checked first."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from matplotlib.figure import Figure
@@ -58,15 +58,15 @@ def vanishing(expressions: Iterable[Any]) -> None:
     equations(listed, ["0"] * len(listed))
 
 
-def entry(label: str, paper: str | None = None) -> None:
+def entry(label: str, entries: Iterable[Entry]) -> None:
     """Check an entry of the ledger; display its printed and derived forms, its verdict and its remark.
 
     Parameters
     ----------
     label : str
         Equation number or place, as in the ledger.
-    paper : str, optional
-        A paper's name or part of it; needed if several papers have an entry of that label.
+    entries : iterable of Entry
+        Where it is looked for: a paper's entries, so that no other paper's claims are loaded.
 
     Raises
     ------
@@ -75,42 +75,42 @@ def entry(label: str, paper: str | None = None) -> None:
     pontryagin.ledger.Unsupported
         If the evidence does not support the verdict.
     """
-    found = [candidate for candidate in ledger.entries(paper) if candidate.label == label]
+    found = [candidate for candidate in entries if candidate.label == label]
     if not found:
-        raise ArgumentValueError(f"label: got {label!r}, takes that of an entry of the ledger", "label")
-    if len(papers := list(dict.fromkeys(one.paper for one in found))) > 1:
+        raise ArgumentValueError(f"label: got {label!r}, takes that of one of the entries", "label")
+    if len(papers := list(by_paper(found))) > 1:
         raise ArgumentValueError(
-            f"paper: got {paper!r}, takes one of those that have an entry {label}: {', '.join(papers)}",
-            "paper",
+            f"entries: got those of {', '.join(papers)}, which have an entry {label} each; takes one paper's",
+            "entries",
         )
     for one in found:
-        one.check()
         _publish({"text/markdown": account(one)})
 
 
-def verdicts(verdict: str, paper: str | None = None) -> None:
-    """Check every entry of a verdict; display each as `entry` does, followed by the steps of its proof."""
-    for one in ledger.entries(paper, verdict):
-        steps = "\n".join(f"- {_text(step)}" for step in one.proof())
+def verdicts(entries: Iterable[Entry]) -> None:
+    """Check entries of the ledger; display each as `entry` does, followed by the steps of its proof."""
+    for one in entries:
+        steps = "\n".join(f"- {_text(step)}" for step in one.checked_steps())
         _publish({"text/markdown": f"{account(one)}\n\nChecked here, step by step:\n\n{steps}"})
 
 
 def account(entry: Entry) -> str:
-    """An entry as Markdown: its printed and derived forms as formulas, then the remark."""
+    """A checked entry as Markdown: its printed and derived forms as formulas, then the remark."""
+    printed, derived = entry.checked_forms()
     parts = [f"**{entry.label}** {_text(entry.statement)}: *{entry.verdict}*."]
-    if entry.printed_latex:
-        parts.append(f"Printed:\n\n$${entry.printed_latex}$$")
-    if entry.derived_latex:
+    if printed:
+        parts.append(f"Printed:\n\n$${printed}$$")
+    if derived:
         same = entry.verdict == "holds"
-        parts.append("Derived: the same." if same else f"Derived:\n\n$${entry.derived_latex}$$")
+        parts.append("Derived: the same." if same else f"Derived:\n\n$${derived}$$")
     if entry.remark:
         parts.append(_text(entry.remark))
     return "\n\n".join(parts)
 
 
-def counts_table() -> dict[str, list[Any]]:
+def counts_table(entries: Iterable[Entry]) -> dict[str, list[Any]]:
     """The number of entries of each verdict and paper, as columns for `plotting.show_table`."""
-    rows = by_paper(ledger.entries())
+    rows = by_paper(entries)
     groups = [*rows.values(), [one for group in rows.values() for one in group]]
     tallies = [ledger.counts(group) for group in groups]
     seen = [verdict for verdict in ledger.VERDICTS if tallies[-1][verdict]]
@@ -128,9 +128,9 @@ def by_paper(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
 
 
 @styled
-def verdict_tiles() -> Figure:
+def verdict_tiles(entries: Sequence[Entry]) -> Figure:
     """A tile for each entry, coloured by verdict; papers one below the other, entries in their order."""
-    grouped = by_paper(ledger.entries())
+    grouped = by_paper(entries)
     across = 36
     gap = 0.5
     lines = [
@@ -148,7 +148,7 @@ def verdict_tiles() -> Figure:
             ax.add_patch(Rectangle(corner, 0.84, 0.84, lw=0, **TILES[one.verdict]))
     ax.set(xlim=(-10.5, across), ylim=(height, 0), aspect="equal")
     ax.axis("off")
-    present = [verdict for verdict, count in ledger.counts(ledger.entries()).items() if count]
+    present = [verdict for verdict, count in ledger.counts(entries).items() if count]
     handles = [Patch(**TILES[verdict]) for verdict in present]
     figure.legend(handles, present, loc="outside lower center", ncols=len(present), handlelength=1.0)
     return figure

@@ -41,15 +41,16 @@ def entries(paper: str | None = None, verdict: str | None = None) -> tuple[Entry
     """
     if verdict is not None:
         kind(verdict)
-    collected: list[Entry] = [
-        entry for package in papers.packages() for entry in papers.room(package, "claims").ENTRIES
-    ]
-    known = list(dict.fromkeys(entry.paper for entry in collected))
+    known = dict.fromkeys(one.name for one in papers.PAPERS)
     chosen = [name for name in known if paper is None or paper.casefold() in name.casefold()]
     if not chosen:
         raise ArgumentValueError(
             f"paper: got {paper!r}, takes (part of) one of {', '.join(map(repr, known))}", "paper"
         )
+    packages = dict.fromkeys(one.package for one in papers.PAPERS if one.name in chosen)
+    collected: list[Entry] = [
+        entry for package in packages for entry in papers.room(package, "claims").ENTRIES
+    ]
     return tuple(entry for entry in collected if entry.paper in chosen and verdict in (None, entry.verdict))
 
 

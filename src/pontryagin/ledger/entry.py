@@ -7,12 +7,15 @@ raises when it differs from the stated one.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from pontryagin.io.kept_results import between_processes
 from pontryagin.ledger.verdict import Unsupported, Verdict, kind
 
 if TYPE_CHECKING:
     from pontryagin.ledger.evidence import Evidence, Steps
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -107,6 +110,22 @@ class Entry:
         self.check()
         return [words for words, _ in self.evidence.steps()] if self.evidence else []
 
+    def checked_forms(self) -> tuple[str, str]:
+        """`printed_latex` and `derived_latex` after a check; a build keeps them under the sources' hash."""
+        return self._kept("forms", self._check_forms)
+
+    def checked_steps(self) -> list[str]:
+        """The steps of `proof`; a build keeps them under the sources' hash."""
+        return self._kept("steps", self.proof)
+
+    def _check_forms(self) -> tuple[str, str]:
+        self.check()
+        return self.printed_latex, self.derived_latex
+
+    def _kept(self, what: str, compute: Callable[[], T]) -> T:
+        name = f"{what} of {self.paper}, {self.label}: {self.verdict}"
+        return between_processes(self.build.__module__, name, compute)
+
     def as_dict(self) -> dict[str, str]:
         """The entry as strings: paper, label, statement, verdict, remark and `printed` in LaTeX."""
         return {
@@ -168,6 +187,7 @@ class Page(list[Entry]):
 
                 return Proof(argument, display=display)
 
+            build.__module__ = argument.__module__
             return self(label, statement, verdict="holds", remark=remark)(build)
 
         return append

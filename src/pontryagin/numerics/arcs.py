@@ -131,16 +131,12 @@ def follow(
         more switches than ``flow.most``.
     """
     pieces = [Piece(begin, mode, whole)]
-    last: Integrator | None = None
     while True:
         piece = pieces[-1]
         integrator, parameters, longest = flow.arc(piece.mode)
-        reached = integrator.run(
-            piece.whole, piece.begin, end, parameters, longest, resume=integrator is last
-        )
+        reached = integrator.run(piece.whole, piece.begin, end, parameters, longest)
         if reached.event is None:
             return tuple(pieces), reached.whole
-        last = integrator
         pieces.append(flow.crossed(piece.mode, reached))
         if len(pieces) > flow.most:
             raise NotConverged(
@@ -157,16 +153,15 @@ def follow_on_grid(flow: SwitchedFlow[Mode], whole: Array, mode: Mode, times: Ar
     rows = np.empty((len(times), n))
     rows[0] = whole[:n]
     piece, done, switches = Piece(float(times[0]), mode, whole), 1, 0
-    last: Integrator | None = None
     while done < len(times):
         integrator, parameters, longest = flow.arc(piece.mode)
         grid = np.append(piece.begin, times[done:])
-        found, reached = integrator.sample(piece.whole, grid, parameters, longest, resume=integrator is last)
+        found, reached = integrator.sample(piece.whole, grid, parameters, longest)
         rows[done : done + len(found) - 1] = found[1:]
         done += len(found) - 1
         if reached.event is None:
             break
-        piece, last, switches = flow.crossed(piece.mode, reached), integrator, switches + 1
+        piece, switches = flow.crossed(piece.mode, reached), switches + 1
         while done < len(times) and times[done] <= piece.begin:  # a point of the grid is the switch itself
             rows[done] = piece.whole[:n]
             done += 1

@@ -1,29 +1,26 @@
-"""Differential equations for the integrators, as heyoka's expressions and as functions of NumPy arrays.
+"""Differential equations for the integrators, as recorded operations and as functions of NumPy arrays.
 
 `Equations` says what an integrator needs: rates, variational equations, and the event functions that end an
-arc. `Kernel` provides them for a plain function of numbers, which runs on both heyoka's expressions and
-arrays; `pontryagin.numerics.symbolic.Symbolic` for SymPy expressions.
+arc. `Kernel` provides them for a plain function of numbers, which runs on both a `Tape` and arrays;
+`pontryagin.numerics.symbolic.Symbolic` for SymPy expressions.
 """
 
-import math
-import types
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import STEP, jacobian
+from pontryagin.numerics.tape import Recorded, Tape, call, lifted
 
 Values = Sequence[float] | Array
 """The values of parameters, (p,)."""
 Number = Any
-"""A float, a complex array, or one of heyoka's expressions."""
-HeyokaSystem = tuple[list[tuple[Number, Number]], list[Number], list[Number]]
-"""Pairs of variable and rate, the variables differentiated in, and the event functions."""
+"""A float, a complex array, or a recorded number."""
 
 
 class Equations(ABC):
@@ -44,14 +41,9 @@ class Equations(ABC):
     def identity(self) -> Array:
         """Derivatives of the initial states in the chosen initial values, (n, m): columns of the identity."""
 
-    @property
     @abstractmethod
-    def large(self) -> bool:
-        """Whether heyoka should compile loops, since unrolled code would take many seconds to compile."""
-
-    @abstractmethod
-    def in_heyoka(self) -> HeyokaSystem:
-        """The system in heyoka's expressions, without its variational equations."""
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
+        """The rates and the event functions on a tape, in its states, parameters and time."""
 
     @abstractmethod
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
@@ -71,7 +63,7 @@ class Equations(ABC):
 
 
 class Arithmetic(NamedTuple):
-    """The functions that a plain right-hand side may call on arrays or on heyoka's expressions.
+    """The functions that a plain right-hand side may call on arrays or on recorded numbers.
 
     Attributes
     ----------
@@ -87,21 +79,7 @@ class Arithmetic(NamedTuple):
 
 
 ON_ARRAYS = Arithmetic(lambda kernel: kernel, np.sqrt, np.tanh)
-
-
-def on_heyoka() -> Arithmetic:
-    """`Arithmetic` on heyoka's expressions: a kernel's own code runs with heyoka's functions."""
-    import heyoka as hy
-
-    def sqrt(x: Number) -> Number:
-        return math.sqrt(x) if isinstance(x, int | float) else hy.sqrt(x)  # heyoka takes no plain number
-
-    def lift(kernel: Callable[..., Any]) -> Callable[..., Any]:
-        return types.FunctionType(
-            kernel.__code__, {"sqrt": sqrt, "sin": hy.sin, "cos": hy.cos}, kernel.__name__
-        )
-
-    return Arithmetic(lift, sqrt, hy.tanh)
+ON_TAPE = Arithmetic(lifted, partial(call, "sqrt"), partial(call, "tanh"))
 
 
 RightHandSide = Callable[[Arithmetic, Number, Any, Any], Sequence[Number]]
@@ -126,9 +104,6 @@ class Kernel(Equations):
         Indices of the states in whose initial values the flow is differentiated.
     event_functions : tuple of functions (arithmetic, t, x, p) -> value
         See `Equations`.
-    slack : float
-        heyoka ends an arc where an event function has this value rather than zero. If the next arc began
-        exactly at a zero of its own event function, heyoka would overlook other zeros in the first step.
     """
 
     names: tuple[str, ...]
@@ -136,24 +111,20 @@ class Kernel(Equations):
     parameters: int
     wrt: tuple[int, ...] = ()
     event_functions: tuple[EventFunction, ...] = ()
-    slack: float = 0.0
 
     @cached_property
     def identity(self) -> Array:
         """Derivatives of the initial states in those listed in ``wrt``, (n, m)."""
         return np.eye(len(self.names))[:, list(self.wrt)]
 
-    large = True
-
-    def in_heyoka(self) -> HeyokaSystem:
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
         """See `Equations`."""
-        import heyoka as hy
-
-        of, x = on_heyoka(), [hy.expression(name) for name in self.names]
-        p = [hy.par[i] for i in range(self.parameters)]
-        rates = self.right_hand_side(of, hy.time, x, p)
-        events = [g(of, hy.time, x, p) - self.slack for g in self.event_functions]
-        return list(zip(x, rates, strict=True)), [x[i] for i in self.wrt], events
+        time = tape.record("time")
+        x = [tape.record("state", i) for i in range(len(self.names))]
+        p = [tape.record("parameter", i) for i in range(self.parameters)]
+        rates = self.right_hand_side(ON_TAPE, time, x, p)
+        events = [g(ON_TAPE, time, x, p) for g in self.event_functions]
+        return [tape.number(rate) for rate in rates], [tape.number(g) for g in events]
 
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
         """See `Equations`."""

@@ -1,15 +1,15 @@
-"""Flows of differential equations by heyoka's Taylor integrator, or by SciPy's DOP853 without heyoka.
+"""Flows of differential equations by a Runge-Kutta method of order 8 in native code.
 
 This module integrates one trajectory at a time; `pontryagin.numerics.lanes` integrates many. `integrator`
 follows any `pontryagin.numerics.equations.Equations` up to an event, `flow` samples the trajectories of SymPy
-equations. Without heyoka the same right-hand sides are integrated tens of times slower.
+equations. On flights with derivatives this is about ten times faster than heyoka's Taylor integrator, as
+accurate to the last digits, and ready in a millisecond once the machine has made the code.
 """
 
 import functools
 import math
-import threading
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,37 +17,25 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
+from pontryagin.numerics.arc_loop import EVENT
 from pontryagin.numerics.equations import Equations, Values
-from pontryagin.numerics.packages import installed
 from pontryagin.numerics.symbolic import Symbolic
+from pontryagin.numerics.trajectory import compiled
 
 Flow = Callable[..., Array]
 
-TOLERANCE = 1e-15
+TOLERANCE = 1e-14
 ROUGH = 1e-10
 """Tolerance of trajectories that only give a guess, which is polished later with `TOLERANCE`."""
-LEAST_DOP853 = 1e-13
-"""Smallest relative tolerance that DOP853 is given."""
 STEPS = 100_000
 """Largest number of steps of one call, unless another limit is given."""
-
-
-@functools.cache
-def has_heyoka() -> bool:
-    """Whether heyoka can be imported; if not, warn once per process."""
-    if not installed("heyoka", "trajectories are integrated by SciPy's DOP853, which is slower"):
-        return False
-    import heyoka
-
-    heyoka.set_logger_level_error()  # trial steps into a singularity are rejected and need no log message
-    return True
+NO_TIMES = np.empty(0)
 
 
 def flow(
     states: Sequence[Any],
     rates: Sequence[Any],
     parameters: Sequence[Any] = (),
-    taylor: bool | None = None,
     clock: Hashable = None,
 ) -> Flow:
     """Compile x' = rates(x, p) into a function that integrates it.
@@ -60,8 +48,6 @@ def flow(
         Its derivative, one expression for each state.
     parameters : sequence of sympy.Symbol
         The constants p.
-    taylor : bool, optional
-        Whether to use heyoka; by default wherever it is installed.
     clock : sympy.Symbol, optional
         The independent variable, if the rates hold it.
 
@@ -84,7 +70,7 @@ def flow(
     >>> oscillate([1.0, 0.0], [0.0, np.pi], [1.0])[-1].round(12) + 0.0
     array([-1.,  0.])
     """
-    follow = integrator(Symbolic(tuple(states), tuple(rates), tuple(parameters), clock), taylor)
+    follow = integrator(Symbolic(tuple(states), tuple(rates), tuple(parameters), clock))
 
     def sample(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
         grid = np.asarray(times, dtype=float)
@@ -111,200 +97,69 @@ class Reached(NamedTuple):
     event: int | None
 
 
-class Integrator(ABC):
+@dataclass(frozen=True)
+class Integrator:
     """Follows one system of equations, one trajectory at a time.
 
-    ``whole`` holds the n states followed by the n m derivatives, row by row. ``longest`` bounds the steps.
-    ``resume`` states that the arc begins where an event ended the last arc of the same integrator; that
-    event then does not end the new arc at once. Both methods raise `pontryagin.NotConverged` where the
-    integrator stops short.
+    ``whole`` holds the n states followed by the n m derivatives, row by row, or the states alone. ``longest``
+    bounds the steps. Both methods raise `pontryagin.NotConverged` where the integrator stops short.
 
     Attributes
     ----------
     equations : Equations
         The equations that are integrated.
+    tolerance : float
+        Relative error allowed in a step.
+    steps_per_unit : float
+        Steps allowed per unit of time.
     """
 
-    def __init__(self, equations: Equations, tolerance: float) -> None:
-        self.equations, self._tolerance = equations, tolerance
+    equations: Equations
+    tolerance: float
+    steps_per_unit: float
 
     def run(
-        self,
-        whole: Array,
-        begin: float,
-        end: float,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
+        self, whole: Array, begin: float, end: float, parameters: Values, longest: float = math.inf
     ) -> Reached:
         """Integrate the states and derivatives up to ``end``, or to an event before it."""
-        return self._follow(whole, begin, end, None, parameters, longest, resume)[1]
+        return self._follow(whole, begin, end, NO_TIMES, parameters, longest)[1]
 
     def sample(
-        self,
-        whole: Array,
-        times: Array,
-        parameters: Values,
-        longest: float = math.inf,
-        resume: bool = False,
+        self, whole: Array, times: Array, parameters: Values, longest: float = math.inf
     ) -> tuple[Array, Reached]:
         """The states, (k, n), at ascending times, beginning at the first; none after an event."""
-        return self._follow(whole, times[0], times[-1], times, parameters, longest, resume)
+        return self._follow(whole, times[0], times[-1], times, parameters, longest)
 
-    @abstractmethod
     def _follow(
-        self,
-        whole: Array,
-        begin: float,
-        end: float,
-        times: Array | None,
-        parameters: Values,
-        longest: float,
-        resume: bool,
+        self, whole: Array, begin: float, end: float, times: Array, parameters: Values, longest: float
     ) -> tuple[Array, Reached]:
-        """The states at the times (without times of no use), and where the arc ended."""
+        """The states at the times, and where the arc ended."""
+        most = STEPS
+        if self.steps_per_unit < math.inf:
+            most = int(self.steps_per_unit * (1 + abs(end - begin)))
+        given = np.asarray(parameters, dtype=float)
+        found = compiled(self.equations).follow(
+            whole, begin, end, given, self.tolerance, longest, most, times
+        )
+        if found.code > EVENT:
+            raise NotConverged("the integrator stopped before the end", float(end - found.time))
+        return found.rows, Reached(found.time, found.whole, found.event if found.event >= 0 else None)
 
 
 @functools.lru_cache(maxsize=64)
 def integrator(
-    equations: Equations,
-    taylor: bool | None = None,
-    tolerance: float = TOLERANCE,
-    steps_per_unit: float = math.inf,
+    equations: Equations, tolerance: float = TOLERANCE, steps_per_unit: float = math.inf
 ) -> Integrator:
-    """The integrator of some equations, compiled once in each thread that uses it.
+    """The integrator of some equations.
 
     Parameters
     ----------
     equations : Equations
         The equations to be integrated; hashable.
-    taylor : bool, optional
-        Whether to use heyoka; by default wherever it is installed.
     tolerance : float
         Relative error allowed in a step.
     steps_per_unit : float
-        heyoka is stopped where an arc of duration d takes more than (1 + d) times as many steps as this,
-        since it then runs into a singularity.
+        The integrator is stopped where an arc of duration d takes more than (1 + d) times as many steps as
+        this, since it then runs into a singularity.
     """
-    if has_heyoka() if taylor is None else taylor:
-        return _Taylor(equations, tolerance, steps_per_unit)
-    return _RungeKutta(equations, max(tolerance, LEAST_DOP853))
-
-
-def compiled_taylor(equations: Equations, tolerance: float, lanes: int = 0, backwards: bool = False) -> Any:
-    """heyoka's integrator of some equations, with derivatives and events; scalar if ``lanes`` is 0."""
-    import heyoka as hy
-
-    pairs, wrt, functions = equations.in_heyoka()
-    event = hy.t_event_batch if lanes else hy.t_event
-    growing = hy.event_direction.negative if backwards else hy.event_direction.positive
-    return (hy.taylor_adaptive_batch if lanes else hy.taylor_adaptive)(
-        hy.var_ode_sys(pairs, wrt, order=1) if wrt else pairs,
-        np.zeros((len(pairs), lanes) if lanes else len(pairs)),
-        tol=tolerance,
-        compact_mode=equations.large,
-        t_events=[event(function, direction=growing) for function in functions],
-    )
-
-
-def event_of(outcome: Any) -> int | None:
-    """The index of the event that stopped heyoka, if one did."""
-    index = -int(outcome) - 1
-    return index if 0 <= index < 2**31 else None
-
-
-class _Taylor(Integrator):
-    def __init__(self, equations: Equations, tolerance: float, steps_per_unit: float) -> None:
-        super().__init__(equations, tolerance)
-        self._per_unit = steps_per_unit
-        self._own = threading.local()  # heyoka's object holds the trajectory that is being followed
-
-    def _compiled(self, backwards: bool) -> Any:
-        compiled, sense = self._own.__dict__, "backwards" if backwards else "forwards"
-        if sense not in compiled:
-            compiled[sense] = compiled_taylor(self.equations, self._tolerance, backwards=backwards)
-        return compiled[sense]
-
-    def _follow(
-        self,
-        whole: Array,
-        begin: float,
-        end: float,
-        times: Array | None,
-        parameters: Values,
-        longest: float,
-        resume: bool,
-    ) -> tuple[Array, Reached]:
-        import heyoka as hy
-
-        taylor = self._compiled(end < begin and self.equations.events > 0)
-        if self.equations.events and not resume:
-            taylor.reset_cooldowns()
-        taylor.time = begin
-        taylor.state[:] = whole
-        taylor.pars[:] = parameters[: len(taylor.pars)]
-        steps = STEPS if self._per_unit == math.inf else int(self._per_unit * (1 + abs(end - begin)))
-        if times is None:
-            outcome, states = taylor.propagate_until(end, max_delta_t=longest, max_steps=steps)[0], whole
-        else:
-            outcome, *_, found = taylor.propagate_grid(times, max_delta_t=longest, max_steps=steps)
-            states = found[:, : len(self.equations.identity)]
-            states = states[np.isfinite(states).all(axis=1)]
-        event = event_of(outcome)
-        if event is None and outcome != hy.taylor_outcome.time_limit:
-            message = f"the Taylor integrator stopped before the end: {outcome}"
-            raise NotConverged(message, float(end - taylor.time))
-        return states, Reached(float(taylor.time), taylor.state.copy(), event)
-
-
-class _RungeKutta(Integrator):
-    def _follow(
-        self,
-        whole: Array,
-        begin: float,
-        end: float,
-        times: Array | None,
-        parameters: Values,
-        longest: float,
-        resume: bool,
-    ) -> tuple[Array, Reached]:
-        from scipy.integrate import solve_ivp
-
-        n = len(self.equations.identity)
-
-        def rate(t: float, flat: Array) -> Array:
-            if len(flat) == n:
-                return self.equations.rates(t, flat, parameters)
-            table = self.equations.variational(t, flat[:n], flat[n:].reshape(n, -1), parameters)
-            return np.concatenate([table[:, 0], table[:, 1:].ravel()])
-
-        with np.errstate(all="ignore"):
-            found = solve_ivp(
-                rate,
-                (begin, end),
-                whole if times is None else whole[:n],
-                "DOP853",
-                times,
-                events=[self._leaving(i, n, parameters) for i in range(self.equations.events)] or None,
-                max_step=longest,
-                rtol=self._tolerance,
-                atol=self._tolerance / 10,
-            )
-        if found.status < 0 or not np.isfinite(found.y[:, -1:]).all():
-            message = f"the Runge-Kutta integrator stopped before the end: {found.message}"
-            raise NotConverged(message, end - begin)
-        if found.status == 1:
-            instants, there = found.t_events or [], found.y_events or []
-            i = next(i for i, times_of_one in enumerate(instants) if len(times_of_one))
-            return found.y.T, Reached(float(instants[i][0]), there[i][0].copy(), i)
-        return found.y.T, Reached(end, found.y[:, -1].copy() if found.y.size else whole, None)
-
-    def _leaving(self, i: int, n: int, parameters: Values) -> Callable[[float, Array], float]:
-        """Event function i for SciPy; only growth through zero ends an arc, not a zero at its beginning."""
-
-        def event(t: float, flat: Array) -> float:
-            return self.equations.event(i, t, flat[:n], parameters)
-
-        event.terminal = True  # type: ignore[attr-defined]
-        event.direction = 1.0  # type: ignore[attr-defined]
-        return event
+    return Integrator(equations, tolerance, steps_per_unit)

@@ -5,20 +5,27 @@ about phi. Angular rates w are in body axes. Every function takes stacks, (..., 
 take complex numbers too.
 """
 
+import functools
 import math
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import zetac
 
 from pontryagin.arrays import Array
 from pontryagin.validation import vectors
 
 FULL_TURN = 2 * np.pi
 
-# Orders and coefficients of the power series in `_curvature`.
 _ORDERS = np.arange(1, 28)
-_SERIES = 2 * zetac(2 * _ORDERS)
+"""Orders of the power series in `_curvature`."""
+
+
+@functools.cache
+def _series() -> Array:
+    """Coefficients of the power series in `_curvature`, 2 (zeta(2k) - 1)."""
+    from scipy.special import zetac  # its import takes 0.2 s, and few of this module's users need it
+
+    return np.asarray(2 * zetac(2 * _ORDERS))
 
 
 def cross(a: Array, b: Array) -> Array:
@@ -148,8 +155,9 @@ def _curvature(phi: Array) -> tuple[Array, Array]:
     """
     r = (phi**2).sum(axis=-1, keepdims=True) / FULL_TURN**2
     powers = r[..., None] ** (_ORDERS - 1)
-    g = 2 / (1 - r) + (powers * _SERIES).sum(axis=-1)
-    slope = 2 / (1 - r) ** 2 + (powers[..., :-1] * (_SERIES * (_ORDERS - 1))[1:]).sum(axis=-1)
+    series = _series()
+    g = 2 / (1 - r) + (powers * series).sum(axis=-1)
+    slope = 2 / (1 - r) ** 2 + (powers[..., :-1] * (series * (_ORDERS - 1))[1:]).sum(axis=-1)
     return g / FULL_TURN**2, 2 * slope / FULL_TURN**4
 
 

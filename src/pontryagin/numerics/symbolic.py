@@ -1,6 +1,6 @@
-"""Differential equations given by SymPy expressions, as heyoka's expressions and as NumPy functions."""
+"""Differential equations given by SymPy expressions, as recorded operations and as NumPy functions."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,13 +10,11 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.equations import Equations, HeyokaSystem, Number, Values
+from pontryagin.numerics.equations import Equations, Values
+from pontryagin.numerics.tape import Recorded, Tape, functions
 
-SMALL = 200
-"""heyoka compiles right-hand sides with more operations than this as loops.
-
-Unrolled code is faster to run, but slow to compile.
-"""
+PLAIN = ("Abs", "sign")
+"""SymPy's names of functions that its plain Python has under other names."""
 
 
 @dataclass(frozen=True)
@@ -68,18 +66,26 @@ class Symbolic(Equations):
         """Derivatives of the initial states in ``wrt``, (n, m)."""
         return np.eye(len(self.states))[:, [self.states.index(w) for w in self.wrt]]
 
-    @property
-    def large(self) -> bool:
-        """Whether heyoka should compile loops."""
-        return bool(self.wrt or self.event_functions) or compact(self.expressions)
-
-    def in_heyoka(self) -> HeyokaSystem:
+    def record(self, tape: Tape) -> tuple[list[Recorded], list[Recorded]]:
         """See `Equations`."""
-        import heyoka as hy
+        import sympy as sp
 
-        pairs, table = heyoka_system(self.states, self.expressions, self.parameters, self.clock)
-        events = [hy.from_sympy(with_floats(g), table) for g in self.event_functions]
-        return pairs, [table[symbol] for symbol in self.wrt], events
+        everything = [sp.sympify(e) for e in (*self.expressions, *self.event_functions)]
+        used = {type(f).__name__ for e in everything for f in e.atoms(sp.core.function.Application)}
+        foreign = used - {*functions(), *PLAIN}
+        if foreign:
+            raise ArgumentValueError(
+                f"expressions must hold functions that can be compiled, got {', '.join(sorted(foreign))}",
+                "expressions",
+            )
+        evaluate = sp.lambdify(self._arguments, everything, modules=[functions(), "math"], cse=True)
+        found = evaluate(
+            tape.record("time"),
+            *(tape.record("state", i) for i in range(len(self.states))),
+            *(tape.record("parameter", i) for i in range(len(self.parameters))),
+        )
+        numbers = [tape.number(number) for number in found]
+        return numbers[: len(self.states)], numbers[len(self.states) :]
 
     def rates(self, time: float, state: Array, parameters: Values) -> Array:
         """See `Equations`."""
@@ -129,36 +135,3 @@ class Symbolic(Equations):
         column, time = sp.Matrix(self.event_functions), self._arguments[0]
         outputs = {"by_state": column.jacobian(list(self.states)), "by_time": column.diff(time)}
         return compiler.function("gradients", self._arguments, outputs)
-
-
-def heyoka_system(
-    states: Sequence[Any], rates: Sequence[Any], parameters: Sequence[Any], clock: Hashable
-) -> tuple[list[tuple[Number, Number]], dict[Any, Number]]:
-    """SymPy equations in heyoka's expressions, with shared parts built once, and the table of symbols."""
-    import heyoka as hy
-    import sympy as sp
-
-    table = {symbol: hy.expression(f"x_{i}") for i, symbol in enumerate(states)}
-    table |= {symbol: hy.par[i] for i, symbol in enumerate(parameters)}
-    if clock is not None:
-        table[clock] = hy.time
-    shared, reduced = sp.cse([with_floats(rate) for rate in rates], symbols=sp.numbered_symbols(cls=sp.Dummy))
-    for symbol, expression in shared:
-        table[symbol] = hy.from_sympy(expression, table)
-    return [(table[x], hy.from_sympy(r, table)) for x, r in zip(states, reduced, strict=True)], table
-
-
-def with_floats(expression: Any) -> Any:
-    """The expression with floats for fractions that heyoka cannot take: denominators not a power of two."""
-    import sympy as sp
-
-    taken = sp.sympify(expression)
-    fractions = [r for r in taken.atoms(sp.Rational) if r.q & (r.q - 1)]
-    return taken.xreplace({r: sp.Float(float(r)) for r in fractions})
-
-
-def compact(rates: Sequence[Any]) -> bool:
-    """Whether heyoka should compile loops for SymPy rates, because they hold more than `SMALL` operations."""
-    import sympy as sp
-
-    return bool(sp.count_ops(list(rates)) > SMALL)

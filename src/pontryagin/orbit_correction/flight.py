@@ -82,7 +82,7 @@ class Flight:
 
 
 def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0) -> Flight:
-    """Fly impulses on the nonlinear equations of motion, integrated by Taylor series or DOP853.
+    """Fly impulses on the nonlinear equations of motion, integrated by a Runge-Kutta method of order 8.
 
     Parameters
     ----------

@@ -3,14 +3,21 @@
 import argparse
 import os
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
+
+from rich.progress import Progress as Bars
+from rich.progress import TaskID
 
 from pontryagin.io import files
-from pontryagin.report import assemble, front, player, progress, publish, recordings
-from pontryagin.report.execute import CellFailure, Executed, execute_all
+from pontryagin.report import assemble, front, player, progress, publish, recordings, result_keys, snapshot
+from pontryagin.report.execute import CellFailure, Executed, Progress, attempt
 from pontryagin.report.execute import publish as publish_figures
+from pontryagin.report.schedule import run_all
 from pontryagin.report.workspace import Workspace, alone
 
 STAGES = ("notebooks", "figures", "recordings", "report")
@@ -54,56 +61,96 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def build(workspace: Workspace, stage: str, workers: int) -> None:
-    """Take the steps up to `stage`, `workers` notebooks or recordings at a time."""
+    """Take the steps up to `stage`, `workers` notebooks or papers' recordings at a time."""
+    if snapshot.is_current(workspace, stage):
+        progress.step(stage, "nothing changed since the last build")
+        return
+    snapshot.forget(workspace)
+    named = snapshot.named_by_notebooks(workspace)
+    read = snapshot.inputs(workspace, named)
+    _make(workspace, stage, workers)
+    snapshot.remember(workspace, stage, read, named)
+
+
+def _make(workspace: Workspace, stage: str, workers: int) -> None:
+    result_keys.hand_down(workspace)
+    watch = progress.Stopwatch()
+    with progress.bars() as bars:
+        made = run_all(workspace, _jobs(workspace, stage, _Bars(bars)), workers)
+    executed = _executed(made)
     if stage != "recordings":
-        executed = _notebooks(workspace, workers)
+        progress.step("notebooks", f"{len(executed)} in {watch}")
         changed = publish_figures(workspace, executed)
         progress.step("figures", f"figures/: {'as they were' if not changed else f'{changed} files changed'}")
-    if stage in ("recordings", "report"):
-        clips = _recordings(workspace, workers)
+    recorded = [made[name] for name in recordings.modules(workspace) if name in made]
+    clips = _played(workspace, [pair for of_paper in recorded for pair in of_paper])
     if stage == "report":
-        entries = front.ledger_entries(workspace)
+        entries = made["ledger"]
         progress.step("ledger", f"{len(entries)} entries")
         publish.write_report(workspace, executed, clips, entries)
 
 
-def _notebooks(workspace: Workspace, workers: int) -> list[Executed]:
-    watch, lock, tasks = progress.Stopwatch(), threading.Lock(), {}
-    with progress.bars() as bars:
+def _jobs(workspace: Workspace, stage: str, advance: Progress) -> dict[str, Callable[[], Any]]:
+    """What there is to do before anything is put together; none of it needs another."""
+    jobs: dict[str, Callable[[], Any]] = {}
+    if stage != "recordings":
+        jobs |= {path.stem: partial(attempt, workspace, path, advance) for path in workspace.notebooks}
+    if stage in ("recordings", "report") and _has_rerun():
+        jobs |= {name: partial(recordings.record, workspace, name) for name in recordings.modules(workspace)}
+        jobs["viewer"] = partial(_viewer, workspace)
+    if stage == "report":
+        jobs["ledger"] = partial(front.ledger_entries, workspace)
+    return jobs
 
-        def advance(name: str, done: int, total: int) -> None:
-            with lock:
-                if name not in tasks:
-                    progress.step("notebook", f"{name}: executing {total} cells")
-                    tasks[name] = bars.add_task(name, total=total)
-                bars.update(tasks[name], completed=done)
 
-        results = execute_all(workspace, workspace.notebooks, workers, advance)
-    executed = [result for result in results if isinstance(result, Executed)]
+class _Bars:
+    """A bar for each notebook that is executed."""
+
+    def __init__(self, bars: Bars) -> None:
+        self._bars, self._lock = bars, threading.Lock()
+        self._tasks: dict[str, TaskID] = {}
+
+    def __call__(self, name: str, done: int, total: int) -> None:
+        with self._lock:
+            if name not in self._tasks:
+                progress.step("notebook", f"{name}: executing {total} cells")
+                self._tasks[name] = self._bars.add_task(name, total=total)
+            self._bars.update(self._tasks[name], completed=done)
+
+
+def _executed(made: Mapping[str, Any]) -> list[Executed]:
+    executed = [result for result in made.values() if isinstance(result, Executed)]
     for result in executed:
         how = f"executed in {result.seconds} s" if result.fresh else "nothing changed since it was executed"
         progress.step("notebook", f"{result.name}: {how}")
         for warning in assemble.warnings(result):
             progress.note(warning)
-    failures = [result for result in results if isinstance(result, CellFailure)]
+    failures = [result for result in made.values() if isinstance(result, CellFailure)]
     for failure in failures:
         progress.failure(str(failure))
     if failures:
         raise Stopped
-    progress.step("notebooks", f"{len(executed)} in {watch}")
     return executed
 
 
-def _recordings(workspace: Workspace, workers: int) -> list[recordings.Clip]:
+def _has_rerun() -> bool:
     if find_spec("rerun") is None:
         progress.note("rerun-sdk is not installed here: no recordings and no players")
-        return []
+        return False
+    return True
 
-    def done(clip: recordings.Clip, fresh: bool) -> None:
+
+def _viewer(workspace: Workspace) -> None:
+    """Make the viewer that the players share; why there is none is told where they are written."""
+    with suppress(player.NoViewer):
+        player.viewer_script(workspace)
+
+
+def _played(workspace: Workspace, recorded: Sequence[tuple[recordings.Clip, bool]]) -> list[recordings.Clip]:
+    for clip, fresh in recorded:
         how = "written" if fresh else "nothing changed since it was written"
         progress.step("recording", f"{clip.name}: {how}")
-
-    clips = recordings.record_all(workspace, workers, done)
+    clips = [clip for clip, _ in recorded]
     if not clips:
         return []
     try:

@@ -1,7 +1,9 @@
 """What a notebook or a module is made of: every file of the package that running it can read.
 
 Imports are followed without running anything. What cannot be decided is counted in: a module that imports
-by a computed name depends on its whole package, one that looks for files depends on those beside it.
+by a computed name depends on its whole package, one that looks for files depends on those beside it. What is
+imported late is counted where it is asked for: a module of a lazy package where its name is taken from the
+package, or where the package itself is at hand; the claims of all papers where the ledger's entries are.
 """
 
 import ast
@@ -17,6 +19,14 @@ _LAZY = {"attach", "attach_stub"}
 """Functions of `lazy_loader` that import modules below the package that calls them."""
 _PAPERS = "papers"
 """The module whose `room` imports a module of each paper by its name."""
+_LEDGER = ("ledger", "ledger.collection")
+"""The modules that offer the function by which the claims of all papers are loaded."""
+_COLLECTED = "entries"
+"""The name of that function."""
+CLAIMS = "claims"
+"""The module of a paper that it loads."""
+_WHOLE = "*"
+"""Stands for the package as an object, from which whatever is loaded can be taken."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
 _FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
@@ -44,16 +54,56 @@ class Source:
         inside = {name for name in self.modules if name == package or name.startswith(package + ".")}
         return inside if package.startswith(above) else {m for m in inside if not m.startswith(above)}
 
-    def attached(self, package: str) -> set[str]:
-        """What a package that is loaded lazily may import: any module below it."""
-        return self.below(package)
+    def attached(self, package: str) -> dict[str, str]:
+        """What a lazy package imports when it is taken from it: name -> module, as its stub says."""
+        stub = self.modules[package].with_suffix(".pyi")
+        tree = _parsed(stub.read_text(encoding="utf-8")) if stub.is_file() else ast.Module([], [])
+        lines = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+        found = {}
+        for line in lines:
+            base = _absolute(line, package)
+            for alias in line.names:
+                inner = f"{base}.{alias.name}"
+                found[alias.asname or alias.name] = inner if inner in self.modules else base
+        return found
+
+    def is_lazy(self, package: str) -> bool:
+        """Whether a package imports what is taken from it only then."""
+        if package not in self.modules or self.modules[package].name != "__init__.py":
+            return False
+        calls = (
+            n for n in _telling(self.modules[package].read_text(encoding="utf-8")) if isinstance(n, ast.Call)
+        )
+        return any(_name_of(call) in _LAZY for call in calls)
+
+    def taken(self, package: str, name: str | None = None) -> set[str]:
+        """The modules that a lazy package imports for a name that is taken from it, or for all names."""
+        if not self.is_lazy(package):
+            return set()
+        offered = self.attached(package)
+        if name in offered:
+            return {offered[name]}
+        if name and f"{package}.{name}" in self.modules:
+            return set()
+        return set(offered.values()) or self.below(package)
 
     def needs(self, module: str) -> set[str]:
-        """The modules that a module may import by itself."""
+        """The modules that a module may import by itself; its text is read once."""
+        if module not in self._needs:
+            self._needs[module] = self._needed_by(module)
+        return self._needs[module]
+
+    @cached_property
+    def _needs(self) -> dict[str, set[str]]:
+        return {}
+
+    def _needed_by(self, module: str) -> set[str]:
         if module == f"{self.folder.name}.{_PAPERS}":
             return set()  # what its computed imports reach is counted where its function is called
         text = self.modules[module].read_text(encoding="utf-8")
-        return needed(self, text, self.package_of(module)) | _parents(self, module)
+        found = needed(self, text, self.package_of(module)) | _parents(self, module)
+        offers = module in {f"{self.folder.name}.{name}" for name in _LEDGER}
+        return found - self.rooms({CLAIMS}) if offers else found
 
     def rooms(self, names: set[str]) -> set[str]:
         """The modules of these names in the papers' folders."""
@@ -80,15 +130,21 @@ def closure(source: Source, code: Iterable[str]) -> set[Path]:
     set of Path
         Modules and, for those that look for files, what lies beside them.
     """
-    open_names = set().union(*(needed(source, text, source.folder.name) for text in code), set())
-    known: set[str] = set()
+    return reached(source, set().union(*(needed(source, text, source.folder.name) for text in code), set()))
+
+
+def reached(source: Source, modules: Iterable[str]) -> set[Path]:
+    """Files of the package that modules depend on when they are imported by name, and these themselves."""
+    open_names, known = set(modules), set[str]()
     while open_names:
         module = open_names.pop()
         if module in known:
             continue
         known.add(module)
-        open_names |= source.needs(module)
-    files = {source.modules[module] for module in known}
+        open_names |= set() if module == _WHOLE else source.needs(module)
+        if _WHOLE in known:
+            open_names |= set().union(*map(source.taken, known))
+    files = {source.modules[module] for module in known - {_WHOLE}}
     return files | {data for path in files for data in _data_beside(source, path)}
 
 
@@ -123,27 +179,40 @@ def needed(source: Source, text: str, package: str) -> set[str]:
         nodes = _telling(text)
     except SyntaxError:
         return source.below(source.folder.name)
-    found: set[str] = set()
+    found = source.rooms({CLAIMS}) if _asks_the_ledger(text) else set()
     for node in nodes:
         if isinstance(node, ast.Import):
-            found |= set().union(*(_named(source, alias.name) for alias in node.names))
+            found |= set().union(*(_imported(source, alias) for alias in node.names))
         elif isinstance(node, ast.ImportFrom):
             base = _absolute(node, package)
-            found |= set().union(*(_named(source, f"{base}.{alias.name}") for alias in node.names))
-            if any(alias.name == "*" for alias in node.names):
-                found |= source.below(base)
+            found |= set().union(*(_taken_from(source, base, alias.name) for alias in node.names))
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            found |= _named(source, node.value) if node.value in source.modules else set()
+            if node.value in source.modules:
+                found |= _named(source, node.value) | source.taken(node.value)
         elif isinstance(node, ast.Call):
             found |= _called(source, node, package)
     return found
 
 
+def _imported(source: Source, alias: ast.alias) -> set[str]:
+    """What ``import name`` loads; without ``as`` it puts the outermost package at hand."""
+    outermost = alias.name.split(".")[0] == source.folder.name and not alias.asname
+    bound = {_WHOLE} if outermost else source.taken(alias.name)
+    return _named(source, alias.name) | bound
+
+
+def _taken_from(source: Source, base: str, name: str) -> set[str]:
+    """What ``from base import name`` loads."""
+    if name == "*":
+        return _named(source, base) | source.below(base)
+    whole = f"{base}.{name}"
+    lazily = source.taken(base, name)
+    deeper = set().union(*(_named(source, module) | source.taken(module) for module in lazily), set())
+    return _named(source, whole) | source.taken(whole) | deeper
+
+
 def _called(source: Source, call: ast.Call, package: str) -> set[str]:
-    function = call.func
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    if name in _LAZY:
-        return source.attached(package)
+    name = _name_of(call)
     if name == "room" and (call.args or call.keywords):
         names = {str(node.value) for node in ast.walk(call) if isinstance(node, ast.Constant)}
         return source.rooms(names) if names else source.below(source.folder.name)
@@ -156,6 +225,33 @@ def _called(source: Source, call: ast.Call, package: str) -> set[str]:
         return set() if exact else source.below(package)
     named = any(source.folder.name in str(value) for value in written)
     return source.below(source.folder.name) if named else set()
+
+
+def _name_of(call: ast.Call) -> str:
+    return call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
+
+
+@cache
+def _asks_the_ledger(text: str) -> bool:
+    """Whether it takes the function that loads all claims from the ledger, or passes the ledger on."""
+    if _LEDGER[0] not in text:
+        return False
+    nodes = list(ast.walk(_parsed(text)))
+    of_attribute = {id(node.value) for node in nodes if isinstance(node, ast.Attribute)}
+    places = {name.rpartition(".")[2] for name in _LEDGER}
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").rpartition(".")[2] in places:
+            asks = bool({alias.name for alias in node.names} & {_COLLECTED, "*"})
+        elif isinstance(node, ast.alias):
+            asks = node.asname not in {None, node.name} and node.name.rpartition(".")[2] in places
+        elif isinstance(node, ast.Attribute) and node.attr == _COLLECTED:
+            asks = True
+        else:
+            named = getattr(node, "attr", getattr(node, "id", "")) in places
+            asks = named and isinstance(node, ast.Attribute | ast.Name) and id(node) not in of_attribute
+        if asks:
+            return True
+    return False
 
 
 def _absolute(node: ast.ImportFrom, package: str) -> str:

@@ -2,6 +2,7 @@
 
 import os
 
+from pontryagin.io.kept_results import FOLDER
 from pontryagin.report.workspace import Workspace
 
 EPOCH = "1325376000"
@@ -33,6 +34,7 @@ def environment(workspace: Workspace, **more: str) -> dict[str, str]:
         "IPYTHONDIR": str(private / "ipython"),
         "JUPYTER_CONFIG_DIR": str(private / "jupyter"),
         "MPLCONFIGDIR": str(private / "matplotlib"),
+        FOLDER: str(workspace.results),
         "PYTHONPATH": str(workspace.source.parent),
         **more,
     }

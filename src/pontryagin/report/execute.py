@@ -2,7 +2,8 @@
 
 A notebook runs in a kernel of its own, in an environment that leaves nothing to chance. What it drew is kept
 with its outputs under a key made of its code, the package files it depends on and the lock; text between
-the cells is no part of the key. An entry of the cache appears in one step, so a killed run leaves none.
+the cells is no part of the key. An entry of the cache appears in one step, so a killed run leaves none. What
+the kernel has loaded at the end must be among the files of the key, or nothing is kept.
 """
 
 import os
@@ -10,7 +11,6 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,12 +26,19 @@ from pontryagin.report.workspace import Workspace
 CELL_TIMEOUT = 1200
 KEPT_ENTRIES = 4
 
+_LOADED = "import sys; print(*(name for name in sys.modules if name.partition('.')[0] == 'pontryagin'))"
+"""What the kernel is asked at the end: which modules of the package it has loaded."""
+
 Progress = Callable[[str, int, int], None]
 """Called with a notebook's name, cells done and cells in all."""
 
 
 class CellFailure(RuntimeError):
     """A cell raised; the message names the notebook, the cell and the error."""
+
+
+class UncountedImport(RuntimeError):
+    """A notebook loads a module that is not in its key; the message names both."""
 
 
 @dataclass(frozen=True)
@@ -45,19 +52,12 @@ class Executed:
     fresh: bool
 
 
-def execute_all(
-    workspace: Workspace, paths: list[Path], workers: int, progress: Progress
-) -> list[Executed | CellFailure]:
-    """Execute notebooks, `workers` at a time; a failure is returned in its notebook's place."""
-
-    def one(path: Path) -> Executed | CellFailure:
-        try:
-            return execute(workspace, path, progress)
-        except CellFailure as failure:
-            return failure
-
-    with ThreadPoolExecutor(max_workers=workers) as pool:
-        return list(pool.map(one, paths))
+def attempt(workspace: Workspace, path: Path, progress: Progress = lambda *_: None) -> Executed | CellFailure:
+    """Execute a notebook as `execute` does; the failure of a cell is returned."""
+    try:
+        return execute(workspace, path, progress)
+    except CellFailure as failure:
+        return failure
 
 
 def execute(workspace: Workspace, path: Path, progress: Progress = lambda *_: None) -> Executed:
@@ -76,6 +76,8 @@ def execute(workspace: Workspace, path: Path, progress: Progress = lambda *_: No
     ------
     CellFailure
         When a cell raises or exceeds the time limit.
+    UncountedImport
+        When the cells load a module that `dependencies` does not see them import.
     """
     notebook = read_notebook(path)
     entry = workspace.cache / "notebooks" / path.stem / notebook_key(workspace, notebook)
@@ -100,12 +102,32 @@ def read_notebook(path: Path) -> NotebookNode:
 def notebook_key(workspace: Workspace, notebook: NotebookNode) -> str:
     """Key of a notebook's outputs: its code, the package files behind it, the lock and the interpreter."""
     code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
-    plain = [_plain_python(source) for source in code]
-    parts = dependencies.closure(dependencies.Source(workspace.source), plain)
-    named = _files_named_in(plain, workspace.root)
+    files_read = sorted(_files_of(workspace, notebook))
     return dependencies.digest(
-        *code, *sorted(parts | named), workspace.lock_text, sys.version, FIXED_KEY, root=workspace.root
+        *code, *files_read, workspace.lock_text, sys.version, FIXED_KEY, root=workspace.root
     )
+
+
+def _files_of(workspace: Workspace, notebook: NotebookNode) -> set[Path]:
+    plain = plain_code(notebook)
+    parts = dependencies.closure(dependencies.Source(workspace.source), plain)
+    return parts | {path for path in places_named_in(plain, workspace.root) if path.is_file()}
+
+
+def plain_code(notebook: NotebookNode) -> list[str]:
+    """The notebook's cells of code as plain Python, without IPython's own syntax."""
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    return [TransformerManager().transform_cell(source) for source in code]
+
+
+def places_named_in(code: Iterable[str], root: Path) -> set[Path]:
+    """The places below `root` that strings in code name, from the folder of the notebooks."""
+    literals = {literal for text in code for literal in dependencies.literals(text)}
+    places = ((root / "notebooks" / literal).resolve() for literal in literals)
+    inside = (place for place in places if place.is_relative_to(root.resolve()))
+    return {root / place.relative_to(root.resolve()) for place in inside}
 
 
 def publish(workspace: Workspace, executed: Iterable[Executed]) -> int:
@@ -129,18 +151,35 @@ def _run_into(
     shutil.rmtree(draft, ignore_errors=True)
     (draft / "figures").mkdir(parents=True)
     started = time.perf_counter()
-    _run(workspace, path, notebook, draft / "figures", progress)
+    loaded = _run(workspace, path, notebook, draft / "figures", progress)
+    _check_counted(workspace, path, notebook, loaded)
     (draft / "seconds").write_text(f"{time.perf_counter() - started:.1f}")
     nbformat.write(notebook, draft / "executed.ipynb")
     draft.replace(entry)
     _forget_old_entries(entry.parent)
 
 
-def _run(workspace: Workspace, path: Path, notebook: NotebookNode, figures: Path, progress: Progress) -> None:
+def _check_counted(workspace: Workspace, path: Path, notebook: NotebookNode, loaded: list[str]) -> None:
+    modules = dependencies.Source(workspace.source).modules
+    known = _files_of(workspace, notebook)
+    missing = [name for name in loaded if name in modules and modules[name] not in known]
+    if missing:
+        raise UncountedImport(
+            f"notebooks/{path.name} loads {', '.join(missing)}, but no import that can be followed leads "
+            "there: its outputs would be kept when that changes"
+        )
+
+
+def _run(
+    workspace: Workspace, path: Path, notebook: NotebookNode, figures: Path, progress: Progress
+) -> list[str]:
+    """Execute the cells; returns the modules of the package that the kernel has loaded at the end."""
     from nbclient.client import NotebookClient
     from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
     total = len(notebook.cells)
+    question = nbformat.v4.new_code_cell(_LOADED)
+    notebook.cells.append(question)
     reached = [0]
 
     def done(cell_index: int, **_: Any) -> None:
@@ -159,12 +198,15 @@ def _run(workspace: Workspace, path: Path, notebook: NotebookNode, figures: Path
     try:
         client.execute(env=environment(workspace, **variables))
     except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
+        notebook.cells.pop()
         raise CellFailure(_describe(path, notebook, reached[0], error)) from None
+    notebook.cells.pop()
     drawn = figures.parent / "drawn" / path.stem
     if drawn.is_dir():
         figures.rmdir()
         drawn.replace(figures)
     progress(path.stem, total, total)
+    return "".join(output.text for output in question.outputs).split()
 
 
 def _kernel_manager_class() -> type:
@@ -198,22 +240,6 @@ def _with_outputs(notebook: NotebookNode, kept: NotebookNode) -> NotebookNode:
         cell["outputs"], cell["execution_count"] = ran.outputs, ran.execution_count
     notebook.metadata = kept.metadata
     return notebook
-
-
-def _plain_python(source: str) -> str:
-    from IPython.core.inputtransformer2 import TransformerManager
-
-    return TransformerManager().transform_cell(source)
-
-
-def _files_named_in(code: Iterable[str], root: Path) -> set[Path]:
-    named = set()
-    for text in code:
-        for literal in dependencies.literals(text):
-            path = (root / "notebooks" / literal).resolve()
-            if path.is_file() and path.is_relative_to(root.resolve()):
-                named.add(root / path.relative_to(root.resolve()))
-    return named
 
 
 def _forget_old_entries(folder: Path) -> None:

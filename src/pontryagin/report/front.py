@@ -33,7 +33,7 @@ def ledger_entries(workspace: Workspace) -> list[dict[str, str]]:
         When the ledger cannot be read; the message is the last line of its error.
     """
     source = dependencies.Source(workspace.source)
-    parts = sorted(dependencies.closure(source, ["import pontryagin.ledger"]))
+    parts = sorted(dependencies.closure(source, [_ASK]))
     key = dependencies.digest(*parts, workspace.lock_text, sys.version, root=workspace.root)
     kept = workspace.cache / "ledger" / f"{key}.json"
     if not kept.is_file():

@@ -59,7 +59,7 @@ def provenance(workspace: Workspace, executed: Sequence[Executed]) -> str:
     }
     versions: dict[str, list[Any]] = {
         "package": list(PACKAGES),
-        "version": [_version(package) for package in PACKAGES],
+        "version": [version(package) for package in PACKAGES],
     }
     notebooks: dict[str, list[Any]] = {
         "notebook": [f"{result.name}.ipynb" for result in executed],
@@ -98,7 +98,8 @@ def seeds(executed: Executed) -> list[str]:
     return list(dict.fromkeys(seed for source in code for seed in _SEED.findall(source)))
 
 
-def _version(package: str) -> str:
+def version(package: str) -> str:
+    """The version of an installed package, or that it is absent."""
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

@@ -1,6 +1,7 @@
 """The report from its parts: one text, rendered twice, checked in a browser where there is one."""
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -58,13 +59,17 @@ def write_report(
     stamps = {name: workspace.cache / "report" / f"{name}.key" for name in targets}
     due = [name for name in targets if not _is_current(workspace.report / name, stamps[name], key)]
     read = text.read(markdown) if due else None
-    for name in targets:
+
+    def bring_up_to_date(name: str) -> None:
         watch = progress.Stopwatch()
         if read and name in due:
             _placed(read, targets[name], workspace.report / name)
             files.write(stamps[name], key)
         told = f"rendered in {watch}" if name in due else "nothing changed since it was rendered"
         progress.step("report", f"build/report/{name}: {told}")
+
+    with ThreadPoolExecutor() as pool:
+        list(pool.map(bring_up_to_date, targets))
 
 
 def whole_text(

@@ -10,8 +10,8 @@ import inspect
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
+from contextlib import redirect_stdout
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -43,32 +43,37 @@ def modules(workspace: Workspace) -> list[str]:
     return [name for name in names if name in source.modules]
 
 
-def record_all(workspace: Workspace, workers: int, done: Callable[[Clip, bool], None]) -> list[Clip]:
-    """Bring ``build/recordings`` up to date.
+def record(workspace: Workspace, module: str) -> list[tuple[Clip, bool]]:
+    """Bring the recordings of a paper up to date, in one process for all that must be written.
 
     Parameters
     ----------
     workspace : Workspace
         Where the package and the recordings are.
-    workers : int
-        How many are written at a time.
-    done : callable
-        Told of each recording, and whether it was written anew.
+    module : str
+        The paper's playback module.
+
+    Returns
+    -------
+    list of (Clip, bool)
+        Each recording, and whether it was written anew.
 
     Raises
     ------
     RecordingFailure
         When a writer raises.
     """
-    clips: list[Clip] = []
-    for module in modules(workspace):
-        key = _key(workspace, module)
-        clips += (listed := _listed(workspace, module, key))
-        with ThreadPoolExecutor(max_workers=workers) as pool:
-            written = pool.map(lambda clip, m=module, k=key: _write(workspace, m, clip.name, k), listed)
-            for clip, fresh in zip(listed, written, strict=True):
-                done(clip, fresh)
-    return clips
+    key = _key(workspace, module)
+    kept = workspace.cache / "recordings" / f"{module}.{key}.json"
+    if not kept.is_file():
+        clips = _written(workspace, module, key)
+        files.write(kept, json.dumps([asdict(clip) for clip in clips]))
+        return [(clip, True) for clip in clips]
+    clips = [Clip(**clip) for clip in json.loads(kept.read_text(encoding="utf-8"))]
+    due = [clip.name for clip in clips if not _is_current(workspace, clip.name, key)]
+    if due:
+        _written(workspace, module, key, *due)
+    return [(clip, clip.name in due) for clip in clips]
 
 
 def clips_of(module: str) -> list[Clip]:
@@ -90,40 +95,44 @@ def _key(workspace: Workspace, module: str) -> str:
     return dependencies.digest(*parts, workspace.lock_text, sys.version, root=workspace.root)
 
 
-def _listed(workspace: Workspace, module: str, key: str) -> list[Clip]:
-    kept = workspace.cache / "recordings" / f"{module}.{key}.json"
-    if not kept.is_file():
-        files.write(kept, _call(workspace, module, "list"))
-    return [Clip(**clip) for clip in json.loads(kept.read_text(encoding="utf-8"))]
-
-
-def _write(workspace: Workspace, module: str, name: str, key: str) -> bool:
+def _is_current(workspace: Workspace, name: str, key: str) -> bool:
     target = workspace.recordings / f"{name}.rrd"
-    stamp = workspace.cache / "recordings" / f"{name}.key"
-    if target.is_file() and stamp.is_file() and stamp.read_text() == key:
-        return False
-    _call(workspace, module, "write", name, str(target))
-    files.write(stamp, key)
-    return True
+    stamp = _stamp(workspace, name)
+    return target.is_file() and stamp.is_file() and stamp.read_text() == key
 
 
-def _call(workspace: Workspace, module: str, *arguments: str) -> str:
-    command = [sys.executable, "-m", "pontryagin.report.recordings", module, *arguments]
+def _stamp(workspace: Workspace, name: str) -> Path:
+    return workspace.cache / "recordings" / f"{name}.key"
+
+
+def _written(workspace: Workspace, module: str, key: str, *names: str) -> list[Clip]:
+    """Write the recordings of these names, or all of them; each is stamped when it is complete."""
+    arguments = [module, str(workspace.recordings), *names]
+    command = [sys.executable, "-m", "pontryagin.report.recordings", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, env=environment(workspace))
+    clips = [Clip(**json.loads(line)) for line in done.stdout.splitlines()]
+    for clip in clips:
+        files.write(_stamp(workspace, clip.name), key)
     if done.returncode:
         error = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        raise RecordingFailure(f"recording {' '.join(arguments[1:2]) or 'list'} of {module}: {error}")
-    return done.stdout
+        raise RecordingFailure(f"recording {error}")
+    return clips
 
 
 def _main(arguments: Sequence[str]) -> None:
-    module, action, *rest = arguments
-    if action == "list":
-        print(json.dumps([asdict(clip) for clip in clips_of(module)]))
-    else:
-        name, path = rest
-        with files.replacing(Path(path)) as draft:
-            importlib.import_module(module).recordings()[name](draft)
+    """Write recordings into a folder and print each as JSON when it is complete; an error names it."""
+    module, folder, *names = arguments
+    writers = importlib.import_module(module).recordings()
+    for clip in clips_of(module):
+        if names and clip.name not in names:
+            continue
+        try:
+            target = Path(folder) / f"{clip.name}.rrd"
+            with redirect_stdout(sys.stderr), files.replacing(target) as draft:
+                writers[clip.name](draft)
+        except Exception as error:
+            sys.exit(f"{clip.name} of {module}: {type(error).__name__}: {error}")
+        print(json.dumps(asdict(clip)), flush=True)
 
 
 if __name__ == "__main__":

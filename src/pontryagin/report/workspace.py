@@ -38,6 +38,11 @@ class Workspace:
         return self.build / "cache"
 
     @property
+    def results(self) -> Path:
+        """Dear results, kept by what the build runs, with their keys."""
+        return self.cache / "results"
+
+    @property
     def report(self) -> Path:
         """The rendered report."""
         return self.build / "report"

@@ -7,17 +7,14 @@ from numpy.testing import assert_allclose
 
 from pontryagin.averaging.exact.arcs import switched_ends, switched_flow
 from pontryagin.averaging.exact.modes import modal
-from pontryagin.numerics.flow import has_heyoka
 
 x, v, p, q, t = sp.symbols("x v p q t", real=True)
-KINDS = [pytest.param(False, id="DOP853"), *([pytest.param(True, id="heyoka")] if has_heyoka() else [])]
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_the_least_time_oscillator_is_the_known_one(taylor):
+def test_the_least_time_oscillator_is_the_known_one():
     """x'' = -x + sign(sin(t + 1)), whose solution between switches is a circle about +1 or -1."""
     (force,), modes = modal([sp.sign(sp.sin(t + 1))])
-    follow = switched_flow(modes, [x, v], [v, -x + force], clock=t, taylor=taylor)
+    follow = switched_flow(modes, [x, v], [v, -x + force], clock=t)
     grid = np.linspace(0.0, 7.0, 29)
     path = follow([0.3, -0.4], grid)
     z, now, centre = 0.3 + 0.4j, 0.0, 1.0  # x - i v turns by exp(i t)
@@ -32,10 +29,9 @@ def test_the_least_time_oscillator_is_the_known_one(taylor):
     assert_allclose(path, expected, atol=1e-11)
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_derivatives_jump_at_the_switches(taylor):
+def test_derivatives_jump_at_the_switches():
     rates, modes = modal([v, -x + sp.sign(p), q, -p])
-    carry = switched_ends(modes, [x, v, p, q], rates, wrt=[p, q], taylor=taylor)
+    carry = switched_ends(modes, [x, v, p, q], rates, wrt=[p, q])
     start, step = np.array([1.0, 0.0, 0.7, 0.4]), 1e-6
     _, slopes = carry([start], 0.0, 9.0)
     for i in (2, 3):
@@ -45,13 +41,12 @@ def test_derivatives_jump_at_the_switches(taylor):
     assert np.abs(slopes[0, :2]).max() > 0.1
 
 
-@pytest.mark.parametrize("taylor", KINDS)
-def test_a_bounded_quadratic_control_bends_without_a_jump(taylor):
+def test_a_bounded_quadratic_control_bends_without_a_jump():
     cut = sp.Piecewise((p / 2, sp.Abs(p) <= 1), (sp.sign(p) / 2, True))
     rates, modes = modal([v, cut, q, -p])
     assert len(modes) == 2
-    carry = switched_ends(modes, [x, v, p, q], rates, wrt=[p], taylor=taylor)
-    smooth = switched_flow(modes, [x, v, p, q], rates, taylor=taylor)
+    carry = switched_ends(modes, [x, v, p, q], rates, wrt=[p])
+    smooth = switched_flow(modes, [x, v, p, q], rates)
     (ends,), (slopes,) = carry([[0.0, 0.0, 2.0, 0.3]], 0.0, 7.0)
     assert_allclose(smooth([0.0, 0.0, 2.0, 0.3], [0.0, 3.0, 7.0])[-1], ends, atol=1e-11)
     phases, size = np.linspace(0, 7, 100001), np.hypot(2.0, 0.3)

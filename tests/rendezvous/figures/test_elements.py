@@ -5,8 +5,8 @@ import csv
 import pytest
 
 from pontryagin.io.files import figures_folder
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures import elements
-from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.problem.cases import (
     cases,
 )

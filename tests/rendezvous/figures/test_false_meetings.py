@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.rendezvous import figures
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.false_meetings.family import false_family
 from pontryagin.rendezvous.figures import tables
-from pontryagin.rendezvous.figures.solved import solved
 
 
 class TestFalseMeetings:

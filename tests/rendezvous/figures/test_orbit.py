@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose
 
 from pontryagin.display.plotting import svg_of
 from pontryagin.rendezvous import figures
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures import paths
-from pontryagin.rendezvous.figures.solved import solved
 
 
 @pytest.mark.slow

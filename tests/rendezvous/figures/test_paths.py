@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures import paths
-from pontryagin.rendezvous.figures.solved import solved
 
 
 @pytest.mark.slow

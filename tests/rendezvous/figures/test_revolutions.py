@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 from pontryagin.io.files import figures_folder
 from pontryagin.rendezvous import figures
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures.revolutions import branch
-from pontryagin.rendezvous.figures.solved import solved
 
 
 class TestRevolutions:

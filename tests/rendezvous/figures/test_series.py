@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.rendezvous import figures
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures.series import drift
-from pontryagin.rendezvous.figures.solved import solved
 
 
 def test_the_curves_are_the_thrust_and_the_costates():

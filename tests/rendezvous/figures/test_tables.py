@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures import tables
-from pontryagin.rendezvous.figures.solved import solved
 
 
 @pytest.mark.slow

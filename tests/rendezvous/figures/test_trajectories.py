@@ -1,7 +1,7 @@
 """There is a panel for each case."""
 
 from pontryagin.rendezvous import figures
-from pontryagin.rendezvous.figures.solved import solved
+from pontryagin.rendezvous.case_solutions import solved
 
 
 def test_there_is_a_panel_for_each_case():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pontryagin.io.files import figures_folder
-from pontryagin.rendezvous.figures.solved import solved
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.figures.tables import excess, nearest
 from pontryagin.rendezvous.judge import table as judge
 from pontryagin.rendezvous.problem.cases import (

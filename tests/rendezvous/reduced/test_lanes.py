@@ -46,14 +46,5 @@ def test_a_flight_that_fails_does_not_change_the_others():
     np.testing.assert_allclose(mixed.ends[mixed.reached], whole.ends, rtol=1e-12, atol=1e-13)
 
 
-def test_without_heyoka_the_flights_have_the_same_ends():
-    scaled, costates = in_units().scaled, starts(3)
-    both = [fly_all(scaled, costates, 2.0, 0.05, taylor=use) for use in (True, False)]
-    for name in ("reached", "switches"):
-        np.testing.assert_array_equal(*(getattr(flights, name) for flights in both))
-    np.testing.assert_allclose(*(flights.ends for flights in both), atol=1e-9)
-    np.testing.assert_allclose(*(flights.slopes for flights in both), atol=1e-7)
-
-
 def test_an_empty_stack_of_flights_is_empty():
     assert fly_all(in_units().scaled, np.empty((0, 6)), 1.0).ends.shape == (0, 12)

@@ -27,7 +27,6 @@ def switched_ends(
     parameters: Sequence[sp.Symbol] = (),
     clock: Hashable = None,
     wrt: Sequence[sp.Symbol] = (),
-    taylor: bool | None = None,
 ) -> Ends:
     """`pontryagin.numerics.lanes.ends` for rates that contain modes.
 
@@ -35,7 +34,7 @@ def switched_ends(
     ----------
     modes : tuple of (sympy.Symbol, sympy.Expr)
         Modes and the functions whose signs they are, in states, parameters, clock and earlier modes.
-    states, rates, parameters, clock, wrt, taylor
+    states, rates, parameters, clock, wrt
         As in `pontryagin.numerics.lanes.ends`.
 
     Examples
@@ -49,7 +48,7 @@ def switched_ends(
     >>> (states.round(12) + 0.0).tolist(), (slopes.round(12) + 0.0).tolist()
     ([[0.5, 0.0]], [[[0.0], [1.0]]])
     """
-    along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt), taylor)
+    along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, tuple(wrt))
     identity = along.equations.identity
 
     def carry(
@@ -72,10 +71,9 @@ def switched_flow(
     rates: Sequence[sp.Expr],
     parameters: Sequence[sp.Symbol] = (),
     clock: Hashable = None,
-    taylor: bool | None = None,
 ) -> Flow:
     """`pontryagin.numerics.flow.flow` for rates that contain modes."""
-    along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, (), taylor)
+    along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, ())
 
     def sample(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
         state, grid, constants = (np.asarray(value, dtype=float) for value in (start, times, values))
@@ -93,12 +91,11 @@ def _integrator(
     parameters: tuple[sp.Symbol, ...],
     clock: Hashable,
     wrt: tuple[sp.Symbol, ...],
-    taylor: bool | None,
 ) -> Integrator:
     """An integrator with the modes as last parameters and an event where a mode must change its sign."""
     symbols = tuple(mode for mode, _ in modes)
     events = tuple(-mode * switching for mode, switching in modes)
-    return integrator(Symbolic(states, rates, (*parameters, *symbols), clock, wrt, events), taylor)
+    return integrator(Symbolic(states, rates, (*parameters, *symbols), clock, wrt, events))
 
 
 def _flow(along: Integrator, constants: Array) -> SwitchedFlow[Signs]:

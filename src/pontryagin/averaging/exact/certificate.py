@@ -1,7 +1,8 @@
-"""Certificates of exact extremals, which are propagated again, all together, in slow time by DOP853.
+"""Certificates of exact extremals, which are propagated again in slow time, without switches all together.
 
-The search integrates over the anomaly by Taylor series. Here the independent variable, the integrator and its
-error control are different, and h* comes from the support function, not from the control that attains it.
+The search integrates over the anomaly. Here the independent variable is another one, h* comes from the
+support function and not from the control that attains it, and without switches the integrator is SciPy's and
+the rates are NumPy's.
 """
 
 from collections.abc import Callable
@@ -104,4 +105,4 @@ def _along(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
 @lru_cache(maxsize=32)
 def _arcs(equations: Canonical) -> Flow:
     states = (*equations.states, equations.anomaly)
-    return switched_flow(equations.modes, states, equations.time_rates, equations.parameters, taylor=False)
+    return switched_flow(equations.modes, states, equations.time_rates, equations.parameters)

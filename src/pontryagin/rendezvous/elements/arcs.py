@@ -49,8 +49,8 @@ STRIDE = 8.0
 
 A smoothed coast is a straight line to rounding; steps of unlimited length would skip the burn after it.
 """
-STEPS_PER_UNIT = 80
-"""An arc that needs more Taylor steps than this per unit of phi is taken to run into a singularity."""
+STEPS_PER_UNIT = 640
+"""An arc that needs more steps than this per unit of phi is taken to run into a singularity."""
 
 
 class Constants(NamedTuple):
@@ -109,9 +109,9 @@ def equations(mode: Mode) -> Kernel:
 
 
 @functools.cache
-def arc(mode: Mode, taylor: bool | None = None, rough: bool = False) -> Integrator:
+def arc(mode: Mode, rough: bool = False) -> Integrator:
     """The integrator of a mode."""
-    return integrator(equations(mode), taylor, ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)
+    return integrator(equations(mode), ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)
 
 
 def longest_step(mode: Mode, constants: Constants) -> float:

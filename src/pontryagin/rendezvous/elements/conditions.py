@@ -46,8 +46,6 @@ class ElementsSetting:
         t_k if it is fixed.
     goal : function of the time, optional
         The goal that takes the target's place.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
     rough : bool
         Whether flights are integrated only to 1e-10, as along families, whose points are only guesses.
     """
@@ -56,7 +54,6 @@ class ElementsSetting:
     law: Law
     duration: float | None = None
     goal: Goal | None = None
-    taylor: bool | None = None
     rough: bool = False
 
     @property
@@ -108,9 +105,7 @@ def equations(setting: ElementsSetting, unknowns: Array) -> ElementsEquations:
     NotConverged
         If the flight cannot be integrated to its end.
     """
-    flight = fly_elements(
-        setting.scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor, setting.rough
-    )
+    flight = fly_elements(setting.scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.rough)
     columns = np.column_stack([flight.slopes, end_rates(flight)])
     values, by_state, by_phi = _place(flight)
     goal, moving = (setting.goal or target(setting.scaled))(flight.duration)

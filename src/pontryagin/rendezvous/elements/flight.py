@@ -66,8 +66,6 @@ class ElementFlight:
         A, B, a, b, the time, and the integral of p^2 or |p|, at the end.
     slopes : (18, 6) array
         Derivatives of the end in the costates.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
     """
 
     scaled: Scaled
@@ -77,7 +75,6 @@ class ElementFlight:
     pieces: tuple[Piece[Mode], ...]
     end: Array
     slopes: Array
-    taylor: bool | None
 
     @property
     def duration(self) -> float:
@@ -101,7 +98,7 @@ class ElementFlight:
 
     def sample(self, grid: Array) -> Array:
         """The 18 states at ascending phi, (k, 18)."""
-        return sample(flow_of(self.law, self.taylor), self.pieces, grid)
+        return sample(flow_of(self.law), self.pieces, grid)
 
     def modes(self, grid: Array) -> list[Mode]:
         """The mode of thrust at each phi."""
@@ -146,12 +143,12 @@ def basis(craft: Elements) -> Array:
     return np.linalg.svd(np.stack([turn, relation_gradient(craft)]))[2][2:].T
 
 
-def flow_of(law: Law, taylor: bool | None, rough: bool = False) -> SwitchedFlow[Mode]:
+def flow_of(law: Law, rough: bool = False) -> SwitchedFlow[Mode]:
     """The switched flow of a law of thrust; where the thrust jumps, the rates jump too."""
 
     def arc_of(mode: Mode) -> Arc:
         constants = law.constants(mode)
-        return Arc(arc(mode, taylor, rough), constants, longest_step(mode, constants))
+        return Arc(arc(mode, rough), constants, longest_step(mode, constants))
 
     return SwitchedFlow(arc_of, lambda mode, _: OTHER[law.kind, mode], law.jumps, GRAZING, SWITCHES)
 
@@ -161,7 +158,6 @@ def fly_elements(
     costates: Array,
     phi: float,
     law: Law,
-    taylor: bool | None = None,
     rough: bool = False,
 ) -> ElementFlight:
     """Integrate the extremal with the given initial costates up to phi; ``rough`` flights are less accurate.
@@ -178,13 +174,13 @@ def fly_elements(
     columns[COSTATES] = across
     state = np.concatenate([start.A, start.B, across @ costates, [0.0, 0.0]])
     mode = law.mode(float(np.linalg.norm(switching(state, np.array(0.0)))))
-    pieces, last = follow(flow_of(law, taylor, rough), np.append(state, columns), mode, 0.0, phi)
+    pieces, last = follow(flow_of(law, rough), np.append(state, columns), mode, 0.0, phi)
     if not np.isfinite(last).all():
         raise NotConverged(
             "the flight is not finite at its end: it left the domain of the equations", float("inf")
         )
     end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
-    return ElementFlight(scaled, law, np.array(costates), phi, pieces, end, slopes, taylor)
+    return ElementFlight(scaled, law, np.array(costates), phi, pieces, end, slopes)
 
 
 def switching_gradient(state: Array, phi: float) -> tuple[Array, float]:
@@ -197,4 +193,4 @@ def switching_gradient(state: Array, phi: float) -> tuple[Array, float]:
 
 def end_rates(flight: ElementFlight) -> Array:
     """Rates of the 18 states at the end."""
-    return rates(flow_of(flight.law, flight.taylor).arc(flight.pieces[-1].mode), flight.phi, flight.end)
+    return rates(flow_of(flight.law).arc(flight.pieces[-1].mode), flight.phi, flight.end)

@@ -88,9 +88,7 @@ def unbounded(setting: ElementsSetting, revolutions: int = 0) -> Root[ElementFli
     return freed(SHOOTING, setting, least_energy(setting.scaled, duration, revolutions))
 
 
-def cold_start(
-    scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
-) -> Root[ElementFlight]:
+def cold_start(scaled: Scaled, duration: float, revolutions: int = 0) -> Root[ElementFlight]:
     """The unbounded extremal of alpha1 + alpha2 p^2 for a fixed duration, by continuation from coasting.
 
     Parameters
@@ -101,22 +99,18 @@ def cold_start(
         t_k.
     revolutions : int
         Revolutions in addition to the number nearest to that of the coasting craft.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
 
     Raises
     ------
     NotConverged
         If the extremal cannot follow the goal.
     """
-    setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
+    setting = ElementsSetting(scaled, UNBOUNDED, duration)
     phi = coasting_angle(start_of(scaled), duration)
     return lead_goal(setting, np.append(np.zeros(6), phi), revolutions)
 
 
-def least_energy(
-    scaled: Scaled, duration: float, revolutions: int = 0, taylor: bool | None = None
-) -> Root[ElementFlight]:
+def least_energy(scaled: Scaled, duration: float, revolutions: int = 0) -> Root[ElementFlight]:
     """The least-energy extremal of a fixed duration, by `cold_start` or stretched from a shorter duration.
 
     Raises
@@ -124,11 +118,11 @@ def least_energy(
     NotConverged
         If the target is reached from none of the durations tried.
     """
-    setting = ElementsSetting(scaled, UNBOUNDED, duration, taylor=taylor)
+    setting = ElementsSetting(scaled, UNBOUNDED, duration)
     reason: NotConverged | None = None
     for share in SHARES:
         try:
-            return stretched(SHOOTING, setting, cold_start(scaled, share * duration, revolutions, taylor))
+            return stretched(SHOOTING, setting, cold_start(scaled, share * duration, revolutions))
         except NotConverged as failure:
             reason = reason or failure
     raise reason or NotConverged("no extremal was found from which to continue", float("inf"))
@@ -145,7 +139,7 @@ def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -
         If the extremal cannot follow the goal, or the target would be met before the start.
     """
     scaled, duration = setting.scaled, float(setting.duration or 0)
-    flight = fly_elements(scaled, unknowns[:6], float(unknowns[6]), setting.law, setting.taylor)
+    flight = fly_elements(scaled, unknowns[:6], float(unknowns[6]), setting.law)
     here, begin = flight.end[:8], flight.duration
     state = target_by_kepler(scaled, 0.0)
     target = Elements.from_state(state[:3], state[3:])
@@ -165,7 +159,6 @@ def lead_goal(setting: ElementsSetting, unknowns: Array, revolutions: int = 0) -
             setting.law,
             begin + share * (duration - begin),
             lambda _: (goal, np.zeros(6)),
-            setting.taylor,
         )
 
     root = lead(family, Root(unknowns, equations(family(0.0), unknowns)), 0.0, 1.0)

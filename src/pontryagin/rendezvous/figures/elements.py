@@ -1,6 +1,5 @@
 """Figures and tables of the rendezvous in Sapunkov's elements."""
 
-import functools
 import itertools
 import math
 from typing import Any
@@ -23,12 +22,13 @@ from pontryagin.display.plotting import (
     subplots,
 )
 from pontryagin.errors import NotConverged
+from pontryagin.io.kept_results import kept
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.elements.flight import switching
 from pontryagin.rendezvous.elements.least_fuel import least_fuel
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
 from pontryagin.rendezvous.elements.solve import solve_in_elements
 from pontryagin.rendezvous.figures.labels import saturated_arcs
-from pontryagin.rendezvous.figures.solved import solved
 from pontryagin.rendezvous.judge.table import (
     MESHES,
     direct_results,
@@ -164,7 +164,7 @@ def in_elements(name: str) -> ElementsExtremal:
     return _with_start(name)[0]
 
 
-@functools.cache
+@kept
 def _with_start(name: str) -> tuple[ElementsExtremal, str]:
     """The extremal of `in_elements`, and a description of the start from which it was found.
 
@@ -182,7 +182,7 @@ def _with_start(name: str) -> tuple[ElementsExtremal, str]:
     return solve_in_elements(other.problem, start=other), f"carried (cold: {cold.cost:.4g})"
 
 
-@functools.cache
+@kept
 def fuel_solved(name: str) -> ElementsExtremal:
     """The extremal of a case of least fuel, computed once."""
     one = fuel_cases()[name]

@@ -27,6 +27,8 @@ TRIES, GROWTH = 120, 2.0
 """How many steps of a continuation are tried, and the factor by which one grows after a success."""
 FIRST, LARGEST, LEAST = 0.3, 0.5, 1 / 16
 """First, largest and least step of a continuation whose end is wanted, in units of its length."""
+FINEST = 1 / 512
+"""The least step where no other start is tried, as for a fixed duration."""
 
 Posed = Callable[[float], tuple[Lap, Cost, float | None]]
 """A function of the parameter that returns a lap, a cost, and the duration, which is None if it is free."""
@@ -57,8 +59,10 @@ def points(
     )
 
 
-def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
+def continued(posed: Posed, path: Path, begin: float, end: float, least: float = LEAST) -> Path:
     """The extremal at the last value of the parameter, from that at the first.
+
+    The continuation ends at steps below ``least``, in units of its length.
 
     Raises
     ------
@@ -66,17 +70,17 @@ def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
         If the continuation ends before.
     """
     way = abs(end - begin)
-    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, least * way))
     if last.parameter != end:
         raise NotConverged("the continuation on this lap ended", abs(end - last.parameter) / way)
     return Path.of(last.unknowns)
 
 
-def least_energy(lap: Lap, duration: float) -> Path:
+def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
     """The extremal of least energy, without a bound, of a fixed duration.
 
-    If it is not reached from a guess, that for a nearer goal is continued: the goal moves from the craft's
-    orbit to the target's, at the same longitude.
+    If it is not reached from a guess, that for a nearer goal is continued, by steps down to ``least``: the
+    goal moves from the craft's orbit to the target's, at the same longitude.
 
     Raises
     ------
@@ -99,7 +103,7 @@ def least_energy(lap: Lap, duration: float) -> Path:
         if guesses.durations.size:
             try:
                 start = extremal(*posed(share), guesses.path(0), ROUGH)
-                return continued(posed, start, share, 1.0) if share < 1 else start
+                return continued(posed, start, share, 1.0, least) if share < 1 else start
             except NotConverged as failure:
                 reason = failure
     raise reason

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from pontryagin.rendezvous.case_solutions import solved
 from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.playback.motion import motion_of
 from pontryagin.rendezvous.playback.scene import record_motion
@@ -41,7 +42,7 @@ def rendezvous_inclined(path: Path) -> None:
     stopped; at the meeting it lies on the target's orbit, the axes eta of the craft on the axes eta* of the
     target, and both move on together. H vanishes to rounding.
     """
-    record_extremal(solve(case("inclined-30").problem), path)
+    record_extremal(solved("inclined-30"), path)
 
 
 def rendezvous_saturated(path: Path) -> None:
@@ -60,7 +61,7 @@ def rendezvous_mars(path: Path) -> None:
     thrust in km/s^2); the attraction of the planets themselves is neglected. About halfway, where |n| nearly
     vanishes, the thrust reverses its direction within three weeks.
     """
-    record_extremal(solve(case("mars").problem), path)
+    record_extremal(solved("mars"), path)
 
 
 def rendezvous_false(path: Path) -> None:
@@ -72,9 +73,8 @@ def rendezvous_false(path: Path) -> None:
     rotated about that axis (orange), and never the target (the gap is purple). The true optimum, found with
     the missing condition, is grey.
     """
-    problem = case("mixed").problem
-    true = solve(problem)
-    record_extremal(false_meeting(problem, FALSE_ANGLE, true), path, true)
+    true = solved("mixed")
+    record_extremal(false_meeting(true.problem, FALSE_ANGLE, true), path, true)
 
 
 def record_extremal(extremal: Extremal, path: Path, true: Extremal | None = None) -> None:

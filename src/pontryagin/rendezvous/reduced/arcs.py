@@ -11,7 +11,6 @@ from typing import Literal
 
 from pontryagin.numerics.equations import Arithmetic, EventFunction, Kernel, Number, RightHandSide
 from pontryagin.numerics.flow import ROUGH, TOLERANCE, Integrator, integrator
-from pontryagin.numerics.lanes import Lanes
 from pontryagin.rendezvous import kernels
 
 Mode = Literal["unsaturated", "saturated"]
@@ -23,12 +22,10 @@ BOUND = 11
 COUNT, COLUMNS = 12, 7
 """Number of states, and of the initial values in which they are differentiated."""
 WRT = (4, 5, 6, 7, 8, 9, BOUND)  # the initial values in which the states are differentiated
-HYSTERESIS = 1e-14
-"""An unsaturated arc ends where `saturation` rises to this, a saturated arc where it falls to minus this."""
-STEPS_PER_UNIT = 100
-"""An arc that needs more Taylor steps than this per unit of time is taken to run into a singularity."""
-ECCENTRICITY, CHART, SATURATED = 0, 1, 2
-"""Indices of the parameters; the last is 1 in a saturated lane and 0 in an unsaturated one."""
+STEPS_PER_UNIT = 800
+"""An arc that needs more steps than this per unit of time is taken to run into a singularity."""
+ECCENTRICITY, CHART = 0, 1
+"""Indices of the parameters."""
 
 
 def rates(mode: Mode) -> RightHandSide:
@@ -61,28 +58,10 @@ def leaving(mode: Mode) -> EventFunction:
 def equations(mode: Mode, ends: bool) -> Kernel:
     """The equations of a mode; without ``ends`` no value of |n| ends it (for alpha2 = 0, or no bound)."""
     events = (leaving(mode),) if ends else ()
-    return Kernel(STATES, rates(mode), 2, WRT, events, HYSTERESIS)
+    return Kernel(STATES, rates(mode), 2, WRT, events)
 
 
 @functools.cache
-def arc(mode: Mode, ends: bool = True, taylor: bool | None = None, rough: bool = False) -> Integrator:
+def arc(mode: Mode, ends: bool = True, rough: bool = False) -> Integrator:
     """The integrator of a mode."""
-    return integrator(equations(mode, ends), taylor, ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)
-
-
-@functools.cache
-def lanes(kind: Literal["unsaturated", "saturated", "both"], slopes: bool) -> Lanes:
-    """The vector integrator of one mode without events, or of both, with the mode as a lane's parameter."""
-    wrt = WRT if slopes else ()
-    if kind != "both":
-        return Lanes(Kernel(STATES, rates(kind), 2, wrt))
-    unsaturated, saturated = rates("unsaturated"), rates("saturated")
-
-    def either(of: Arithmetic, t: Number, x: Sequence[Number], p: Sequence[Number]) -> list[Number]:
-        pairs = zip(unsaturated(of, t, x, p), saturated(of, t, x, p), strict=True)
-        return [(1.0 - p[SATURATED]) * loose + p[SATURATED] * tight for loose, tight in pairs]
-
-    def switch(of: Arithmetic, _: Number, x: Sequence[Number], p: Sequence[Number]) -> Number:
-        return (1.0 - 2.0 * p[SATURATED]) * saturation(of, x)
-
-    return Lanes(Kernel(STATES, either, 3, wrt, (switch,), HYSTERESIS))
+    return integrator(equations(mode, ends), ROUGH if rough else TOLERANCE, STEPS_PER_UNIT)

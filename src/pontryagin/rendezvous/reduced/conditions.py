@@ -47,8 +47,6 @@ class Setting:
         Angle by which the target's orbit is turned ahead in its plane, in radians.
     duration : float or None
         t_k if it is fixed.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
     rough : bool
         Whether flights are integrated only to 1e-10, as along curves, whose points are guesses for `meet`.
     """
@@ -58,7 +56,6 @@ class Setting:
     peak: float
     lead: float = 0.0
     duration: float | None = None
-    taylor: bool | None = None
     rough: bool = False
 
     @property
@@ -164,7 +161,6 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
         duration,
         setting.peak,
         setting.bang,
-        taylor=setting.taylor,
         rough=setting.rough,
     )
     goal, moving = goal_of(setting, float(flight.end[3]))

@@ -51,8 +51,6 @@ class Flight:
         r, v1, c, phi*, rho, s1, e, nu1, nu2, nu3, chi, p_max at the end.
     slopes : (12, 7) array
         Derivatives of the end in the costates and in p_max.
-    taylor : bool or None
-        As for `pontryagin.numerics.flow.flow`.
     """
 
     scaled: Scaled
@@ -64,7 +62,6 @@ class Flight:
     pieces: tuple[Piece[Mode], ...]
     end: Array
     slopes: Array
-    taylor: bool | None
 
     @property
     def switch_times(self) -> Array:
@@ -83,7 +80,7 @@ class Flight:
 
     def sample(self, times: Array) -> Array:
         """The twelve states at ascending times, (k, 12)."""
-        flow = flow_of(self.scaled.eccentricity, self.has_switches, self.chart, self.taylor)
+        flow = flow_of(self.scaled.eccentricity, self.has_switches, self.chart)
         return sample(flow, self.pieces, times)
 
     def attitude(self, states: Array) -> Array:
@@ -115,13 +112,11 @@ def chart_of(costates: Array) -> int:
     return 1 if costates[5] >= 0 else -1
 
 
-def flow_of(
-    eccentricity: float, has_switches: bool, chart: int, taylor: bool | None, rough: bool = False
-) -> SwitchedFlow[Mode]:
+def flow_of(eccentricity: float, has_switches: bool, chart: int, rough: bool = False) -> SwitchedFlow[Mode]:
     """The switched flow of the thrust: every event changes to the other mode, without a jump."""
     parameters = (eccentricity, float(chart))
     return SwitchedFlow(
-        arc=lambda mode: Arc(arc(mode, has_switches, taylor, rough), parameters),
+        arc=lambda mode: Arc(arc(mode, has_switches, rough), parameters),
         following=lambda mode, _: OTHER[mode],
         most=SWITCHES,
     )
@@ -134,7 +129,6 @@ def fly(
     peak: float = np.inf,
     bang: bool = False,
     chart: int | None = None,
-    taylor: bool | None = None,
     rough: bool = False,
 ) -> Flight:
     """Integrate the extremal with the given initial costates; ``rough`` flights are less accurate and faster.
@@ -145,18 +139,39 @@ def fly(
         If the integrator stops short, at the centre of attraction or at |n| = 0 under alpha2 = 0, or if the
         thrust switches too often.
     """
-    bound = peak if peak < np.inf else 1.0
     chosen = chart_of(costates) if chart is None else chart
+    pieces, last = arcs_of(scaled, costates, duration, peak, bang, chosen, rough)
+    end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
+    return Flight(scaled, np.array(costates), duration, peak, bang, chosen, pieces, end, slopes)
+
+
+def arcs_of(
+    scaled: Scaled,
+    costates: Array,
+    duration: float,
+    peak: float,
+    bang: bool,
+    chart: int,
+    rough: bool = False,
+    derivatives: bool = True,
+) -> tuple[tuple[Piece[Mode], ...], Array]:
+    """The arcs of an extremal, and its states at the end, followed by their derivatives if these are wanted.
+
+    Raises
+    ------
+    NotConverged
+        As `fly`.
+    """
+    bound = peak if peak < np.inf else 1.0
     start = np.concatenate([scaled.start, [scaled.anomaly], costates, [0.0, bound]])
     saturated = bang or float(np.sum(switching(start) ** 2)) > (2 * peak) ** 2
     mode: Mode = "saturated" if saturated else "unsaturated"
     has_switches = not bang and peak < np.inf
-    whole = np.append(start, equations(mode, has_switches).identity)
-    flow = flow_of(scaled.eccentricity, has_switches, chosen, taylor, rough)
+    whole = np.append(start, equations(mode, has_switches).identity) if derivatives else start
+    flow = flow_of(scaled.eccentricity, has_switches, chart, rough)
     pieces, last = follow(flow, whole, mode, 0.0, duration)
     if not np.isfinite(last).all():
         raise NotConverged(
             "the flight is not finite at its end: it left the domain of the equations", float("inf")
         )
-    end, slopes = last[:COUNT], last[COUNT:].reshape(COUNT, -1)
-    return Flight(scaled, np.array(costates), duration, peak, bang, chosen, pieces, end, slopes, taylor)
+    return pieces, last

@@ -25,7 +25,7 @@ from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
 WORSE = 2.0
-"""The search ends in a direction with the first lap that costs more than this many times the best extremal."""
+"""The search ends in a direction with the first lap that costs more than this many times the best."""
 FURTHER = 2.5
 """Extremals of free duration on that last lap are taken if they cost less than this many times the best."""
 FARTHEST = 6
@@ -146,7 +146,7 @@ def _transcribed(
         if setting.duration is None:
             yield from ladder.Ladder(lap, cost).transfers(durations, most)
         else:
-            path = families.least_energy(lap, setting.duration)
+            path = families.least_energy(lap, setting.duration, families.FINEST)
             yield families.bounded(lap, path, cost, setting.duration)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")

@@ -78,8 +78,7 @@ class Carried:
 def carry(problem: Rendezvous, costates: ArrayLike, durations: ArrayLike | None = None) -> Carried:
     """Integrate many extremals, (2), (8)-(14), from their costates at t0 to their ends.
 
-    They are integrated side by side by heyoka's vector mode, switches of the thrust included; without heyoka
-    one by one.
+    Switches of the thrust are included.
 
     Parameters
     ----------
@@ -247,9 +246,7 @@ def newton_from_all(setting: Setting, starts: Array) -> tuple[Array, Array]:
 
     def evaluate(_: NDArray[np.intp], costates: Array) -> Evaluated:
         duration = setting.duration or 0.0
-        flights = fly_all(
-            setting.scaled, costates, duration, setting.peak, setting.bang, taylor=setting.taylor
-        )
+        flights = fly_all(setting.scaled, costates, duration, setting.peak, setting.bang)
         miss, slopes = misses(setting.scaled, flights)
         lost = ~(flights.reached & np.isfinite(slopes).all(axis=(1, 2)))
         miss[lost] = np.nan

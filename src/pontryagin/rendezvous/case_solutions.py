@@ -1,7 +1,6 @@
 """The solutions of the cases of the report, each computed once."""
 
-import functools
-
+from pontryagin.io.kept_results import kept
 from pontryagin.rendezvous.problem.cases import (
     case,
     cases,
@@ -10,7 +9,7 @@ from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.reduced.solve import solve
 
 
-@functools.cache
+@kept
 def solved(name: str) -> Extremal:
     """The best extremal of a case, with the others found.
 

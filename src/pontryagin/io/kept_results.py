@@ -1,0 +1,109 @@
+"""Results that are dear to compute, kept between the processes of one build under the hash of their sources.
+
+The report makes a folder for them and writes into it a key for each module whose functions are `kept`: a hash
+of all the files that the module depends on, the pinned packages and the interpreter. What was computed under
+another key is not read. Without such a folder a result is kept in its process alone.
+"""
+
+import hashlib
+import json
+import os
+import pickle
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from functools import cache, wraps
+from pathlib import Path
+from typing import ParamSpec, TypeVar, cast
+
+from pontryagin.io import files
+
+FOLDER = "PONTRYAGIN_KEPT"
+"""The environment variable that names the folder."""
+KEYS = "keys.json"
+"""The file in it that holds the key of each module."""
+STATES = 4
+"""How many keys' results are left in the folder: those of a few branches."""
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def kept(function: Callable[P, T]) -> Callable[P, T]:
+    """Compute a result once: in each process, and once for all processes that a build starts.
+
+    Parameters
+    ----------
+    function : function
+        Its arguments are hashable and have a `repr` that tells them apart; its results can be pickled.
+        Everything that they depend on is imported by its module, or by what that imports.
+
+    Examples
+    --------
+    >>> @kept
+    ... def square(x):
+    ...     print("computed")
+    ...     return x * x
+    >>> square(3), square(3)
+    computed
+    (9, 9)
+    """
+
+    @cache
+    def result(*arguments: P.args, **named: P.kwargs) -> T:
+        name = f"{function.__qualname__} {arguments!r} {sorted(named.items())!r}"
+        return between_processes(function.__module__, name, lambda: function(*arguments, **named))
+
+    return cast(Callable[P, T], wraps(function)(result))
+
+
+def between_processes(module: str, name: str, compute: Callable[[], T]) -> T:
+    """The result of that name, from the folder if it was computed under the module's key, or computed now.
+
+    Parameters
+    ----------
+    module : str
+        Dotted name of a module that imports all that the result depends on.
+    name : str
+        What tells the result from the module's others.
+    compute : callable
+        Computes it, while other processes that need it wait.
+    """
+    folder = os.environ.get(FOLDER)
+    key = _keys(Path(folder)).get(module) if folder else None
+    if not folder or not key:
+        return compute()
+    place = Path(folder) / module / hashlib.sha256(name.encode()).hexdigest()[:24]
+    target = place / f"{key}.pickle"
+    if not target.is_file():
+        with _alone(place):
+            if not target.is_file():
+                files.write(target, pickle.dumps(compute()))
+                _forget_old(place)
+    found: T = pickle.loads(target.read_bytes())
+    return found
+
+
+@cache
+def _keys(folder: Path) -> dict[str, str]:
+    with suppress(OSError):
+        keys: dict[str, str] = json.loads((folder / KEYS).read_text(encoding="utf-8"))
+        return keys
+    return {}
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Hold a folder for this process; freed by the system when it is killed."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / ".lock").open("w") as held:
+        with suppress(ImportError):
+            import fcntl
+
+            fcntl.flock(held, fcntl.LOCK_EX)
+        yield
+
+
+def _forget_old(folder: Path) -> None:
+    entries = sorted(folder.glob("*.pickle"), key=lambda entry: entry.stat().st_mtime)
+    for entry in entries[:-STATES]:
+        entry.unlink(missing_ok=True)

@@ -1,0 +1,115 @@
+"""Many trajectories side by side in the vector mode of heyoka's Taylor integrator, where heyoka is installed.
+
+Each trajectory has its own start, and as many are integrated together as the processor has lanes.
+"""
+
+import functools
+import importlib.util
+import threading
+from collections.abc import Hashable, Sequence
+from typing import Any
+
+import numpy as np
+
+from pontryagin.arrays import Array
+from pontryagin.errors import NotConverged
+from pontryagin.numerics.flow import STEPS
+from pontryagin.numerics.symbolic import Symbolic
+
+SMALL = 200
+"""heyoka compiles right-hand sides with more operations than this as loops.
+
+Unrolled code is faster to run, but slow to compile.
+"""
+
+
+@functools.cache
+def has_heyoka() -> bool:
+    """Whether heyoka can be imported."""
+    if importlib.util.find_spec("heyoka") is None:
+        return False
+    import heyoka
+
+    heyoka.set_logger_level_error()  # trial steps into a singularity are rejected and need no log message
+    return True
+
+
+class VectorMode:
+    """heyoka's integrator of some equations, compiled once in each thread that uses it.
+
+    A group of trajectories is finished as a whole before the next one begins.
+    """
+
+    def __init__(self, equations: Symbolic, tolerance: float) -> None:
+        self.equations, self._tolerance = equations, tolerance
+        self._own = threading.local()  # heyoka's object holds the trajectories that are being followed
+
+    def _taylor(self) -> Any:
+        import heyoka as hy
+
+        if not hasattr(self._own, "integrator"):
+            e = self.equations
+            system, table = heyoka_system(e.states, e.expressions, e.parameters, e.clock)
+            wrt = [table[symbol] for symbol in e.wrt]
+            self._own.integrator = hy.taylor_adaptive_batch(
+                hy.var_ode_sys(system, wrt, order=1) if wrt else system,
+                np.zeros((len(system), hy.recommended_simd_size())),
+                tol=self._tolerance,
+                compact_mode=bool(wrt) or compact(e.expressions),
+            )
+        return self._own.integrator
+
+    def __call__(self, start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
+        """The ends and the derivatives of trajectories; see `pontryagin.numerics.lanes.ends`."""
+        import heyoka as hy
+
+        taylor, identity = self._taylor(), self.equations.identity
+        (n, m), count = identity.shape, len(start)
+        lanes, held = taylor.state.shape[1], len(taylor.pars)
+        states, slopes = np.empty((count, n)), np.empty((count, n, m))
+        for i in range(0, count, lanes):
+            chosen = np.minimum(np.arange(i, i + lanes), count - 1)
+            taylor.set_time(begin[chosen])
+            taylor.state[:n], taylor.state[n:] = start[chosen].T, identity.reshape(-1, 1)
+            taylor.pars[:] = values[chosen, :held].T
+            taylor.propagate_until(end[chosen], max_steps=STEPS)
+            if any(outcome != hy.taylor_outcome.time_limit for outcome, *_ in taylor.propagate_res):
+                left = float(np.abs(end[chosen] - taylor.time).max())
+                raise NotConverged("the Taylor integrator stopped before the end", left)
+            part, filled = slice(i, i + lanes), min(lanes, count - i)
+            states[part] = taylor.state[:n, :filled].T
+            slopes[part] = taylor.state[n:, :filled].reshape(n, m, filled).transpose(2, 0, 1)
+        return states, slopes
+
+
+def heyoka_system(
+    states: Sequence[Any], rates: Sequence[Any], parameters: Sequence[Any], clock: Hashable
+) -> tuple[list[tuple[Any, Any]], dict[Any, Any]]:
+    """SymPy equations in heyoka's expressions, with shared parts built once, and the table of symbols."""
+    import heyoka as hy
+    import sympy as sp
+
+    table = {symbol: hy.expression(f"x_{i}") for i, symbol in enumerate(states)}
+    table |= {symbol: hy.par[i] for i, symbol in enumerate(parameters)}
+    if clock is not None:
+        table[clock] = hy.time
+    shared, reduced = sp.cse([with_floats(rate) for rate in rates], symbols=sp.numbered_symbols(cls=sp.Dummy))
+    for symbol, expression in shared:
+        table[symbol] = hy.from_sympy(expression, table)
+    return [(table[x], hy.from_sympy(r, table)) for x, r in zip(states, reduced, strict=True)], table
+
+
+def with_floats(expression: Any) -> Any:
+    """The expression with floats for fractions that heyoka cannot take: denominators not a power of two."""
+    import sympy as sp
+
+    taken = sp.sympify(expression)
+    fractions = [r for r in taken.atoms(sp.Rational) if r.q & (r.q - 1)]
+    return taken.xreplace({r: sp.Float(float(r)) for r in fractions})
+
+
+def compact(rates: Sequence[Any]) -> bool:
+    """Whether heyoka should compile loops for SymPy rates, because they hold more than `SMALL` operations."""
+    import sympy as sp
+
+    return bool(sp.count_ops(list(rates)) > SMALL)
