@@ -1,4 +1,4 @@
-"""Estimates made before any extremal is known: the gap between craft and target, the duration."""
+"""Estimates made before any extremal is known: the gap between craft and target, durations."""
 
 import math
 
@@ -85,6 +85,12 @@ def orbit_change_duration(scaled: Scaled, ratio: float) -> float:
     eccentricity, _ = _eccentricity(scaled.start)
     speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
     return min(max(SHORTEST, speed / math.sqrt(ratio)), LONGEST)
+
+
+def gap_duration(scaled: Scaled, thrust: float) -> float:
+    """A duration in which a thrust of this size closes the gap, with gravity neglected."""
+    place, velocity = gap(scaled)
+    return 2 * math.sqrt(place / thrust) + velocity / thrust
 
 
 def _eccentricity(start: Array) -> tuple[float, float]:

@@ -37,7 +37,7 @@ def test_a_mixed_problem_reaches_the_bound_and_obeys_the_law_at_the_end():
 @pytest.mark.parametrize("degrees", [0, 30])
 def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
     best = solve(problem(degrees, time_weight=1, energy_weight=0, peak=0.1))
-    assert all(found.certificate.holds(1e-10) for found in (best, *best.others))
+    assert all(found.certificate.holds(1e-9) for found in (best, *best.others))
     assert best.modes == ("saturated",)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.progress import report
+from pontryagin.rendezvous.estimate import TOGETHER, gap
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
@@ -36,6 +37,8 @@ LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
 MARGIN = 1.2
 """Factor by which the energy of a guess may exceed the largest possible energy under the bound."""
+COASTING = np.array([0, 0, 0, 0, 0, 1e-6])
+"""Costates of a craft that coasts; nu is slightly off zero, so that it has a direction."""
 ALIKE, SAME = 1e-2, 1e-7
 """Relative difference of the durations of one extremal, as transcribed from two starts, and as flown."""
 
@@ -50,18 +53,21 @@ def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]
     NotConverged
         If no extremal was reached for another reason.
     """
+    if max(gap(setting.scaled)) < TOGETHER:  # So the duration is fixed, and no thrust is needed.
+        yield meet(setting, COASTING)
+        return
     best = math.inf
     for sense in (1, -1):
         laps, last = 0 if sense > 0 else -1, False
         while abs(laps) <= FARTHEST and not last:
             report(f"seeking extremals on lap {laps:+d}")
-            lap, most = Lap.of(setting.scaled, laps), WORSE * best
-            starts = first_durations(setting, lap, most)
+            lap, most = Lap.of(setting.scaled, laps), FURTHER * best if setting.free else math.inf
+            starts = first_durations(setting, lap, WORSE * best)
             if not starts and best < math.inf:
-                last, most = True, FURTHER * best if setting.free else math.inf
-                starts = first_durations(setting, lap, most)
+                starts, last = first_durations(setting, lap, most), True
             for root in on_lap(setting, lap, starts, log, most):
-                best = min(best, cost(setting, root))
+                own = cost(setting, root)
+                best, last = min(best, own), last or own > WORSE * best
                 yield root
             laps += sense
         log.ends.append(f"laps from {laps:+d} {'up' if sense > 0 else 'down'} were not tried")
