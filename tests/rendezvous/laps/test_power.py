@@ -6,17 +6,21 @@ import numpy as np
 import pytest
 
 from pontryagin.numerics.complex_step import derivative
+from pontryagin.rendezvous.laps.equinoctial import Lap
+from pontryagin.rendezvous.laps.families import least_energy
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.power import SMOOTHING, PowerCost
+from pontryagin.rendezvous.laps.transcription import Path, extremal
+from pontryagin.rendezvous.problem.cases import cases
 
-PEAK, END = 0.1, 1.7
+PEAK = 0.1
 SIZES = np.linspace(0.0, 3.0, 40) / PEAK
-"""|n|, up to three times that at the meeting."""
+"""|n|, up to three times 1/p_max."""
 
 
 @pytest.mark.parametrize("theta", [0.5, 0.3, 0.1, 0.0])
 def test_slopes_are_derivatives_of_the_gain(theta):
-    cost = PowerCost(theta, END, PEAK)
+    cost = PowerCost(theta, PEAK)
     gain = cost.gain(SIZES**2)
     assert gain[0][0] == pytest.approx(0, abs=1e-15)
     for order in (0, 1):
@@ -25,16 +29,13 @@ def test_slopes_are_derivatives_of_the_gain(theta):
 
 
 def test_the_square_of_the_thrust_is_the_energy():
-    energy = RunningCost(0.0, 1 / (2 * END * PEAK**2), math.inf)
-    power = PowerCost(0.5, END, PEAK)
-    for one, other in zip(power.gain(SIZES**2), energy.gain(SIZES**2), strict=True):
+    energy = RunningCost(0.0, 1 / (2 * PEAK**2), math.inf)
+    for one, other in zip(PowerCost(0.5, PEAK).gain(SIZES**2), energy.gain(SIZES**2), strict=True):
         assert one == pytest.approx(other)
-    end_thrust = 2 / PEAK * power.gain(np.array(1 / PEAK**2))[1]
-    assert end_thrust == pytest.approx(END * PEAK)
 
 
 def test_the_infinite_power_bounds_the_thrust():
-    gain, slope, _ = PowerCost(0.0, END, PEAK).gain(SIZES**2)
+    gain, slope, _ = PowerCost(0.0, PEAK).gain(SIZES**2)
     least_time, *_ = RunningCost(1.0, 0.0, PEAK).gain(SIZES[1:] ** 2)
     thrust = 2 * SIZES * slope
     assert np.abs(gain[1:] - least_time).max() <= SMOOTHING
@@ -42,8 +43,30 @@ def test_the_infinite_power_bounds_the_thrust():
 
 
 @pytest.mark.parametrize("theta", [0.5, 0.3, 0.1])
-def test_thrust_grows_with_the_power_of_the_switching_function(theta):
-    _, slope, _ = PowerCost(theta, END, PEAK).gain(np.array([1.0, 4.0]) / PEAK**2)
-    thrust = 2 / PEAK * np.array([1.0, 2.0]) * slope
-    assert thrust[1] / thrust[0] == pytest.approx(2 ** (theta / (1 - theta)), rel=2e-3)
-    assert thrust[0] / PEAK == pytest.approx(END ** (theta / (1 - theta)), rel=2e-3)
+def test_thrust_is_the_best_for_the_cost(theta):
+    sizes = SIZES[SIZES > 10 * SMOOTHING / PEAK]
+    gain, slope, _ = PowerCost(theta, PEAK).gain(sizes**2)
+    thrust = 2 * sizes * slope
+    for share in (0.9, 1.0, 1.1):
+        value = share * thrust * sizes - theta * (share * thrust / PEAK) ** (1 / theta)
+        assert (value <= gain + SMOOTHING).all()
+    best = thrust * sizes - theta * (thrust / PEAK) ** (1 / theta)
+    assert best == pytest.approx(gain, abs=SMOOTHING)
+
+
+def test_free_time_ends_at_the_given_size():
+    cost = PowerCost(0.3, PEAK, 1.3)
+    assert cost.time_weight == cost.gain(np.array([1.3**2]))[0][0]
+
+
+@pytest.mark.parametrize("theta", [0.5, 0.3])
+def test_mean_thrust_falls_with_the_duration_at_its_slope(theta):
+    scaled = cases()["circle"].problem.scaled
+    lap, cost, duration, step = Lap.of(scaled, 0), PowerCost(theta, scaled.peak), 2.5, 1e-3
+    start = least_energy(lap, duration)
+    nodes = start.nodes.copy()
+    nodes[6:] /= 2 * scaled.peak**2
+    start = Path(nodes, start.price / (2 * scaled.peak**2), start.span, start.duration)
+    near = [extremal(lap, cost, duration * math.exp(shift), start) for shift in (-step, 0.0, step)]
+    means = [cost.mean_thrust(path) for path in near]
+    assert (means[2][0] - means[0][0]) / (2 * step) == pytest.approx(means[1][1], rel=0.02)

@@ -25,13 +25,23 @@ SHARES = (1.0, 0.5, 0.2, 0.05)
 """Shares of the way to the target's orbit at which a guess is tried."""
 TRIES, GROWTH = 120, 2.0
 """How many steps of a continuation are tried, and the factor by which one grows after a success."""
-FIRST, LARGEST, LEAST = 0.3, 0.5, 1 / 16
+FIRST, LARGEST, LEAST = 0.5, 1.0, 1 / 16
 """First, largest and least step of a continuation whose end is wanted, in units of its length."""
 FINEST = 1 / 512
 """The least step where no other start is tried, as for a fixed duration."""
 
-Posed = Callable[[float], tuple[Lap, Cost, float | None]]
-"""A function of the parameter that returns a lap, a cost, and the duration, which is None if it is free."""
+LATE = 0.2
+"""Value of theta from which the time of the meeting is free on the way to least time."""
+FASTEST, CLOSE = 0.1, 0.05
+"""Largest change of the logarithm of a duration in one step; a mean thrust whose logarithm is near enough."""
+PACE = 0.05, 0.15, 0.01
+"""First, largest and least step of the logarithm of a duration on the way to a mean thrust."""
+
+Posed = Callable[[float, Path], tuple[Lap, Cost, float | None]]
+"""A function of the parameter and a guess.
+
+It returns a lap, a cost, and the duration, which is None if it is free.
+"""
 
 
 def points(
@@ -44,8 +54,8 @@ def points(
     first, largest, least = steps
 
     def at(parameter: float, guess: Array) -> Point[None]:
-        found = extremal(*posed(parameter), Path.of(guess), ROUGH)
-        return Point(found.unknowns, parameter, None)
+        near = Path.of(guess)
+        return Point(extremal(*posed(parameter, near), near, ROUGH).unknowns, parameter, None)
 
     return march(
         at,
@@ -91,19 +101,21 @@ def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
     coasting = _coasting_time(lap, end)
     reason = NotConverged("the meeting is not ahead of the craft", math.inf)
 
-    def posed(share: float) -> tuple[Lap, Cost, float]:
+    def nearer(share: float) -> tuple[Lap, Cost, float]:
         if share == 1.0:
             return lap, LEAST_ENERGY, duration
         goal = lap.start[:5] + share * (lap.goal - lap.start[:5])
         return replace(lap, goal=goal, end=end), LEAST_ENERGY, coasting + share * (duration - coasting)
 
     for share in SHARES:
-        nearer, _, time = posed(share)
-        guesses = least_energy_guesses(nearer, np.array([time]))
+        near, _, time = nearer(share)
+        guesses = least_energy_guesses(near, np.array([time]))
         if guesses.durations.size:
             try:
-                start = extremal(*posed(share), guesses.path(0), ROUGH)
-                return continued(posed, start, share, 1.0, least) if share < 1 else start
+                start = extremal(*nearer(share), guesses.path(0), ROUGH)
+                if share == 1:
+                    return start
+                return continued(lambda x, _: nearer(x), start, share, 1.0, least)
             except NotConverged as failure:
                 reason = failure
     raise reason
@@ -128,7 +140,7 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     if largest <= cost.peak:
         return path
 
-    def posed(logarithm: float) -> tuple[Lap, Cost, float | None]:
+    def posed(logarithm: float, _: Path) -> tuple[Lap, Cost, float | None]:
         return lap, replace(cost, peak=math.exp(logarithm)), duration
 
     begin, end = math.log(largest), math.log(cost.peak)
@@ -144,19 +156,42 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
 
 
 def least_time(lap: Lap, path: Path, peak: float) -> Path:
-    """The extremal of least time under a bound, from one of least energy whose thrust has about this size.
+    """The extremal of least time under a bound, from one of least energy.
+
+    First the duration is changed until the mean thrust is the bound. It is kept there by the duration, while
+    the exponent of the mean grows. Then the exponent grows without limit, while the meeting's time is free.
 
     Raises
     ------
     NotConverged
-        If the continuation ends before.
+        If a continuation ends before.
     """
-    size = float(path.switching()[-1])
+
+    def posed(theta: float, guess: Path) -> tuple[Lap, Cost, float]:
+        cost = PowerCost(theta, peak)
+        mean, slope = cost.mean_thrust(guess)
+        return lap, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
+
+    path = _of_mean_thrust(lap, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
+    path = continued(posed, path, 0.5, LATE)
+    end = float(path.switching()[-1])
+    path = continued(lambda theta, _: (lap, PowerCost(theta, peak, end), None), path, LATE, 0.0)
+    return _scaled(path, 1 / (peak * end))
+
+
+def _of_mean_thrust(lap: Lap, cost: PowerCost, path: Path) -> Path:
+    """The extremal whose mean thrust is the bound, from one of another duration."""
+    begin, (mean, _) = math.log(path.duration), cost.mean_thrust(path)
+    end = begin + math.copysign(1.0, mean)
+    for point in points(lambda logarithm, _: (lap, cost, math.exp(logarithm)), path, begin, end, PACE):
+        here = Path.of(point.unknowns)
+        if cost.mean_thrust(here)[0] * math.copysign(1.0, mean) < CLOSE:
+            return here
+    raise NotConverged("the mean thrust does not reach the bound", abs(mean))
+
+
+def _scaled(path: Path, factor: float) -> Path:
+    """A path with all costates multiplied."""
     nodes = path.nodes.copy()
-    nodes[6:] /= peak * size
-    start = replace(path, nodes=nodes, price=path.price / (peak * size))
-
-    def posed(theta: float) -> tuple[Lap, Cost, None]:
-        return lap, PowerCost(theta, size / (2 * peak), peak), None
-
-    return continued(posed, start, 0.5, 0.0)
+    nodes[6:] *= factor
+    return replace(path, nodes=nodes, price=path.price * factor)

@@ -5,7 +5,7 @@ until a transfer costs more than a given multiple of the best one.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -20,8 +20,10 @@ from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
 from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, square
 
-DURATIONS = np.geomspace(0.7, 120.0, 40)
+DURATIONS = np.geomspace(0.2, 120.0, 48)
 """Durations of the guesses, in units of sqrt(p*^3/fM)."""
+HORIZONS = 9.0, 33.0, 120.0
+"""Longest durations of the guesses, one after the other."""
 COARSE = 12
 """Intervals for each turn of a guess that only estimates a cost."""
 SEEDS = 3
@@ -38,9 +40,13 @@ RANGE = 3.0
 """Largest change of the logarithm of the duration along the curve."""
 
 
-def guesses_on(lap: Lap, longest: float = math.inf) -> Guesses:
-    """Guesses over the durations up to the longest of interest."""
-    return least_energy_guesses(lap, DURATIONS[longest > DURATIONS], per_lap=COARSE)
+def guesses_on(lap: Lap, needed: Callable[[Guesses], float], limit: float = math.inf) -> Guesses:
+    """Guesses over longer and longer durations, until the longest that is needed or the limit is reached."""
+    for horizon in HORIZONS:
+        guesses = least_energy_guesses(lap, DURATIONS[min(horizon, limit) >= DURATIONS], per_lap=COARSE)
+        if guesses.durations.size and min(limit, needed(guesses)) <= horizon:
+            break
+    return guesses
 
 
 def energy(path: Path, peak: float = math.inf) -> float:
@@ -146,7 +152,7 @@ class Ladder:
     def _along(self, start: Path, end: float, most: float, reached: list[float]) -> Iterator[Point[None]]:
         """Points of the curve in one direction, while they cost little; their durations are recorded."""
         begin = math.log(start.duration)
-        for point in points(self._at, start, begin, begin + end, STEPS):
+        for point in points(lambda x, _: self._at(x), start, begin, begin + end, STEPS):
             yield point
             path = Path.of(point.unknowns)
             reached.append(path.duration)

@@ -16,7 +16,7 @@ from pontryagin.rendezvous.estimate import TOGETHER, gap
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
-from pontryagin.rendezvous.laps.start import least_energy_guesses
+from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
 from pontryagin.rendezvous.laps.transcription import Path
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
@@ -31,7 +31,7 @@ FURTHER = 2.5
 """Extremals of free duration on that last lap are taken if they cost less than this many times the best."""
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
-MEAN_THRUSTS = (0.7, 0.9, 0.8, 1.0, 0.6)
+MEAN_THRUSTS = (1.0, 0.7, 0.9, 0.8, 0.6)
 """Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
 LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
@@ -40,7 +40,7 @@ MARGIN = 1.2
 COASTING = np.array([0, 0, 0, 0, 0, 1e-6])
 """Costates of a craft that coasts; nu is slightly off zero, so that it has a direction."""
 ALIKE, SAME = 1e-2, 1e-7
-"""Relative difference of the durations of one extremal, as transcribed from two starts, and as flown."""
+"""Largest differences of one extremal: in the duration, relative, as transcribed; in an unknown, as flown."""
 
 
 def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
@@ -110,12 +110,27 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
         largest = min(most, MARGIN * setting.peak**2 * setting.duration)
         return [setting.duration] if (guesses.energies < largest).any() else []
     if setting.bang:
-        guesses = ladder.guesses_on(lap, LONGER * most)
-        found = [ladder.duration_of_thrust(guesses, share * setting.peak) for share in (1.0, *MEAN_THRUSTS)]
-        return [duration for duration in found[1:] if duration < math.inf] if found[0] < most else []
-    guesses = ladder.guesses_on(lap, most / setting.ratio)
-    minima = ladder.minima(guesses, setting.ratio, setting.peak)
-    return [duration for price, duration in minima if price < most]
+        return _with_mean_thrusts(lap, setting.peak, most)
+
+    def minima(guesses: Guesses) -> list[tuple[float, float]]:
+        return ladder.minima(guesses, setting.ratio, setting.peak)
+
+    def longest(guesses: Guesses) -> float:
+        return min((WORSE * price / setting.ratio for price, _ in minima(guesses)), default=math.inf)
+
+    guesses = ladder.guesses_on(lap, longest, most / setting.ratio)
+    return [duration for price, duration in minima(guesses) if price < most]
+
+
+def _with_mean_thrusts(lap: Lap, peak: float, most: float) -> list[float]:
+    """The durations of guesses whose thrust has the sizes `MEAN_THRUSTS`, in their order."""
+
+    def durations(guesses: Guesses, *shares: float) -> list[float]:
+        return [ladder.duration_of_thrust(guesses, share * peak) for share in shares]
+
+    guesses = ladder.guesses_on(lap, lambda found: max(durations(found, *MEAN_THRUSTS)), LONGER * most)
+    (least,) = durations(guesses, 1.0)
+    return [found for found in durations(guesses, *MEAN_THRUSTS) if found < math.inf] if least < most else []
 
 
 def on_lap(
@@ -134,7 +149,7 @@ def on_lap(
         except (NotConverged, Infeasible) as reason:
             log.given_up.append(f"lap {lap.laps}: {reason}")
             continue
-        if all(abs(cost(setting, root) / cost(setting, other) - 1) > SAME for other in found):
+        if all(np.abs(root.unknowns - other.unknowns).max() > SAME for other in found):
             found.append(root)
             log.revolutions.append(lap.laps)
     return found
