@@ -12,7 +12,7 @@ import numpy as np
 
 from pontryagin.errors import Infeasible, NotConverged
 from pontryagin.progress import report
-from pontryagin.rendezvous.estimate import TOGETHER, gap
+from pontryagin.rendezvous.estimate import TOGETHER, gap, gap_duration
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
@@ -35,6 +35,8 @@ MEAN_THRUSTS = (1.0, 0.7, 0.9, 0.8, 0.6)
 """Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
 LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
+SHORT = 0.3
+"""The shortest duration of a guess, in units of that in which the thrust closes the gap without gravity."""
 MARGIN = 1.2
 """Factor by which the energy of a guess may exceed the largest possible energy under the bound."""
 COASTING = np.array([0, 0, 0, 0, 0, 1e-6])
@@ -110,7 +112,7 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
         largest = min(most, MARGIN * setting.peak**2 * setting.duration)
         return [setting.duration] if (guesses.energies < largest).any() else []
     if setting.bang:
-        return _with_mean_thrusts(lap, setting.peak, most)
+        return _with_mean_thrusts(setting, lap, most)
 
     def minima(guesses: Guesses) -> list[tuple[float, float]]:
         return ladder.minima(guesses, setting.ratio, setting.peak)
@@ -118,17 +120,22 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
     def longest(guesses: Guesses) -> float:
         return min((WORSE * price / setting.ratio for price, _ in minima(guesses)), default=math.inf)
 
-    guesses = ladder.guesses_on(lap, longest, most / setting.ratio)
+    shortest = SHORT * gap_duration(setting.scaled, math.sqrt(setting.ratio))
+    guesses = ladder.guesses_on(lap, shortest, longest, most / setting.ratio)
     return [duration for price, duration in minima(guesses) if price < most]
 
 
-def _with_mean_thrusts(lap: Lap, peak: float, most: float) -> list[float]:
+def _with_mean_thrusts(setting: Setting, lap: Lap, most: float) -> list[float]:
     """The durations of guesses whose thrust has the sizes `MEAN_THRUSTS`, in their order."""
 
     def durations(guesses: Guesses, *shares: float) -> list[float]:
-        return [ladder.duration_of_thrust(guesses, share * peak) for share in shares]
+        return [ladder.duration_of_thrust(guesses, share * setting.peak) for share in shares]
 
-    guesses = ladder.guesses_on(lap, lambda found: max(durations(found, *MEAN_THRUSTS)), LONGER * most)
+    def longest(guesses: Guesses) -> float:
+        return max(durations(guesses, *MEAN_THRUSTS))
+
+    shortest = SHORT * gap_duration(setting.scaled, setting.peak)
+    guesses = ladder.guesses_on(lap, shortest, longest, LONGER * most)
     (least,) = durations(guesses, 1.0)
     return [found for found in durations(guesses, *MEAN_THRUSTS) if found < math.inf] if least < most else []
 
@@ -141,7 +148,7 @@ def on_lap(
     Those whose transcription costs more than ``most`` are left out.
     """
     found: list[Root[Flight]] = []
-    log.durations.extend(durations)
+    log.durations.extend(duration for duration in durations if duration not in log.durations)
     for path in _transcribed(setting, lap, durations, log, most):
         try:
             costates = reduced_costates(setting.scaled, path.nodes[:, 0])
