@@ -26,7 +26,7 @@ from pontryagin.averaging.exact.canonical import (
 )
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.lanes import ends
-from pontryagin.numerics.vector_mode import compact, has_heyoka, heyoka_system
+from pontryagin.numerics.vector_mode import has_heyoka, heyoka_system, large
 
 TOLERANCE = 1e-12
 EPSILON = 0.01
@@ -148,7 +148,7 @@ def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
         pars=path.parameters.astype(long),
         time=long(path.begin),
         fp_type=long,
-        compact_mode=sensitivities or compact(e.rates),
+        compact_mode=sensitivities or large(e.rates),
     )
     integrator.propagate_until(long(path.end))
     return np.array(integrator.state, dtype=float)

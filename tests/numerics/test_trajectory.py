@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import DOP853
 
 from pontryagin.errors import NotConverged
-from pontryagin.numerics import arc_loop, dop853, object_code, runge_kutta, trajectory
+from pontryagin.numerics import arc_loop, object_code, runge_kutta, trajectory
 from pontryagin.numerics.equations import Kernel
 from pontryagin.numerics.flow import integrator
 from pontryagin.numerics.symbolic import Symbolic
@@ -20,18 +20,20 @@ PENDULUM = Symbolic((x, v), (v, -k * sp.sin(x) + sp.cos(t) / 7), (k,), t, (x, v)
 
 
 def test_the_coefficients_are_scipys_and_have_the_order_8():
-    table = trajectory.table()
-    c, weights = table[:12], table[12:168].reshape(13, 12)
+    table, full = trajectory.table(), np.zeros((15, 13))
+    c, rows = table[:12], table[12:].reshape(15, 2, 12)
+    for row, (weights, stages) in zip(full, rows, strict=True):
+        row[stages[weights != 0].astype(int)] = weights[weights != 0]
+        assert weights[: np.count_nonzero(weights)].all()
     assert_array_equal(c, DOP853.C[:12])
-    assert_array_equal(weights[:12], DOP853.A[:12, :12])
-    assert_array_equal(weights[12], DOP853.B)
-    assert_array_equal(table[168:181], DOP853.E5)
-    assert_array_equal(table[181:], DOP853.E3)
-    assert table[runge_kutta.ESTIMATE_3 :].size == runge_kutta.STAGES + 1
-    assert_allclose(weights[:12].sum(axis=1), c, atol=1e-14)
+    assert_array_equal(full[:12, :12], DOP853.A[:12, :12])
+    assert_array_equal(full[runge_kutta.STEP, :12], DOP853.B)
+    assert_array_equal(full[runge_kutta.FIFTH], DOP853.E5)
+    assert_array_equal(full[runge_kutta.THIRD], DOP853.E3)
+    assert not full[[runge_kutta.STEP, runge_kutta.FIFTH, runge_kutta.THIRD], 1:3].any()
+    assert_allclose(full[:12].sum(axis=1), c, atol=1e-14)
     for order in range(1, 9):  # Conditions of quadrature.
-        assert_allclose(weights[12] @ c ** (order - 1), 1 / order, atol=1e-14)
-    assert len(dop853.STAGES) == runge_kutta.STAGES
+        assert_allclose(full[runge_kutta.STEP, :12] @ c ** (order - 1), 1 / order, atol=1e-14)
 
 
 def test_the_native_loop_computes_what_its_source_does():
@@ -144,6 +146,19 @@ def test_a_singularity_and_a_limit_of_steps_stop_the_integrator():
         integrator(PENDULUM, steps_per_unit=1).run(np.array([0.2, -0.9]), 0.0, 2.9, [1.5])
 
 
+def test_an_arc_shorter_than_the_resolution_of_time_is_no_singularity():
+    end = np.nextafter(2.0, 3.0)
+    reached = integrator(PENDULUM).run(np.array([0.2, -0.9]), 2.0, end, [1.5])
+    assert reached.time == end and reached.event is None
+
+
+def test_numbers_that_are_missing_are_asked_for():
+    with pytest.raises(ValueError, match="2 states, with 4 derivatives or none, and 1 parameters, got 2"):
+        integrator(PENDULUM).run(np.array([0.2, -0.9]), 0.0, 1.0, ())
+    with pytest.raises(ValueError, match="got 3 numbers and 1 parameters"):
+        integrator(PENDULUM).run(np.array([0.2, -0.9, 0.0]), 0.0, 1.0, [1.5])
+
+
 def test_threads_share_one_integrator():
     follow, found = integrator(PENDULUM), {}
 
@@ -172,3 +187,15 @@ def test_code_for_vectors_and_for_any_processor_computes_the_same(tmp_path, monk
         ends.append(native.follow(whole, 0.0, 2.0, np.array([1.5]), 1e-13, math.inf, 1000, np.empty(0)).whole)
     trajectory.compiled.cache_clear()
     assert_array_equal(*ends)
+
+
+def test_without_a_linker_the_same_code_is_loaded_by_llvmlite(tmp_path, monkeypatch):
+    whole, arguments = np.array([0.2, -0.9]), (0.0, 2.0, np.array([1.5]), 1e-13, math.inf, 1000, np.empty(0))
+    expected = trajectory.compiled(PENDULUM).follow(whole, *arguments)
+    monkeypatch.setattr(object_code, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(object_code.shutil, "which", lambda _: None)
+    for _ in range(2):  # It is made, and then it is opened.
+        trajectory.compiled.cache_clear()
+        assert_array_equal(trajectory.compiled(PENDULUM).follow(whole, *arguments).whole, expected.whole)
+    trajectory.compiled.cache_clear()
+    assert [path.suffix for path in tmp_path.iterdir()] == [".o"]

@@ -86,13 +86,13 @@ def follow(
     grown = GROWTH
     while (end - t) * sense > 0.0:
         length = min(length, longest)
-        if not length > RESOLUTION * abs(t):
-            outcome = SHORT
-            break
         if steps >= most:
             outcome = MANY
             break
         last = length >= (end - t) * sense
+        if not (last or length > RESOLUTION * abs(t)):
+            outcome = SHORT
+            break
         h = end - t if last else sense * length
         steps += 1
         step(rates, size, t, h, y, p, k, table, new)

@@ -13,8 +13,14 @@ Numbers = Any
 
 STAGES = 12
 """Number of stages of a step. The derivative at its end, stage 12, is the first stage of the next step."""
-NODES, WEIGHTS, ESTIMATE_5, ESTIMATE_3 = 0, 12, 168, 181
-"""Where the table of coefficients holds c, the rows of A with b as row 12, and both error estimates."""
+NODES, ROWS, ROW = 0, 12, 24
+"""Where the table of coefficients holds c and its rows, and the length of a row.
+
+A row holds 12 weights, those that are not zero first, and the stages that they are for. Row s is that of
+stage s.
+"""
+STEP, FIFTH, THIRD = 12, 13, 14
+"""The rows of the whole step, b, and of both estimates of its error."""
 
 
 def evaluate(
@@ -24,17 +30,24 @@ def evaluate(
     function(t, x[x_at:], p, out[out_at:])
 
 
-def combine(
-    size: int, h: float, y: Numbers, k: Numbers, table: Numbers, row: int, count: int, new: Numbers
-) -> None:
-    """new = y + h (sum of stages with the weights of a row)."""
-    for i in range(size):
-        new[i] = 0.0
-    for j in range(count):
-        weight = table[row + j]
-        if weight != 0.0:
+def combine(size: int, k: Numbers, table: Numbers, row: int, out: Numbers, out_at: int) -> None:
+    """The sum of the stages with the weights of a row, four stages at a time."""
+    at = ROWS + ROW * row
+    for first in range(at, at + STAGES, 4):
+        a, b, c, d = table[first], table[first + 1], table[first + 2], table[first + 3]
+        i_a, i_b = int(table[first + 12]) * size, int(table[first + 13]) * size
+        i_c, i_d = int(table[first + 14]) * size, int(table[first + 15]) * size
+        if first == at:
             for i in range(size):
-                new[i] += weight * k[j * size + i]
+                out[out_at + i] = (a * k[i_a + i] + b * k[i_b + i]) + (c * k[i_c + i] + d * k[i_d + i])
+        elif a != 0.0:
+            for i in range(size):
+                out[out_at + i] += (a * k[i_a + i] + b * k[i_b + i]) + (c * k[i_c + i] + d * k[i_d + i])
+
+
+def advance(size: int, h: float, y: Numbers, k: Numbers, table: Numbers, row: int, new: Numbers) -> None:
+    """new = y + h times the sum of the stages with the weights of a row."""
+    combine(size, k, table, row, new, 0)
     for i in range(size):
         new[i] = y[i] + h * new[i]
 
@@ -52,9 +65,9 @@ def step(
 ) -> None:
     """The state after a step h from y, whose first stage is known."""
     for s in range(1, STAGES):
-        combine(size, h, y, k, table, WEIGHTS + STAGES * s, s, new)
+        advance(size, h, y, k, table, s, new)
         evaluate(rates, t + table[NODES + s] * h, new, 0, p, k, s * size)
-    combine(size, h, y, k, table, WEIGHTS + STAGES * STAGES, STAGES, new)
+    advance(size, h, y, k, table, STEP, new)
 
 
 def error(
@@ -67,16 +80,15 @@ def error(
     table: Numbers,
     tolerance: float,
 ) -> float:
-    """Estimated error of a step, as a share of what is allowed."""
+    """Estimated error of a step, as a share of what is allowed; overwrites stages 1 and 2."""
+    combine(size, k, table, FIFTH, k, size)  # Neither estimate uses stages 1 and 2.
+    combine(size, k, table, THIRD, k, 2 * size)
     fifth, third = 0.0, 0.0
     for i in range(size):
-        five, three = 0.0, 0.0
-        for j in range(STAGES + 1):
-            five += table[ESTIMATE_5 + j] * k[j * size + i]
-            three += table[ESTIMATE_3 + j] * k[j * size + i]
-        allowed = tolerance * (0.1 + max(abs(y[i]), abs(new[i])))
-        fifth += (five / allowed) * (five / allowed)
-        third += (three / allowed) * (three / allowed)
+        share = 1.0 / (tolerance * (0.1 + max(abs(y[i]), abs(new[i]))))
+        five, three = share * k[size + i], share * k[2 * size + i]
+        fifth += five * five
+        third += three * three
     whole = fifth + 0.01 * third
     if whole == 0.0:
         return 0.0

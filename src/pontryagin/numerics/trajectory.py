@@ -9,13 +9,13 @@ import ctypes
 import threading
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.numerics import arc_loop, assembly, dop853, object_code
+from pontryagin.numerics import arc_loop, assembly, dop853, object_code, runge_kutta
 from pontryagin.numerics.closure import closure_of
 from pontryagin.numerics.equations import Equations
 from pontryagin.numerics.native import compiled_text
@@ -63,8 +63,9 @@ class Compiled:
     rates, directions, guards : int
         Addresses of the rates of n states, of the same with those of m derivatives, and of the event
         functions with their slopes along the trajectory.
-    states, columns, width, events : int
-        n, m, numbers that a row of derivatives has room for, and how many event functions there are.
+    states, columns, width, events, parameters : int
+        n, m, numbers that a row of derivatives has room for, how many event functions there are, and how many
+        parameters they need.
     code : object
         What keeps the code in memory.
     """
@@ -76,6 +77,7 @@ class Compiled:
     columns: int
     width: int
     events: int
+    parameters: int
     code: object
 
     def follow(
@@ -93,8 +95,12 @@ class Compiled:
         n, moved = self.states, len(whole) > self.states
         size = n * (1 + self.width) if moved else n
         counted, events, samples = len(whole), self.events, len(times)
-        lengths = (size, 13 * size, 12 * n, size, size, 6 * events, 4, samples, samples * n, len(parameters))
-        places = np.cumsum((0, *lengths))
+        if counted not in (n, n * (1 + self.columns)) or len(parameters) < self.parameters:
+            raise ValueError(
+                f"a trajectory takes {n} states, with {n * self.columns} derivatives or none, and "
+                f"{self.parameters} parameters, got {counted} numbers and {len(parameters)} parameters"
+            )
+        places = _places(n, size, events, samples, len(parameters))
         room = np.zeros(places[-1])
         y, _, _, _, _, _, report, grid, rows, given = (room[a:b] for a, b in pairwise(places))
         y[:n], report[0], grid[:], given[:] = whole[:n], begin, times, parameters
@@ -102,7 +108,7 @@ class Compiled:
             table = y[n:].reshape(n, self.width)[:, : self.columns]
             table[:] = whole[n:].reshape(n, self.columns)
         base = room.ctypes.data
-        at = [base + 8 * int(place) for place in places]
+        at = [base + 8 * place for place in places]
         code = _loop().follow(
             self.directions if moved else self.rates,
             self.rates,
@@ -122,7 +128,7 @@ class Compiled:
             at[8],
             at[1],
             at[2],
-            _TABLE.ctypes.data,
+            _TABLE_AT,
             *at[3:7],
         )
         reached = np.concatenate([y[:n], table.ravel()]) if moved else y.copy()
@@ -130,6 +136,13 @@ class Compiled:
         return ArcEnd(
             code, time, reached, int(event), int(steps), rows.reshape(samples, n)[: int(done)].copy()
         )
+
+
+@lru_cache(maxsize=1024)
+def _places(n: int, size: int, events: int, samples: int, parameters: int) -> tuple[int, ...]:
+    """Where the parts of the room for one arc begin, and where the last one ends."""
+    parts = (size, 13 * size, 12 * n, size, size, 6 * events, 4, samples, samples * n, parameters)
+    return (0, *accumulate(parts))
 
 
 def row_width(columns: int) -> int:
@@ -143,18 +156,19 @@ def compiled(equations: Equations) -> Compiled:
     n, m = equations.identity.shape
     width, events = row_width(m), equations.events
     symbols = ["rates", *(["directions"] if m else []), *(["guards"] if events else [])]
-    text = right_hand_sides(equations)
+    text, parameters = right_hand_sides(equations)
     path = object_code.kept_path(text, object_code.instructions())
     with _LOCK:
         opened = object_code.kept(path, symbols)
         if opened is None:
             opened = object_code.store(object_code.object_code([text], symbols, vectors=True), path, symbols)
     at = dict(zip(symbols, opened.addresses, strict=True))
-    return Compiled(at["rates"], at.get("directions", 0), at.get("guards", 0), n, m, width, events, opened)
+    addresses = (at["rates"], at.get("directions", 0), at.get("guards", 0))
+    return Compiled(*addresses, n, m, width, events, parameters, opened)
 
 
-def right_hand_sides(equations: Equations) -> str:
-    """The rates, their derivatives and the event functions as LLVM's text."""
+def right_hand_sides(equations: Equations) -> tuple[str, int]:
+    """Rates, derivatives and event functions as LLVM's text, and how many parameters they read."""
     tape = Tape()
     n, m = equations.identity.shape
     states = [tape.record("state", i) for i in range(n)]
@@ -167,21 +181,22 @@ def right_hand_sides(equations: Equations) -> str:
     if events:
         along = dict(zip(states, rates, strict=True)) | {tape.record("time"): tape.number(1.0)}
         text += assembly.function("guards", tape, n, [*events, *tape.derivatives(events, along)])
-    return text
+    used = (operation[1] for operation in tape.operations if operation[0] == "parameter")
+    return text, 1 + max(used, default=-1)
 
 
 def table() -> Array:
     """The coefficients in the order of `runge_kutta`: c, the rows of A, b, both estimates of the error."""
-    rows = np.zeros((len(dop853.STAGES) + 1, len(dop853.STAGES)))
-    for row, weights in zip(rows, (*dop853.STAGES, dop853.STEP), strict=True):
-        row[list(weights)] = list(weights.values())
-    estimates = np.zeros((2, len(dop853.STAGES) + 1))
-    for row, weights in zip(estimates, (dop853.FIFTH, dop853.THIRD), strict=True):
-        row[list(weights)] = list(weights.values())
-    return np.concatenate([dop853.NODES, rows.ravel(), estimates.ravel()])
+    rows = np.zeros((runge_kutta.THIRD + 1, 2, runge_kutta.STAGES))
+    everything = (*dop853.STAGES, dop853.STEP, dop853.FIFTH, dop853.THIRD)
+    for (weights, stages), given in zip(rows, everything, strict=True):
+        weights[: len(given)] = list(given.values())
+        stages[: len(given)] = list(given)
+    return np.concatenate([dop853.NODES, rows.ravel()])
 
 
 _TABLE = table()
+_TABLE_AT = _TABLE.ctypes.data
 
 
 @dataclass(frozen=True)

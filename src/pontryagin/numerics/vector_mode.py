@@ -17,9 +17,9 @@ from pontryagin.numerics.flow import STEPS
 from pontryagin.numerics.symbolic import Symbolic
 
 SMALL = 200
-"""heyoka compiles right-hand sides with more operations than this as loops.
+"""A right-hand side with more operations than this is large.
 
-Unrolled code is faster to run, but slow to compile.
+heyoka compiles it as loops, since unrolled code, faster to run, would be slow to compile.
 """
 
 
@@ -55,7 +55,7 @@ class VectorMode:
                 hy.var_ode_sys(system, wrt, order=1) if wrt else system,
                 np.zeros((len(system), hy.recommended_simd_size())),
                 tol=self._tolerance,
-                compact_mode=bool(wrt) or compact(e.expressions),
+                compact_mode=bool(wrt) or large(e.expressions),
             )
         return self._own.integrator
 
@@ -108,8 +108,8 @@ def with_floats(expression: Any) -> Any:
     return taken.xreplace({r: sp.Float(float(r)) for r in fractions})
 
 
-def compact(rates: Sequence[Any]) -> bool:
-    """Whether heyoka should compile loops for SymPy rates, because they hold more than `SMALL` operations."""
+def large(rates: Sequence[Any]) -> bool:
+    """Whether SymPy rates hold more than `SMALL` operations."""
     import sympy as sp
 
     return bool(sp.count_ops(list(rates)) > SMALL)

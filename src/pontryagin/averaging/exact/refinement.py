@@ -4,15 +4,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.exact.family import VALUES, Family, local_range
-from pontryagin.averaging.exact.members import march, members
-from pontryagin.averaging.exact.shooting import Shooting, Shot
+from pontryagin.averaging.exact.family import Family, local_range
+from pontryagin.averaging.exact.members import MemberTable, march, members
+from pontryagin.averaging.exact.shooting import Shooting
+from pontryagin.averaging.exact.turns import lagrange
 from pontryagin.errors import NotConverged
 
 NEAR = 0.2
 """An extremum of y1 nearer to zero than this share of its range is resolved more finely."""
 ROUNDS = 6
 """Largest number of times that members are added."""
+NODES = 16
+"""Largest number of members through which a polynomial is laid."""
 
 
 def turns_resolved(problem: Shooting, traced: Family) -> Family:
@@ -50,8 +53,8 @@ def _as_far_as_found(problem: Shooting, current: Family, theta: Array) -> Family
     return current
 
 
-def crossings(current: Family, at: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Zeros of y1, interpolated by cubics, just after the members `at`, and the unknowns there."""
+def crossings(current: Family, at: NDArray[np.intp]) -> tuple[Array, Array, Array]:
+    """Zeros of y1, interpolated, just after the members `at`, and the unknowns and derivatives there."""
     low, high = current.theta[at], current.theta[at + 1]
     rising = np.sign(current.y[at + 1] - current.y[at])
     for _ in range(40):
@@ -59,7 +62,10 @@ def crossings(current: Family, at: NDArray[np.intp]) -> tuple[Array, Array]:
         above = rising * interpolated(current, current.y, at, middle) > 0
         low, high = np.where(above, low, middle), np.where(above, middle, high)
     theta = (low + high) / 2
-    return theta, interpolated(current, current.unknowns, at, theta)
+    unknowns, derivatives = (
+        interpolated(current, values, at, theta) for values in (current.unknowns, current.derivatives)
+    )
+    return theta, unknowns, derivatives
 
 
 def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
@@ -76,26 +82,20 @@ def with_members(problem: Shooting, current: Family, theta: Array) -> Family:
     left = np.clip(np.searchsorted(current.theta, theta, side="right") - 1, 0, len(current.theta) - 2)
     guess = interpolated(current, current.unknowns, left, theta)
     try:
-        unknowns, shot, _ = members(problem, theta, guess)
+        found = members(problem, theta, guess)
     except NotConverged:
         parts = [_from_neighbour(problem, current, i, angle) for i, angle in zip(left, theta, strict=True)]
-        unknowns = np.concatenate([w for w, _ in parts])
-        shot = Shot.joined([each for _, each in parts])
-    order = np.argsort(np.concatenate([current.theta, theta]), kind="stable")
-    added = [theta, unknowns, *(getattr(shot, name) for name in VALUES)]
-    names = ("theta", "unknowns", *VALUES)
-    joined = {
-        n: np.concatenate([getattr(current, n), new])[order] for n, new in zip(names, added, strict=True)
-    }
-    return Family(**joined, centre=current.centre, limits=current.limits)
+        found = MemberTable.joined(parts)
+    joined = MemberTable.joined([current, found])
+    return current.with_columns(joined[np.argsort(joined.theta, kind="stable")])
 
 
-def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float) -> tuple[Array, Shot]:
+def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float) -> MemberTable:
     near = left if angle - current.theta[left] < current.theta[left + 1] - angle else left + 1
     edge = members(problem, current.theta[[near]], current.unknowns[[near]])
-    for reached, unknowns, shot, _ in march(problem, float(current.theta[near]), edge, [angle]):
-        if reached[0] == angle:
-            return unknowns, shot
+    for reached in march(problem, edge, [angle]):
+        if reached.theta[0] == angle:
+            return reached
     raise NotConverged(
         f"no solution that ends at the anomaly {angle:.6g} was found between its neighbours in the family",
         float(np.abs(angle)),
@@ -103,21 +103,13 @@ def _from_neighbour(problem: Shooting, current: Family, left: int, angle: float)
 
 
 def interpolated(current: Family, values: Array, left: NDArray[np.intp], theta: Array) -> Array:
-    """Values (s, ...) at theta (k,), by cubics through the two members on either side."""
+    """Values (s, ...) at theta (k,), by polynomials through the nearest members on either side."""
     size = len(current.theta)
-    count = min(4, size)
-    nodes = np.clip(left - 1, 0, size - count)[:, None] + np.arange(count)
-    weights = _lagrange(current.theta[nodes], theta)
+    count = min(NODES, size)
+    nodes = np.clip(left - count // 2 + 1, 0, size - count)[:, None] + np.arange(count)
+    weights = lagrange(current.theta[nodes], theta)
     shaped = weights.reshape(*weights.shape, *[1] * (values.ndim - 1))
     return np.asarray((shaped * values[nodes]).sum(axis=1))
-
-
-def _lagrange(nodes: Array, at: Array) -> Array:
-    """Weights (k, m) of the values at nodes (k, m) in their polynomial's value at (k,)."""
-    same = np.eye(nodes.shape[1], dtype=bool)
-    differences = np.where(same, 1.0, nodes[:, :, None] - nodes[:, None, :])
-    reached = np.where(same, 1.0, at[:, None, None] - nodes[:, None, :])
-    return np.asarray((reached / differences).prod(axis=2))
 
 
 def _vertex(theta: Array, y: Array) -> tuple[Array, Array]:

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.reference import ReferenceExtremal
 from pontryagin.averaging.exact.arrivals import arrivals, fixed_ending
-from pontryagin.averaging.exact.certificate import ExactCertificates
+from pontryagin.averaging.exact.certificate import certificate
 from pontryagin.averaging.exact.extremal import Extremal, Extremals
 from pontryagin.averaging.exact.family import Family, family
-from pontryagin.averaging.exact.members import nearby_extremal
+from pontryagin.averaging.exact.members import nearby_extremal, updated
 from pontryagin.averaging.exact.refinement import crossings, turns_resolved, with_members
-from pontryagin.averaging.exact.shooting import Shooting, Shot, shooting
+from pontryagin.averaging.exact.shooting import Shooting, Shot, along, shooting
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
 from pontryagin.progress import report
@@ -71,7 +71,6 @@ def extremals(
     problem = shooting(reference, epsilon, start)
     guess = np.concatenate([reference.costate([0.0])[0], np.atleast_1d(reference.multipliers)])
     traced, found = _found(problem, end, guess)
-    certificates = ExactCertificates(problem, found.shot)
     starts = problem.starts(found.shot.unknowns)
     items = [
         Extremal(
@@ -85,7 +84,7 @@ def extremals(
             initial=starts[i],
             equations=problem.equations,
             parameters=problem.parameters,
-            certify=partial(certificates.one, int(i)),
+            certify=partial(certificate, problem, found.shot[[int(i)]]),
             turn_to_phase=to_phase,
             view=getattr(reference, "to_slow_variables", None),
         )
@@ -128,8 +127,8 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
         if len(at) == 0:
             return current, _sorted(found)
         low, high = current.theta[at], current.theta[at + 1]
-        theta, unknowns = crossings(current, at)
-        reached, good = _polished(problem, theta, unknowns, low, high, current.y)
+        theta, unknowns, derivatives = crossings(current, at)
+        reached, good = _polished(problem, theta, unknowns, derivatives, low, high, current.y)
         found.append(reached)
         solved = np.append(solved, low[good])
         if not good.all():
@@ -146,9 +145,9 @@ def _sign_changes(current: Family) -> NDArray[np.intp]:
 
 
 def _polished(
-    problem: Shooting, theta: Array, w: Array, low: Array, high: Array, y: Array
+    problem: Shooting, theta: Array, w: Array, derivatives: Array, low: Array, high: Array, y: Array
 ) -> tuple[Roots, NDArray[np.bool_]]:
-    """Newton's method for w and theta together from k guesses, each Jacobian used up to four times.
+    """Newton's method for w and theta together from k guesses, each Jacobian used while it serves.
 
     Returns the roots found, and which of the guesses (k,) converged.
     """
@@ -156,31 +155,37 @@ def _polished(
     theta, w = theta.copy(), w.copy()
     good, slope, open_ = np.zeros(len(theta), bool), np.zeros(len(theta)), np.ones(len(theta), bool)
     shots = problem.shoot(theta, w)
-    for _ in range(6):
+    for attempt in range(6):
         i = np.nonzero(open_)[0]
         if len(i) == 0:
             break
-        shot, slopes = problem.slopes(theta[i], w[i])
-        jacobians = np.empty((len(i), n + 1, n + 1))
-        jacobians[:, :n, :n], jacobians[:, :n, n] = slopes.residual_w, slopes.residual_theta
-        jacobians[:, n, :n], jacobians[:, n, n] = slopes.y_w / size, slopes.y_theta / size
-        slope[i] = slopes.along[1]
-        residual = np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+        matrix = problem.slopes(theta[i], w[i]).matrix if attempt else derivatives
+        slope[i] = along(matrix)[1]
+        shot, jacobians = shots[i], matrix / np.append(np.ones(n), size)[:, None]
+        residual = _conditions(shot, size)
         for _ in range(4):
             step = solved(jacobians, -residual)
+            aimed = theta[i] + step[:, n]
             w[i] += step[:, :n]
-            theta[i] = np.clip(theta[i] + step[:, n], low[i] - SLACK, high[i] + SLACK)
+            theta[i] = np.clip(aimed, low[i] - SLACK, high[i] + SLACK)
             shot = problem.shoot(theta[i], w[i])
-            before, residual = residual, np.concatenate([shot.residual, shot.y[:, None] / size], axis=1)
+            before, residual = residual, _conditions(shot, size)
             error = np.abs(residual).max(axis=1)
             shots.put(i, shot)
             done = error <= POLISHED
             good[i[done]], open_[i[done]] = True, False
+            free = aimed == theta[i]
+            jacobians[free] = updated(jacobians[free], step[free], residual[free])
             keep = ~done & (error <= 0.2 * np.abs(before).max(axis=1))
             i, jacobians, residual = i[keep], jacobians[keep], residual[keep]
             if len(i) == 0:
                 break
     return Roots(shots[good], slope[good]), good
+
+
+def _conditions(shot: Shot, size: float) -> Array:
+    """The residuals, and y in units of its range."""
+    return np.column_stack([shot.residual, shot.y / size])
 
 
 def _sorted(found: list[Roots]) -> Roots:

@@ -78,18 +78,37 @@ class Shot:
 
 @dataclass(frozen=True)
 class Slopes:
-    """Derivatives of residual and y of a `Shot` in w and theta."""
+    """The conditions at the ends of k extremals, to the tolerance `ROUGH`, and their derivatives.
 
-    residual_w: Array
-    residual_theta: Array
-    y_w: Array
-    y_theta: Array
+    Attributes
+    ----------
+    matrix : (k, n + r + 1, n + r + 1) array
+        Derivatives of (residual, y) in (w, theta).
+    values : (k, n + r + 1) array
+        (residual, y).
+    rate : (k,) array
+        r at the end.
+    """
+
+    matrix: Array
+    values: Array
+    rate: Array
 
     @property
-    def along(self) -> tuple[Array, Array]:
-        """dw/dtheta and dy/dtheta on the family, where the residual stays zero."""
-        w = solved(self.residual_w, -self.residual_theta)
-        return w, self.y_theta + (self.y_w * w).sum(axis=-1)
+    def residual(self) -> Array:
+        """The scaled errors of the conditions, (k, n + r)."""
+        return self.values[:, :-1]
+
+    @property
+    def residual_w(self) -> Array:
+        """Derivatives of the residual in w, (k, n + r, n + r)."""
+        return self.matrix[:, :-1, :-1]
+
+
+def along(matrix: Array) -> tuple[Array, Array]:
+    """dw/dtheta and dy/dtheta on the family, where the residual stays zero, from the matrices of `Slopes`."""
+    w = solved(matrix[:, :-1, :-1], -matrix[:, :-1, -1])
+    return w, matrix[:, -1, -1] + (matrix[:, -1, :-1] * w).sum(axis=-1)
 
 
 @dataclass(frozen=True)
@@ -120,37 +139,39 @@ class Shooting:
     scale_m: Array
     price: float
 
-    def shoot(self, theta: Array, w: Array) -> Shot:
-        """Follow the extremals with the initial costates p0 to the anomalies theta."""
+    def shoot(self, theta: Array, w: Array, together: bool = True) -> Shot:
+        """Follow the extremals with the initial costates p0 to the anomalies theta.
+
+        Those that are not followed together are followed by the integrator for single trajectories, which is
+        the faster one for one or two.
+        """
         starts = self.starts(w)
-        reached, _ = _carry(self.equations, False)(starts, self.anomaly, theta, self.parameters)
+        carry = _carry(self.equations) if together else _carry_one(self.equations)
+        reached, _ = carry(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
-    def slopes(self, theta: Array, w: Array) -> tuple[Shot, Slopes]:
-        """The results of `shoot` with their derivatives, by the variational equations."""
-        n = len(self.start)
-        starts = self.starts(w)
-        reached, through = _carry(self.equations, True)(starts, self.anomaly, theta, self.parameters)
+    def slopes(self, theta: Array, w: Array) -> Slopes:
+        """Conditions at the ends and their derivatives, by the variational equations without tau and J."""
+        n, r, count = len(self.start), len(self.scale_m), len(w)
+        starts = self.starts(w)[:, : 2 * n + 1]
+        reached, through = _derived(self.equations)(starts, self.anomaly, theta, self.parameters)
         rates = _rates(self.equations)(*reached.T, theta, *self.parameters)[0][..., 0]
-        _, *motion = _start(self.equations)(*starts[:, : 2 * n + 1].T, self.anomaly, *self.parameters)
+        _, *motion = _start(self.equations)(*starts.T, self.anomaly, *self.parameters)
         y0_p = -np.stack(motion[:-1], axis=-1) / motion[-1][:, None]
-        by_p = through[..., :n] + through[..., n:] * y0_p[:, None, :]
-        _, _, jacobian, curvature = self.boundary(reached, w)
-        shot = self._shot(theta, w, starts, reached)
-        count, r = len(w), len(self.scale_m)
-        by_w = np.concatenate([by_p, np.zeros((count, by_p.shape[1], r))], axis=-1)
-        a_w, a_theta = by_w[:, :n], rates[:, :n]
-        p_w = by_w[:, n : 2 * n] + curvature @ a_w
-        p_w[..., n:] += jacobian.transpose(0, 2, 1)
-        p_theta = rates[:, n : 2 * n] + (curvature @ a_theta[..., None])[..., 0]
-        return shot, Slopes(
-            np.concatenate([jacobian @ a_w / self.scale_m[:, None], p_w / self.scale_p[:, None]], axis=1),
-            np.concatenate(
-                [(jacobian @ a_theta[..., None])[..., 0] / self.scale_m, p_theta / self.scale_p], axis=1
-            ),
-            by_w[:, 2 * n],
-            rates[:, 2 * n],
+        by_w = np.zeros((count, 2 * n + 1, n + r))
+        by_w[..., :n] = through[..., :n] + through[..., n:] * y0_p[:, None, :]
+        target, gradient, jacobian, curvature = self.boundary(reached, w)
+        by = np.concatenate([by_w, rates[..., None]], axis=-1)
+        p_by = by[:, n : 2 * n] + curvature @ by[:, :n]
+        p_by[..., n:-1] += jacobian.transpose(0, 2, 1)
+        matrix = np.concatenate(
+            [jacobian @ by[:, :n] / self.scale_m[:, None], p_by / self.scale_p[:, None], by[:, 2 * n :]],
+            axis=1,
         )
+        missed = target[..., 0] / self.scale_m
+        left = (reached[:, n : 2 * n] + gradient[..., 0]) / self.scale_p
+        _, rate = _terminal(self.equations)(*reached[:, :n].T, theta, *self.parameters)
+        return Slopes(matrix, np.column_stack([missed, left, reached[:, 2 * n]]), rate)
 
     def starts(self, w: Array) -> Array:
         """Initial states (k, 2n + 3): y0 from H = 0, (1.8), by Newton's method from y0 = 0."""
@@ -173,7 +194,7 @@ class Shooting:
 
     def carry(self, starts: Array, begin: float, end: float) -> Array:
         """States (k, 2n + 3) carried from one anomaly to another, forwards or backwards."""
-        return _carry(self.equations, False)(starts, begin, end, self.parameters)[0]
+        return _carry(self.equations)(starts, begin, end, self.parameters)[0]
 
     def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
         """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
@@ -226,18 +247,35 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
 
 
 @lru_cache(maxsize=32)
-def _carry(equations: Canonical, derivatives: bool) -> Ends:
-    wrt = (*equations.costates, y) if derivatives else ()
-    arguments = (equations.states, equations.rates, equations.parameters, equations.anomaly, wrt)
+def _carry(equations: Canonical) -> Ends:
+    return _ends(equations, (), TOLERANCE, None)
+
+
+@lru_cache(maxsize=32)
+def _carry_one(equations: Canonical) -> Ends:
+    return _ends(equations, (), TOLERANCE, False)
+
+
+@lru_cache(maxsize=32)
+def _derived(equations: Canonical) -> Ends:
+    """(a, p, y) with derivatives, without tau and J, which enter no condition."""
+    return _ends(equations, (*equations.costates, y), ROUGH, False)
+
+
+def _ends(equations: Canonical, wrt: tuple[sp.Symbol, ...], tolerance: float, taylor: bool | None) -> Ends:
+    count = -2 if wrt else None
+    states, rates = equations.states[:count], equations.rates[:count]
+    arguments = (states, rates, equations.parameters, equations.anomaly, wrt)
     if equations.modes:
         return switched_ends(equations.modes, *arguments)
-    return ends(*arguments, tolerance=ROUGH if derivatives else TOLERANCE)
+    return ends(*arguments, taylor=taylor, tolerance=tolerance)
 
 
 @lru_cache(maxsize=32)
 def _rates(equations: Canonical) -> Kernel:
-    rates = equations.unswitched(equations.rates)
-    arguments = [*equations.states, equations.anomaly, *equations.parameters]
+    """d(a, p, y)/dx."""
+    rates = equations.unswitched(equations.rates[:-2])
+    arguments = [*equations.states[:-2], equations.anomaly, *equations.parameters]
     return compiler.function("rates", arguments, {"rates": sp.Matrix(rates)})
 
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
@@ -79,13 +80,13 @@ class Lap:
         target = elements_of(target_by_kepler(scaled, 0.0))
         return cls(start, target[:5], float(target[5]), scaled.anomaly, scaled.eccentricity, laps)
 
-    def longitude(self, time: float) -> tuple[float, float]:
-        """The longitude of the meeting at a time, and its rate."""
+    def longitude(self, time: ArrayLike) -> tuple[Array, Array]:
+        """The longitude of the meeting at given times, and its rate."""
         if self.end is not None:
-            return self.end, 0.0
-        anomaly = float(kepler.true_anomaly_after(self.anomaly, time, 1.0, self.eccentricity))
+            return np.full(np.shape(time), self.end), np.zeros(np.shape(time))
+        anomaly = kepler.true_anomaly_after(self.anomaly, time, 1.0, self.eccentricity)
         longitude = self.begin + anomaly - self.anomaly + TAU * self.laps
-        return longitude, (1 + self.eccentricity * math.cos(anomaly)) ** 2
+        return longitude, (1 + self.eccentricity * np.cos(anomaly)) ** 2
 
 
 def reduced_costates(scaled: Scaled, node: Array) -> Array:

@@ -97,7 +97,7 @@ def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
     NotConverged
         If it is not reached.
     """
-    end = lap.longitude(duration)[0]
+    end = float(lap.longitude(duration)[0])
     coasting = _coasting_time(lap, end)
     reason = NotConverged("the meeting is not ahead of the craft", math.inf)
 

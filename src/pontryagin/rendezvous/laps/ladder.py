@@ -53,7 +53,7 @@ def guesses_on(
         count = max(0, 1 + math.floor(math.log(end / begin) / math.log(FACTOR))) if end > 0 else 0
         durations = np.asarray(begin * FACTOR ** np.arange(count), float)
         guesses = least_energy_guesses(lap, durations, per_lap=COARSE)
-        if guesses.durations.size and min(limit, needed(guesses)) <= horizon:
+        if horizon >= limit or (guesses.durations.size and needed(guesses) <= horizon):
             break
     return guesses
 

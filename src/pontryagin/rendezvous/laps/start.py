@@ -62,7 +62,7 @@ def least_energy_guesses(
 
     There is none where the meeting is not ahead of the craft, or where a reference path leaves the ellipses.
     """
-    ends = np.array([lap.longitude(duration)[0] for duration in durations])
+    ends, _ = lap.longitude(durations)
     durations, ends = durations[ends > NEAREST], ends[ends > NEAREST]
     count = max(FEWEST, math.ceil(per_lap * ends.max(initial=0.0) / TAU))
     share = np.linspace(0.0, 1.0, count + 1)
@@ -115,7 +115,8 @@ def _best_about(lap: Lap, reference: Array, longitude: Array, durations: Array) 
 def _solutions(matrix: Array, right: Array) -> Array:
     """Solutions (6, D) of a stack of linear systems (6, 6, D); nan where one is singular or not finite."""
     systems = np.moveaxis(matrix, -1, 0)
-    regular = np.isfinite(systems).all(axis=(1, 2)) & (np.linalg.matrix_rank(np.nan_to_num(systems)) == 6)
+    finite = np.isfinite(systems).all(axis=(1, 2), keepdims=True)
+    regular = np.linalg.det(np.where(finite, systems, 0.0)) != 0
     systems = np.where(regular[:, None, None], systems, np.eye(6))
     found = np.linalg.solve(systems, right.T[..., None])[..., 0].T
     return np.where(regular, found, np.nan)
