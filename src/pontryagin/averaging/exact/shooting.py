@@ -147,8 +147,7 @@ class Shooting:
         the faster one for one or two.
         """
         starts = self.starts(w)
-        carry = _carry(self.equations) if together else _carry_one(self.equations)
-        reached, _ = carry(starts, self.anomaly, theta, self.parameters)
+        reached, _ = _carry(self.equations, together)(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> Slopes:
@@ -248,13 +247,8 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
 
 
 @lru_cache(maxsize=32)
-def _carry(equations: Canonical) -> Ends:
-    return _ends(equations, (), TOLERANCE, None)
-
-
-@lru_cache(maxsize=32)
-def _carry_one(equations: Canonical) -> Ends:
-    return _ends(equations, (), TOLERANCE, False)
+def _carry(equations: Canonical, together: bool = True) -> Ends:
+    return _ends(equations, (), TOLERANCE, None if together else False)
 
 
 @lru_cache(maxsize=32)
