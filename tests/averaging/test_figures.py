@@ -5,12 +5,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 from pontryagin.averaging import (
+    cost_errors,
     figures,
     kepler,
     smooth_example,
     spin_down,
 )
-from pontryagin.averaging.figures import cost_errors, pictures, tables
+from pontryagin.averaging.figures import pictures, tables
 from pontryagin.display.plotting import svg_of
 
 EPSILONS = (0.1, 0.05)

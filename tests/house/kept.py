@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from tests.house import dependence
 
-from pontryagin.report import dependencies
+from pontryagin.report import dependencies, syntax
 
 STATES = 10
 """How many contents are remembered for each test: those of a few branches."""
@@ -72,7 +72,8 @@ class Kept:
 
     def _key(self, test):
         settings = sorted([self.root / "pyproject.toml", *self.root.glob("requirements*.lock")])
-        machinery = (Path(__file__), Path(dependence.__file__), Path(dependencies.__file__))
+        parts = (dependence, dependencies, syntax)
+        machinery = (Path(__file__), *(Path(part.__file__) for part in parts))
         environment = (sys.version, platform.machine(), os.environ.get("HYPOTHESIS_PROFILE", ""))
         return dependencies.digest(*self.files[test], *settings, *machinery, *environment, root=self.root)
 

@@ -9,7 +9,12 @@ from tests.house.dependence import Project
 from pontryagin.io import files
 
 ROOT = files.repository()
-COPIED = ("tests/house/kept.py", "tests/house/dependence.py", "src/pontryagin/report/dependencies.py")
+COPIED = (
+    "tests/house/kept.py",
+    "tests/house/dependence.py",
+    "src/pontryagin/report/dependencies.py",
+    "src/pontryagin/report/syntax.py",
+)
 RUN = "open('ran', 'a').write('{} ')"
 PROJECT = {
     "pyproject.toml": '[tool.pytest.ini_options]\nmarkers = ["slow"]\naddopts = "--import-mode=importlib"\n'

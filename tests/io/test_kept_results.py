@@ -100,3 +100,26 @@ def test_arguments_tell_results_apart_and_a_process_gets_the_same_object(folder)
     assert pair(1) is pair(1)
     assert len(log) == 3 and pair.__name__ == "pair"
     assert len(list(folder.rglob("*.pickle"))) == 3
+
+
+def test_ahead_a_result_is_computed_unless_it_is_there_or_on_its_way(folder):
+    hand_down(folder, **{__name__: "1"})
+    log, started, go_on = [], threading.Event(), threading.Event()
+
+    @kept
+    def slowly(number):
+        log.append(number)
+        started.set()
+        assert go_on.wait(10)
+        return number
+
+    with ThreadPoolExecutor(1) as pool:
+        running = pool.submit(slowly, 1)
+        assert started.wait(10)
+        slowly.ahead(1)
+        assert log == [1]
+        go_on.set()
+        assert running.result() == 1
+    slowly.ahead(2)
+    slowly.ahead(2)
+    assert log == [1, 2] and slowly(2) == 2 and log == [1, 2]

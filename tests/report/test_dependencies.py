@@ -10,7 +10,8 @@ import pytest
 
 from pontryagin.io import files
 from pontryagin.papers import PAPERS as ALL_PAPERS
-from pontryagin.report.dependencies import Source, closure, digest, literals
+from pontryagin.report.dependencies import Source, closure, digest
+from pontryagin.report.syntax import literals
 
 REAL = Source(files.repository() / "src" / "pontryagin")
 
@@ -178,7 +179,7 @@ def test_threads_parse_one_after_the_other(monkeypatch):
         inside.pop()
         return parse(text)
 
-    monkeypatch.setattr("pontryagin.report.dependencies.ast.parse", watched)
+    monkeypatch.setattr("pontryagin.report.syntax.ast.parse", watched)
     with ThreadPoolExecutor(8) as pool:
         found = list(pool.map(literals, [f"open('{i}.csv')" for i in range(40)]))
     assert found == [{f"{i}.csv"} for i in range(40)]

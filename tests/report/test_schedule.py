@@ -22,6 +22,13 @@ def test_the_longest_job_begins_first_and_results_are_in_the_given_order(checkou
     assert list(found.items()) == [("short", "SHORT"), ("unknown", "UNKNOWN"), ("long", "LONG")]
 
 
+def test_what_others_wait_for_is_begun_before_them(checkout, monkeypatch):
+    monkeypatch.setattr(schedule, "SECONDS", {"long": 100.0})
+    log = []
+    run_all(checkout.workspace, logged(log, ["short", "long", "dear"]), 1, first=["dear", "none of them"])
+    assert log == ["dear", "long", "short"]
+
+
 def test_a_measured_duration_takes_the_place_of_the_stated_one(checkout, monkeypatch):
     monkeypatch.setattr(schedule, "SECONDS", {"a": 2.0, "b": 1.0})
     monkeypatch.setattr(schedule, "IDLE", 0.05)

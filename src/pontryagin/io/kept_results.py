@@ -11,9 +11,9 @@ import os
 import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from functools import cache, wraps
+from functools import cache, update_wrapper
 from pathlib import Path
-from typing import ParamSpec, TypeVar, cast
+from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from pontryagin.io import files
 
@@ -28,8 +28,41 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
-def kept(function: Callable[P, T]) -> Callable[P, T]:
+class Kept(Generic[P, T]):
+    """A function whose results are kept; see `kept`."""
+
+    def __init__(self, function: Callable[P, T]) -> None:
+        self._function = function
+        self._here = cast(Callable[P, T], cache(self._between_processes))
+        update_wrapper(self, function)
+
+    def __call__(self, *arguments: P.args, **named: P.kwargs) -> T:
+        """The result, computed if no process of this build did so."""
+        return self._here(*arguments, **named)
+
+    def _between_processes(self, *arguments: P.args, **named: P.kwargs) -> T:
+        return between_processes(*self._names(arguments, named), lambda: self._function(*arguments, **named))
+
+    def ahead(self, *arguments: P.args, **named: P.kwargs) -> None:
+        """Compute a result that will be needed, unless it is there or another process computes it now."""
+        module, name = self._names(arguments, named)
+        with suppress(Busy):
+            between_processes(module, name, lambda: self._function(*arguments, **named), waits=False)
+
+    def _names(self, arguments: tuple[Any, ...], named: dict[str, Any]) -> tuple[str, str]:
+        name = f"{self._function.__qualname__} {arguments!r} {sorted(named.items())!r}"
+        return self._function.__module__, name
+
+
+class Busy(RuntimeError):
+    """Another process computes the result."""
+
+
+def kept(function: Callable[P, T]) -> Kept[P, T]:
     """Compute a result once: in each process, and once for all processes that a build starts.
+
+    A module may offer a function ``ahead()`` that calls the method `Kept.ahead` for the dear ones, those that
+    are needed last first: a build runs it beside the notebooks.
 
     Parameters
     ----------
@@ -47,16 +80,10 @@ def kept(function: Callable[P, T]) -> Callable[P, T]:
     computed
     (9, 9)
     """
-
-    @cache
-    def result(*arguments: P.args, **named: P.kwargs) -> T:
-        name = f"{function.__qualname__} {arguments!r} {sorted(named.items())!r}"
-        return between_processes(function.__module__, name, lambda: function(*arguments, **named))
-
-    return cast(Callable[P, T], wraps(function)(result))
+    return Kept(function)
 
 
-def between_processes(module: str, name: str, compute: Callable[[], T]) -> T:
+def between_processes(module: str, name: str, compute: Callable[[], T], waits: bool = True) -> T:
     """The result of that name, from the folder if it was computed under the module's key, or computed now.
 
     Parameters
@@ -67,6 +94,8 @@ def between_processes(module: str, name: str, compute: Callable[[], T]) -> T:
         What tells the result from the module's others.
     compute : callable
         Computes it, while other processes that need it wait.
+    waits : bool
+        Whether to wait for a process that computes it; if not, `Busy` is raised.
     """
     folder = os.environ.get(FOLDER)
     key = _keys(Path(folder)).get(module) if folder else None
@@ -75,7 +104,7 @@ def between_processes(module: str, name: str, compute: Callable[[], T]) -> T:
     place = Path(folder) / module / hashlib.sha256(name.encode()).hexdigest()[:24]
     target = place / f"{key}.pickle"
     if not target.is_file():
-        with _alone(place):
+        with _alone(place, waits):
             if not target.is_file():
                 files.write(target, pickle.dumps(compute()))
                 _forget_old(place)
@@ -92,14 +121,17 @@ def _keys(folder: Path) -> dict[str, str]:
 
 
 @contextmanager
-def _alone(folder: Path) -> Iterator[None]:
+def _alone(folder: Path, waits: bool) -> Iterator[None]:
     """Hold a folder for this process; freed by the system when it is killed."""
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / ".lock").open("w") as held:
         with suppress(ImportError):
             import fcntl
 
-            fcntl.flock(held, fcntl.LOCK_EX)
+            try:
+                fcntl.flock(held, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise Busy(str(folder)) from None
         yield
 
 

@@ -24,3 +24,9 @@ def solved(name: str) -> Extremal:
 def all_solved() -> dict[str, Extremal]:
     """The best extremals of all cases, by name."""
     return {name: solved(name) for name in cases()}
+
+
+def ahead() -> None:
+    """Solve the cases from the last to the first, while a notebook needs them from the first to the last."""
+    for name in reversed(cases()):
+        solved.ahead(name)

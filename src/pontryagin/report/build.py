@@ -14,7 +14,17 @@ from rich.progress import Progress as Bars
 from rich.progress import TaskID
 
 from pontryagin.io import files
-from pontryagin.report import assemble, front, player, progress, publish, recordings, result_keys, snapshot
+from pontryagin.report import (
+    ahead,
+    assemble,
+    front,
+    player,
+    progress,
+    publish,
+    recordings,
+    result_keys,
+    snapshot,
+)
 from pontryagin.report.execute import CellFailure, Executed, Progress, attempt
 from pontryagin.report.execute import publish as publish_figures
 from pontryagin.report.schedule import run_all
@@ -73,10 +83,10 @@ def build(workspace: Workspace, stage: str, workers: int) -> None:
 
 
 def _make(workspace: Workspace, stage: str, workers: int) -> None:
-    result_keys.hand_down(workspace)
+    keys = result_keys.hand_down(workspace)
     watch = progress.Stopwatch()
     with progress.bars() as bars:
-        made = run_all(workspace, _jobs(workspace, stage, _Bars(bars)), workers)
+        made = run_all(workspace, _jobs(workspace, stage, keys, _Bars(bars)), workers, first=keys)
     executed = _executed(made)
     if stage != "recordings":
         progress.step("notebooks", f"{len(executed)} in {watch}")
@@ -90,10 +100,14 @@ def _make(workspace: Workspace, stage: str, workers: int) -> None:
         publish.write_report(workspace, executed, clips, entries)
 
 
-def _jobs(workspace: Workspace, stage: str, advance: Progress) -> dict[str, Callable[[], Any]]:
+def _jobs(
+    workspace: Workspace, stage: str, keys: Mapping[str, str], advance: Progress
+) -> dict[str, Callable[[], Any]]:
     """What there is to do before anything is put together; none of it needs another."""
     jobs: dict[str, Callable[[], Any]] = {}
     if stage != "recordings":
+        dear = ahead.modules(workspace, keys)
+        jobs |= {module: partial(ahead.compute, workspace, module, keys[module]) for module in dear}
         jobs |= {path.stem: partial(attempt, workspace, path, advance) for path in workspace.notebooks}
     if stage in ("recordings", "report") and _has_rerun():
         jobs |= {name: partial(recordings.record, workspace, name) for name in recordings.modules(workspace)}

@@ -8,29 +8,24 @@ package, or where the package itself is at hand; the claims of all papers where 
 
 import ast
 import hashlib
-import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
+
+from pontryagin.report.syntax import LEDGER, asks_the_ledger, looks_for_files, parsed, telling
 
 _COMPUTED = {"import_module", "__import__", "walk_packages", "iter_modules", "find_spec"}
 _LAZY = {"attach", "attach_stub"}
 """Functions of `lazy_loader` that import modules below the package that calls them."""
 _PAPERS = "papers"
 """The module whose `room` imports a module of each paper by its name."""
-_LEDGER = ("ledger", "ledger.collection")
-"""The modules that offer the function by which the claims of all papers are loaded."""
-_COLLECTED = "entries"
-"""The name of that function."""
 CLAIMS = "claims"
 """The module of a paper that it loads."""
 _WHOLE = "*"
 """Stands for the package as an object, from which whatever is loaded can be taken."""
 _COMMANDS = {"system", "getoutput", "run_cell_magic", "run_line_magic", "Popen", "check_output", "check_call"}
-_FILE_READERS = {"__file__", "resources", "pkgutil", "__path__"}
 _ABOVE_THE_PAPERS = ("report", "cli", "__main__")
-_ONE_AT_A_TIME = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -57,7 +52,7 @@ class Source:
     def attached(self, package: str) -> dict[str, str]:
         """What a lazy package imports when it is taken from it: name -> module, as its stub says."""
         stub = self.modules[package].with_suffix(".pyi")
-        tree = _parsed(stub.read_text(encoding="utf-8")) if stub.is_file() else ast.Module([], [])
+        tree = parsed(stub.read_text(encoding="utf-8")) if stub.is_file() else ast.Module([], [])
         lines = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
         found = {}
         for line in lines:
@@ -72,7 +67,7 @@ class Source:
         if package not in self.modules or self.modules[package].name != "__init__.py":
             return False
         calls = (
-            n for n in _telling(self.modules[package].read_text(encoding="utf-8")) if isinstance(n, ast.Call)
+            n for n in telling(self.modules[package].read_text(encoding="utf-8")) if isinstance(n, ast.Call)
         )
         return any(_name_of(call) in _LAZY for call in calls)
 
@@ -102,7 +97,7 @@ class Source:
             return set()  # what its computed imports reach is counted where its function is called
         text = self.modules[module].read_text(encoding="utf-8")
         found = needed(self, text, self.package_of(module)) | _parents(self, module)
-        offers = module in {f"{self.folder.name}.{name}" for name in _LEDGER}
+        offers = module in {f"{self.folder.name}.{name}" for name in LEDGER}
         return found - self.rooms({CLAIMS}) if offers else found
 
     def rooms(self, names: set[str]) -> set[str]:
@@ -148,6 +143,11 @@ def reached(source: Source, modules: Iterable[str]) -> set[Path]:
     return files | {data for path in files for data in _data_beside(source, path)}
 
 
+def uncounted(source: Source, loaded: Iterable[str], counted: set[Path]) -> list[str]:
+    """Which of the modules that a process has loaded, by name, are not among the files that were counted."""
+    return [name for name in loaded if name in source.modules and source.modules[name] not in counted]
+
+
 def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
     """A key that changes when any part does; a path counts with its place below `root` and its content."""
     state = hashlib.sha256()
@@ -160,26 +160,13 @@ def digest(*parts: bytes | str | Path, root: Path | None = None) -> str:
     return state.hexdigest()[:24]
 
 
-def _parsed(text: str) -> ast.Module:
-    """Its syntax tree; CPython 3.11 counts the depth of all threads' trees together, and may trip over it."""
-    with _ONE_AT_A_TIME:
-        return ast.parse(text)
-
-
-@cache
-def _telling(text: str) -> tuple[ast.AST, ...]:
-    """The nodes of its syntax tree that can name a module."""
-    kinds = (ast.Import, ast.ImportFrom, ast.Constant, ast.Call)
-    return tuple(node for node in ast.walk(_parsed(text)) if isinstance(node, kinds))
-
-
 def needed(source: Source, text: str, package: str) -> set[str]:
     """The modules that a piece of code in `package` may import by itself."""
     try:
-        nodes = _telling(text)
+        nodes = telling(text)
     except SyntaxError:
         return source.below(source.folder.name)
-    found = source.rooms({CLAIMS}) if _asks_the_ledger(text) else set()
+    found = source.rooms({CLAIMS}) if asks_the_ledger(text) else set()
     for node in nodes:
         if isinstance(node, ast.Import):
             found |= set().union(*(_imported(source, alias) for alias in node.names))
@@ -231,29 +218,6 @@ def _name_of(call: ast.Call) -> str:
     return call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
 
 
-@cache
-def _asks_the_ledger(text: str) -> bool:
-    """Whether it takes the function that loads all claims from the ledger, or passes the ledger on."""
-    if _LEDGER[0] not in text:
-        return False
-    nodes = list(ast.walk(_parsed(text)))
-    of_attribute = {id(node.value) for node in nodes if isinstance(node, ast.Attribute)}
-    places = {name.rpartition(".")[2] for name in _LEDGER}
-    for node in nodes:
-        if isinstance(node, ast.ImportFrom) and (node.module or "").rpartition(".")[2] in places:
-            asks = bool({alias.name for alias in node.names} & {_COLLECTED, "*"})
-        elif isinstance(node, ast.alias):
-            asks = node.asname not in {None, node.name} and node.name.rpartition(".")[2] in places
-        elif isinstance(node, ast.Attribute) and node.attr == _COLLECTED:
-            asks = True
-        else:
-            named = getattr(node, "attr", getattr(node, "id", "")) in places
-            asks = named and isinstance(node, ast.Attribute | ast.Name) and id(node) not in of_attribute
-        if asks:
-            return True
-    return False
-
-
 def _absolute(node: ast.ImportFrom, package: str) -> str:
     if node.level == 0:
         return node.module or ""
@@ -273,7 +237,7 @@ def _parents(source: Source, module: str) -> set[str]:
 
 def _data_beside(source: Source, path: Path) -> set[Path]:
     """What a module that looks for files may find; what lies above the papers is found from there alone."""
-    if not _looks_for_files(path.read_text(encoding="utf-8")):
+    if not looks_for_files(path.read_text(encoding="utf-8")):
         return set()
     above = [source.folder / name for name in _ABOVE_THE_PAPERS]
     hidden = [folder for folder in above if not path.is_relative_to(folder)]
@@ -283,25 +247,3 @@ def _data_beside(source: Source, path: Path) -> set[Path]:
         for found in beside
         if found.suffix not in {".py", ".pyc"} and not any(map(found.is_relative_to, hidden))
     }
-
-
-@cache
-def _looks_for_files(text: str) -> bool:
-    if not any(name in text for name in _FILE_READERS):
-        return False
-    tree = _parsed(text)
-    names = {getattr(node, "id", None) or getattr(node, "attr", None) for node in ast.walk(tree)}
-    imported = {
-        alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names
-    }
-    return bool(_FILE_READERS & (names | imported))
-
-
-def literals(text: str) -> set[str]:
-    """The short strings written in a piece of code; those that name a file are read by it, perhaps."""
-    try:
-        tree = _parsed(text)
-    except SyntaxError:
-        return set()
-    strings = (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
-    return {s for s in strings if isinstance(s, str) and 0 < len(s) < 200 and "\n" not in s and "\0" not in s}

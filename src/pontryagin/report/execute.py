@@ -19,7 +19,7 @@ import nbformat
 from nbformat import NotebookNode
 
 from pontryagin.io import files
-from pontryagin.report import dependencies
+from pontryagin.report import dependencies, syntax
 from pontryagin.report.environment import FIXED_KEY, environment
 from pontryagin.report.workspace import Workspace
 
@@ -124,7 +124,7 @@ def plain_code(notebook: NotebookNode) -> list[str]:
 
 def places_named_in(code: Iterable[str], root: Path) -> set[Path]:
     """The places below `root` that strings in code name, from the folder of the notebooks."""
-    literals = {literal for text in code for literal in dependencies.literals(text)}
+    literals = {literal for text in code for literal in syntax.literals(text)}
     places = ((root / "notebooks" / literal).resolve() for literal in literals)
     inside = (place for place in places if place.is_relative_to(root.resolve()))
     return {root / place.relative_to(root.resolve()) for place in inside}
@@ -160,9 +160,8 @@ def _run_into(
 
 
 def _check_counted(workspace: Workspace, path: Path, notebook: NotebookNode, loaded: list[str]) -> None:
-    modules = dependencies.Source(workspace.source).modules
-    known = _files_of(workspace, notebook)
-    missing = [name for name in loaded if name in modules and modules[name] not in known]
+    source = dependencies.Source(workspace.source)
+    missing = dependencies.uncounted(source, loaded, _files_of(workspace, notebook))
     if missing:
         raise UncountedImport(
             f"notebooks/{path.name} loads {', '.join(missing)}, but no import that can be followed leads "

@@ -3,7 +3,7 @@
 import json
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TypeVar, cast
@@ -30,7 +30,12 @@ UNKNOWN = 15.0
 T = TypeVar("T")
 
 
-def run_all(workspace: Workspace, jobs: Mapping[str, Callable[[], T]], workers: int) -> dict[str, T]:
+def run_all(
+    workspace: Workspace,
+    jobs: Mapping[str, Callable[[], T]],
+    workers: int,
+    first: Collection[str] = (),
+) -> dict[str, T]:
     """Run jobs, `workers` at a time, in the order of the time that they are expected to take.
 
     Parameters
@@ -41,6 +46,8 @@ def run_all(workspace: Workspace, jobs: Mapping[str, Callable[[], T]], workers: 
         Each job by its name.
     workers : int
         How many run at a time.
+    first : collection of str
+        Jobs that are begun before all others, since these wait for what they make.
 
     Returns
     -------
@@ -49,7 +56,7 @@ def run_all(workspace: Workspace, jobs: Mapping[str, Callable[[], T]], workers: 
         is begun, and the error of the first of them in this order is raised.
     """
     expected = SECONDS | _durations(workspace)
-    order = sorted(jobs, key=lambda name: -expected.get(name, UNKNOWN))
+    order = sorted(jobs, key=lambda name: (name not in first, -expected.get(name, UNKNOWN)))
     taken: dict[str, float] = {}
     failed = threading.Event()
 

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.figures import cost_errors
+from pontryagin.averaging import cost_errors
 from pontryagin.averaging.figures.labels import EXACT, MEAN
 from pontryagin.display.plotting import (
     INK,

@@ -8,6 +8,7 @@ import sympy as sp
 from scipy.integrate import quad
 from scipy.special import ellipe
 
+from pontryagin.averaging import cost_errors
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.exact.count import window
 from pontryagin.averaging.exact.extremal import Extremals
@@ -15,7 +16,6 @@ from pontryagin.averaging.examples.kepler import kepler
 from pontryagin.averaging.examples.rotor import rotor
 from pontryagin.averaging.examples.smooth import smooth_example
 from pontryagin.averaging.examples.spin_down import spin_down
-from pontryagin.averaging.figures import cost_errors
 
 X = sp.Symbol("x", real=True)
 UNEVEN = 1 + sp.cos(X) / 5

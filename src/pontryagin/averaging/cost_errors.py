@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 import sympy as sp
@@ -17,6 +16,7 @@ from pontryagin.averaging.examples.rotor import rotor
 from pontryagin.averaging.examples.smooth import smooth_example
 from pontryagin.averaging.examples.spin_down import spin_down
 from pontryagin.errors import ArgumentValueError
+from pontryagin.io.kept_results import kept
 
 EPSILONS = (0.04, 0.028, 0.02, 0.014, 0.01, 0.007)
 X = sp.Symbol("x", real=True)
@@ -86,7 +86,7 @@ def problems() -> dict[str, tuple[Callable[[], AveragedSolution], float | None]]
     }
 
 
-@cache
+@kept
 def errors(name: str, epsilons: tuple[float, ...] = EPSILONS) -> CostErrors:
     """Solve one of `problems` exactly at each epsilon, and find the errors of its approximate costs.
 
@@ -153,3 +153,9 @@ def least_between(found: Sequence[Extremal]) -> float:
     theta = np.array([one.ending_anomaly for one in minima[i - 1 : i + 2]])
     bend, slope, level = np.polyfit(theta - theta[1], costs[i - 1 : i + 2], 2)
     return float(level - slope**2 / (4 * bend))
+
+
+def ahead() -> None:
+    """Find the errors of all problems, the last first, while a notebook does so from the first on."""
+    for name in reversed(problems()):
+        errors.ahead(name)

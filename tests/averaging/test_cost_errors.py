@@ -6,14 +6,14 @@ import sympy as sp
 from numpy.testing import assert_allclose
 
 from pontryagin.averaging import rotor, smooth_example
-from pontryagin.averaging.exact.count import window
-from pontryagin.averaging.figures.cost_errors import (
+from pontryagin.averaging.cost_errors import (
     CostErrors,
     errors,
     least_between,
     measured,
     problems,
 )
+from pontryagin.averaging.exact.count import window
 
 X = sp.Symbol("x", real=True)
 EPSILONS = (0.08, 0.04, 0.02, 0.01)
