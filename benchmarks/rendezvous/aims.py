@@ -1,4 +1,4 @@
-"""Solve times against their aims: warm solves, the homotopy from coasting to least time, the full search."""
+"""Solve times against their aims: warm solves, and the whole search for extremals of least time."""
 
 from functools import partial
 from time import process_time
@@ -8,29 +8,16 @@ from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
 from benchmarks.table import by_heading
 from pontryagin.errors import NotConverged
-from pontryagin.rendezvous import Rendezvous, solve
-from pontryagin.rendezvous.families import bounded, loose_ratios
+from pontryagin.rendezvous import solve
 from pontryagin.rendezvous.problem.cases import (
     Case,
     cases,
 )
-from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.search_log import SearchLog
-from pontryagin.rendezvous.reduced.shooting import SHOOTING
-from pontryagin.rendezvous.reduced.start import unbounded
-from pontryagin.rendezvous.root import Root
 
-WARM_AIM, HOMOTOPY_AIM = 0.05, 5.0
-"""The aims for a warm solve and for one homotopy, in seconds on one core."""
+WARM_AIM, SEARCH_AIM = 0.05, 1.0
+"""The aims for a warm solve and for a whole search, in seconds on one core."""
 MESH = 60
 """Number of intervals of the direct method."""
-
-
-def homotopy(problem: Rendezvous) -> Root[Flight]:
-    """One homotopy: coasting, least energy at a fixed time, the mixed problem, the bound, least time."""
-    setting = problems.setting(problem)
-    loose = setting.replace(peak=float("inf"), ratio=loose_ratios(setting.ratio, setting.peak)[0])
-    return bounded(SHOOTING, setting, loose, unbounded(loose, SearchLog()))
 
 
 def warm(quick: bool) -> dict[str, list]:
@@ -52,24 +39,23 @@ def warm(quick: bool) -> dict[str, list]:
 
 
 def least_time(quick: bool) -> dict[str, list]:
-    """Times of the homotopy to least time, the full search and the direct method, each from a cold start."""
+    """Times of the whole search for least time and of the direct method, each from a cold start."""
     rounds = 1 if quick else 3
     rows = []
     for name in ("inclined-10",) if quick else problems.LEAST:
         case = cases()[name]
-        root = homotopy(case.problem)
-        timing = take_turns({name: one_call(partial(homotopy, case.problem))}, rounds)[name]
-        best, searched = problems.timed_search(name)
+        best = problems.solved(name)
+        timing = take_turns({name: one_call(partial(solve, case.problem))}, rounds)[name]
+        count = 1 + len(best.others)
         direct_seconds, direct_cost = _direct(case, best.cost)
         rows.append(
             {
                 "case": name,
-                "aim, s": HOMOTOPY_AIM,
-                "one homotopy, s": timing.typical,
+                "aim, s": SEARCH_AIM,
+                "whole search, s": timing.typical,
                 "fastest round": timing.least,
-                "its time over the best": root.flight.duration / best.flight.duration,
-                "whole search, s": searched,
-                "extremals": 1 + len(best.others),
+                "extremals": count,
+                "seconds an extremal": timing.typical / count,
                 "CasADi + Ipopt, cold, s": direct_seconds,
                 "its cost over ours": direct_cost,
             }

@@ -6,7 +6,6 @@ from functools import cache
 
 import numpy as np
 
-from benchmarks.clock import timed
 from pontryagin.arrays import Array
 from pontryagin.rendezvous import Chaser, Extremal, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.problem.cases import cases
@@ -37,14 +36,9 @@ def leap(degrees: float) -> Rendezvous:
 
 
 @cache
-def timed_search(name: str) -> tuple[Extremal, float]:
-    """The best extremal found for a case, and the processor time of the search."""
-    return timed(lambda: solve(cases()[name].problem))
-
-
 def solved(name: str) -> Extremal:
     """The best extremal found for a case."""
-    return timed_search(name)[0]
+    return solve(cases()[name].problem)
 
 
 @cache

@@ -17,7 +17,7 @@ from pontryagin.rendezvous.reduced.multistart import (
     NEAR,
     newton_from_all,
 )
-from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
+from pontryagin.rendezvous.reduced.shooting import largest_thrust, meet
 
 COUNT, NEARBY = 512, 0.02
 """Number of flights, and the standard deviation of their costates."""
@@ -35,7 +35,7 @@ def flights(quick: bool) -> dict[str, list]:
     scaled, duration = best.problem.scaled, best.flight.duration
     costates = best.flight.costates + problems.deviations(count, NEARBY)
     rows = []
-    peaks = dict.fromkeys(ARCS, BOUND * float(SHOOTING.thrust(best.flight).max())) | {"unsaturated": np.inf}
+    peaks = dict.fromkeys(ARCS, BOUND * largest_thrust(best.flight)) | {"unsaturated": np.inf}
     for arcs, peak in peaks.items():
         how = (duration, peak, arcs == "saturated")
 

@@ -15,7 +15,7 @@ def stack_size(table: Table) -> Figure:
     """Time per problem against the number of problems in one call."""
     figure, axis = subplots(height=3.2)
     sizes, *times = table.values()
-    for heading, marker, values in zip(list(table)[1:], "osD^", times, strict=False):
+    for heading, marker, values in zip(list(table)[1:], "osDv^", times, strict=False):
         axis.loglog(sizes, values, marker=marker, label=heading.split(",")[0])
     axis.set_xlabel("problems in the stack")
     axis.set_ylabel(r"processor time per problem, $\mu$s")

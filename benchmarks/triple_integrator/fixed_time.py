@@ -1,7 +1,8 @@
-"""Least energy, peak and impulse for a given time: our solvers, certified, and any other solver."""
+"""Least energy, peak, impulse and L4 norm for a given time: our solvers, certified, and any other."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from numpy.typing import ArrayLike, NDArray
@@ -10,12 +11,17 @@ from benchmarks.clock import one_by_one, one_call, repeated
 from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst_gap
 from benchmarks.contest import peer as judged
 from benchmarks.triple_integrator import problems
-from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
+from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_norm, minimum_peak
 
 Solver = Callable[[NDArray, NDArray], float]
 """A function from both states (3,) of a manoeuvre of unit duration to the least cost, nan if it fails."""
 
-OURS = {"least energy": minimum_energy, "least peak": minimum_peak, "least impulse": minimum_impulse}
+OURS: dict[str, Callable[[Maneuver], Any]] = {
+    "least energy": minimum_energy,
+    "least peak": minimum_peak,
+    "least impulse": minimum_impulse,
+    "least L4 norm": partial(minimum_norm, q=4.0),
+}
 
 
 @dataclass(frozen=True)

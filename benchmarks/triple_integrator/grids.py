@@ -89,9 +89,11 @@ def highs_impulse(cells: int) -> Solver:
 
 
 def peers(problem: str, quick: bool) -> dict[str, Peer]:
-    """Clarabel and HiGHS on grids of each size, with the number of problems for each."""
+    """Clarabel and HiGHS on grids of each size for linear programmes, with the number of problems each."""
     sizes = {100: 50} if quick else {100: 200, 400: 50, 1600: 10}
     found: dict[str, Peer] = {}
+    if problem not in ("least peak", "least impulse"):
+        return found
     peak = problem == "least peak"
     if not absent("clarabel"):
         build = clarabel_peak if peak else clarabel_impulse

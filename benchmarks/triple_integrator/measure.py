@@ -53,10 +53,6 @@ def side_by_side(quick: bool) -> list[Row]:
     count, large, rounds = (50, 20_000, 2) if quick else (500, stacks.STACK_SIZE, 5)
     result = transfers.rows(quick)
     for problem in fixed_time.OURS:
-        opponents: dict[str, fixed_time.Peer] = {}
-        if problem != "least energy":
-            opponents |= grids.peers(problem, quick)
-        if problem != "least impulse":
-            opponents |= collocation.peers(problem, quick)
+        opponents = grids.peers(problem, quick) | collocation.peers(problem, quick)
         result += fixed_time.rows(problem, opponents, count, large, rounds)
     return result

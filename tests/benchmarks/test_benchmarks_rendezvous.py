@@ -20,17 +20,15 @@ from benchmarks.rendezvous.collocation import collocate, cost
 from benchmarks.rendezvous.systems import EIGHT, PROBLEMS, REDUCED
 from matplotlib.container import BarContainer
 
-from pontryagin.rendezvous import Extremal, solve
+from pontryagin.rendezvous import solve
 from pontryagin.rendezvous.problem.cases import cases
-from pontryagin.rendezvous.reduced.start import cold_start
 
 LABELS = [problem.name for problem in PROBLEMS]
 
 
 @pytest.fixture(scope="module")
 def extremal():
-    problem = problems.leap(20)
-    return Extremal(problem, cold_start(problems.setting(problem)))
+    return solve(problems.leap(20))
 
 
 @pytest.mark.slow
@@ -103,11 +101,10 @@ def test_solve_bvp_finds_our_costs(extremal):
 
 @pytest.fixture(scope="module")
 def fastest():
-    case = cases()["inclined-10"]
-    return Extremal(case.problem, aims.homotopy(case.problem))
+    return solve(cases()["inclined-10"].problem)
 
 
-def test_one_homotopy_leads_to_a_certified_least_time_that_the_peers_reproduce(fastest):
+def test_the_certified_least_time_is_one_that_the_peers_reproduce(fastest):
     assert fastest.certificate.holds(1e-9) and fastest.modes == ("saturated",)
     nearby = problems.neighbour("inclined-10")
     ours = solve(nearby, fastest)

@@ -356,13 +356,13 @@ class TestReport:
 class TestWarnings:
     def test_a_warning_is_one_line_and_no_failure(self, monkeypatch):
         def noisy(paper, verdict):
-            warnings.warn("heyoka is not installed;\nflows use DOP853", UserWarning, stacklevel=1)
+            warnings.warn("numba is not installed;\nlarge stacks run slowly", UserWarning, stacklevel=1)
             return ()
 
         monkeypatch.setattr(ledger, "entries", noisy)
         result = run("ledger", "--json", "-")
         assert (result.exit_code, result.stdout) == (0, "[]\n")
-        assert result.stderr == "Warning: heyoka is not installed; flows use DOP853\n"
+        assert result.stderr == "Warning: numba is not installed; large stacks run slowly\n"
 
 
 class TestHelp:

@@ -163,6 +163,26 @@ def test_packed_numbers_pass_from_one_solver_to_the_next(ready):
     assert following.call(b"short") is None
 
 
+def scaled_sum(x, scale, table):
+    """A kernel with a table, whose first number says how many follow."""
+    total = 0.0
+    for i in range(int(table[0])):
+        total += table[i + 1] * x
+    return scale * total, table[1]
+
+
+def test_a_table_is_shared_by_all_problems():
+    solver = jit.batched(scaled_sum, outputs=2, groups=(2,), packed=True, tables=1)
+    x, scale, table = np.arange(4.0), np.full(4, 10.0), np.array([2.0, 3.0, 4.0]).tobytes()
+    plain, alone = solver(x, scale, tables=(table,)), solver.one(1.0, 10.0, tables=(table,))
+    assert_array_equal(plain, np.stack([70 * x, np.full(4, 3.0)], axis=-1))
+    assert alone.tolist() == [70, 3] and solver._start()
+    assert_array_equal(solver(x, scale, tables=(table,)), plain)
+    assert_array_equal(solver.one(1.0, 10.0, tables=(table,)), alone)
+    assert np.frombuffer(solver.call([1.0, 10.0], table)).tolist() == [1, 10, 70, 3]
+    assert solver.call([1.0, 10.0], [2.0, 3.0, 4.0]) is None and solver.call([1.0, 10.0]) is None
+
+
 def test_it_keeps_no_reference(ready):
     pair, alone = [1.0, 2.0], np.array(4.0)
     before = sys.getrefcount(pair), sys.getrefcount(alone), sys.getrefcount(None)

@@ -5,10 +5,9 @@ import math
 import pytest
 import sympy as sp
 
-from pontryagin.numerics.complex_step import derivative
 from pontryagin.rendezvous.derivation import terminal
 from pontryagin.rendezvous.derivation.principle import energy_weight, peak, time_weight
-from pontryagin.rendezvous.terminal_law import end_switching, end_switching_slopes
+from pontryagin.rendezvous.terminal_law import end_switching
 
 RATIO, PEAK = 0.7, 0.4
 LAWS = {
@@ -30,12 +29,3 @@ def solved(mode):
 @pytest.mark.parametrize("mode", LAWS)
 def test_length_is_the_derived_one(mode):
     assert end_switching(*LAWS[mode]) == pytest.approx(solved(mode)(*LAWS[mode]), rel=1e-15)
-
-
-@pytest.mark.parametrize("mode", LAWS)
-def test_slopes_are_those_of_the_derived_law(mode):
-    ratio, bound = LAWS[mode]
-    law = solved(mode)
-    by_ratio = 0.0 if mode == "time-optimal" else derivative(lambda x: law(x, bound), ratio, ratio)[1]
-    by_bound = derivative(lambda x: law(ratio, x), bound, bound)[1]
-    assert end_switching_slopes(ratio, bound) == pytest.approx((by_ratio, by_bound), rel=1e-14, abs=1e-300)

@@ -14,18 +14,18 @@ CALL = """
 define ptr @call(ptr %self, ptr %arguments, i64 %count) {{
   %numbers = alloca [{total} x double], align 8
   %exception = alloca ptr
-  %enough = icmp eq i64 %count, {groups}
+  %enough = icmp eq i64 %count, {arguments}
   br i1 %enough, label %read0, label %no
 {reading}
-read{groups}:
+read{arguments}:
 {loads}
   %result = getelementptr double, ptr %numbers, i64 {inputs}
   %status = call i32 @{kernel}(ptr %result, ptr %exception, {values})
   %solved = icmp eq i32 %status, 0
   br i1 %solved, label %entry, label %no
 entry:
-  %i = phi i64 [0, %read{groups}], [%next, %entry]
-  %sum = phi double [0.0, %read{groups}], [%added, %entry]
+  %i = phi i64 [0, %read{arguments}], [%next, %entry]
+  %sum = phi double [0.0, %read{arguments}], [%added, %entry]
   %at = getelementptr double, ptr %numbers, i64 %i
   %number = load double, ptr %at
   %nothing = fmul double %number, 0.0
@@ -69,6 +69,22 @@ COLUMN = """
 """
 """The start and the stride of one column."""
 
+SHARED = """
+read{index}:
+  %place{index} = getelementptr ptr, ptr %arguments, i64 {index}
+  %object{index} = load ptr, ptr %place{index}
+  %table{index} = call ptr @table(ptr %object{index})
+  %taken{index} = icmp ne ptr %table{index}, null
+  br i1 %taken{index}, label %read{following}, label %no
+"""
+"""A table among the arguments of the Python function."""
+
+COLUMN_OF_TABLE = """
+  %table_at{i} = getelementptr ptr, ptr %columns, i64 {i}
+  %table{i} = load ptr, ptr %table_at{i}
+"""
+"""A table among the columns, which all problems share."""
+
 ENTRY = """
   %offset{i} = mul i64 %i, %stride{i}
   %entry{i} = getelementptr i8, ptr %column{i}, i64 %offset{i}
@@ -102,7 +118,7 @@ end:
 """The loop over a stack: problem i takes the number at column + i * stride, in bytes, of each column."""
 
 
-def wrapper(kernel: str, groups: Sequence[int], outputs: int, packed: bool) -> str:
+def wrapper(kernel: str, groups: Sequence[int], outputs: int, packed: bool, tables: int = 0) -> str:
     """The text of a module with ``call`` and ``loop`` around a kernel that Numba compiled.
 
     Parameters
@@ -115,8 +131,11 @@ def wrapper(kernel: str, groups: Sequence[int], outputs: int, packed: bool) -> s
         Number of results.
     packed : bool
         Whether an argument may also be the `bytes` that end with its numbers.
+    tables : int
+        How many arguments follow that are tables: `bytes` of doubles, of which the kernel gets the address.
     """
     inputs, total = sum(groups), sum(groups) + outputs
+    shared = range(len(groups), len(groups) + tables)
     reading = "".join(
         READ.format(
             index=i,
@@ -127,22 +146,25 @@ def wrapper(kernel: str, groups: Sequence[int], outputs: int, packed: bool) -> s
         )
         for i, size in enumerate(groups)
     )
+    reading += "".join(SHARED.format(index=i, following=i + 1) for i in shared)
     values = ", ".join(f"double %value{i}" for i in range(inputs))
     common = {"kernel": kernel, "values": values, "outputs": outputs, "inputs": inputs}
     call = CALL.format(
-        **common,
-        groups=len(groups),
+        **common | {"values": ", ".join([values, *(f"ptr %table{i}" for i in shared)])},
+        arguments=len(groups) + tables,
         reading=reading,
         loads="".join(HELD.format(i=i) for i in range(inputs)),
         total=total,
         size=8 * total,
     )
+    last = range(inputs, inputs + tables)
+    columns = [COLUMN.format(i=i) for i in range(inputs)] + [COLUMN_OF_TABLE.format(i=i) for i in last]
     loop = LOOP.format(
-        **common,
-        columns="".join(COLUMN.format(i=i) for i in range(inputs)),
+        **common | {"values": ", ".join([values, *(f"ptr %table{i}" for i in last)])},
+        columns="".join(columns),
         loads="".join(ENTRY.format(i=i) for i in range(inputs)),
     )
-    declared = f"declare i32 @{kernel}(ptr, ptr, {', '.join(['double'] * inputs)})\n"
+    declared = f"declare i32 @{kernel}(ptr, ptr, {', '.join(['double'] * inputs + ['ptr'] * tables)})\n"
     return declared + declarations() + READERS + call + loop
 
 

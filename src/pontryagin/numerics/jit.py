@@ -48,51 +48,58 @@ class Batched:
     call: Callable[..., bytes | None]
 
     def __init__(
-        self, kernel: Callable[..., tuple[float, ...]], outputs: int, groups: tuple[int, ...], packed: bool
+        self,
+        kernel: Callable[..., tuple[float, ...]],
+        outputs: int,
+        groups: tuple[int, ...],
+        packed: bool,
+        tables: int,
     ) -> None:
         self.kernel, self.outputs, self.groups = kernel, outputs, groups
         self.call = self._call_at_first
-        self._recipe = Recipe(kernel, groups, outputs, packed)
+        self._recipe = Recipe(kernel, groups, outputs, packed, tables)
         self._native: Native | None = None
         self._problems = 0
 
-    def __call__(self, *columns: Array) -> Array:
+    def __call__(self, *columns: Array, tables: tuple[bytes, ...] = ()) -> Array:
         """Solve the problems given by n equally long 1-D arrays, as (problems, outputs)."""
         count = len(columns[0])
         result = np.empty((count, self.outputs))
         if self._ready(count):
-            self._loop(result, columns)
+            self._loop(result, columns, tables)
         else:
+            shared = [np.frombuffer(table).tolist() for table in tables]
             for i, values in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
-                result[i] = self._plain(*values)
+                result[i] = self._plain(*values, *shared)
         return result
 
-    def _loop(self, result: Array, columns: tuple[Array, ...]) -> None:
+    def _loop(self, result: Array, columns: tuple[Array, ...], tables: tuple[bytes, ...]) -> None:
         assert self._native is not None
         held = [np.broadcast_to(np.asarray(column, float), len(result)) for column in columns]
-        places = np.array([column.__array_interface__["data"][0] for column in held], np.intp)
+        shared = [np.frombuffer(table) for table in tables]
+        places = np.array([column.__array_interface__["data"][0] for column in held + shared], np.intp)
         strides = np.array([column.strides[0] for column in held], np.int64)
         addresses = (array.ctypes.data for array in (places, strides))
         if self._native.loop(result.ctypes.data, len(result), *addresses):
             raise ArithmeticError(f"{self.kernel.__name__} failed on a problem of the stack")
 
-    def _plain(self, *values: float) -> tuple[float, ...]:
+    def _plain(self, *values: float | list[float]) -> tuple[float, ...]:
         """Solve one problem in plain Python; overflow and division by zero give nan, as in compiled code."""
         try:
             return self.kernel(*values)
         except ArithmeticError:
             return (np.nan,) * self.outputs
 
-    def one(self, *values: float) -> Array:
+    def one(self, *values: float, tables: tuple[bytes, ...] = ()) -> Array:
         """Solve one problem, as (outputs,); by native code where there is some."""
         if self._native is not None:
             places = accumulate(self.groups, initial=0)
             ranges = [values[start:end] for start, end in pairwise(places)]
             given = (part[0] if len(part) == 1 else part for part in ranges)
-            numbers = self.call(*given)
+            numbers = self.call(*given, *tables)
             if numbers is not None:
                 return np.frombuffer(numbers)[-self.outputs :]
-        return np.array(self._plain(*values))
+        return np.array(self._plain(*values, *(np.frombuffer(table).tolist() for table in tables)))
 
     def _call_at_first(self, *arguments: object) -> bytes | None:
         """`call` until there is native code."""
@@ -120,6 +127,7 @@ def batched(
     outputs: int,
     groups: tuple[int, ...] | None = None,
     packed: bool = False,
+    tables: int = 0,
 ) -> Batched:
     """Run a scalar solver over a stack of problems.
 
@@ -138,6 +146,9 @@ def batched(
         How many of the n floats each argument of ``call`` holds; one each if left out.
     packed : bool
         Whether ``call`` also takes the `bytes` that end with its numbers.
+    tables : int
+        How many tables the kernel takes after its floats, which all problems of a stack share. A table is
+        given as the `bytes` of doubles; the kernel takes numbers from it by their index.
 
     Examples
     --------
@@ -147,7 +158,7 @@ def batched(
     array([[0.5 , 0.25],
            [1.  , 0.5 ]])
     """
-    return Batched(kernel, outputs, groups or (1,) * kernel.__code__.co_argcount, packed)
+    return Batched(kernel, outputs, groups or (1,) * kernel.__code__.co_argcount, packed, tables)
 
 
 def has_numba() -> bool:

@@ -59,6 +59,7 @@ class Recipe:
     groups: tuple[int, ...]
     outputs: int
     packed: bool
+    tables: int = 0
 
     @cached_property
     def closure(self) -> Closure:
@@ -74,7 +75,7 @@ class Recipe:
         ImportError
             If llvmlite is missing.
         """
-        text = wrapper("kernel", self.groups, self.outputs, self.packed)
+        text = wrapper("kernel", self.groups, self.outputs, self.packed, self.tables)
         return object_code.kept_path(self.closure.identity, text, EXTENSION_SUFFIXES[0])
 
     def kept(self, quick: bool = False) -> Native | None:
@@ -92,9 +93,9 @@ class Recipe:
 
     def _object_code(self) -> bytes:
         """The kernel in its wrapper, compiled for any processor of this architecture."""
-        numbers = ", ".join(["float64"] * sum(self.groups))
+        numbers = ", ".join(["float64"] * sum(self.groups) + ["CPointer(float64)"] * self.tables)
         name, text = compiled_text(self.closure, f"UniTuple(float64, {self.outputs})({numbers})")
-        around = wrapper(name, self.groups, self.outputs, self.packed)
+        around = wrapper(name, self.groups, self.outputs, self.packed, self.tables)
         return object_code.object_code([text, around], SYMBOLS)
 
     def _native(self, opened: Opened) -> Native:

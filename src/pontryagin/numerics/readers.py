@@ -190,8 +190,22 @@ other:
 no:
   ret i1 false
 }
+
+; Where the doubles of a `bytes` object lie.
+define internal ptr @table(ptr %object) {
+  %place = getelementptr i8, ptr %object, i64 TYPE
+  %type = load ptr, ptr %place
+  %is_bytes = icmp eq ptr %type, @PyBytes_Type
+  br i1 %is_bytes, label %bytes, label %no
+bytes:
+  %data = call ptr @PyBytes_AsString(ptr %object)
+  ret ptr %data
+no:
+  ret ptr null
+}
 """.replace("TYPE", str(TYPE))
-"""Functions (object, size, target) that store the numbers of an object; false if it does not hold them."""
+"""Functions (object, size, target) that store the numbers of an object; false if it does not hold them. And
+`table`, which gives the address of a table, or null."""
 
 
 def declarations() -> str:

@@ -6,6 +6,7 @@ take complex numbers too.
 """
 
 import functools
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -77,6 +78,12 @@ def about_third(angle: ArrayLike) -> Array:
     half = np.asarray(angle, dtype=float) / 2
     still = np.zeros_like(half)
     return np.stack([np.cos(half), still, still, np.sin(half)], axis=-1)
+
+
+def twist(attitude: Array) -> float:
+    """The angle about e3, in (-pi, pi], when a turn is split into (turn about an axis normal to e3) o it."""
+    angle = 2 * math.atan2(attitude[3], attitude[0])
+    return angle - FULL_TURN * round(angle / FULL_TURN)
 
 
 def attitude_rate(q: Array, w: Array) -> Array:

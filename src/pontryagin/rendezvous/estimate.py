@@ -1,4 +1,4 @@
-"""Estimates made before any extremal is known: the gap between craft and target, durations, angles."""
+"""Estimates made before any extremal is known: the gap between craft and target, durations."""
 
 import math
 
@@ -6,7 +6,6 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible
-from pontryagin.numerics import kepler
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
@@ -88,19 +87,10 @@ def orbit_change_duration(scaled: Scaled, ratio: float) -> float:
     return min(max(SHORTEST, speed / math.sqrt(ratio)), LONGEST)
 
 
-def gap_duration(scaled: Scaled, ratio: float) -> float:
-    """A duration in which thrust of about sqrt(alpha1/alpha2) closes the gap, with gravity neglected."""
+def gap_duration(scaled: Scaled, thrust: float) -> float:
+    """A duration in which a thrust of this size closes the gap, with gravity neglected."""
     place, velocity = gap(scaled)
-    return 2 * math.sqrt(place / math.sqrt(ratio)) + velocity / math.sqrt(ratio)
-
-
-def ballistic_lead(scaled: Scaled, duration: float) -> float:
-    """How much farther the target turns than the coasting craft would, in radians."""
-    eccentricity, anomaly = _eccentricity(scaled.start)
-    parameter = float(scaled.start[2]) ** 2
-    craft = kepler.true_anomaly_after(anomaly, duration, parameter, eccentricity) - anomaly
-    target = kepler.true_anomaly_after(scaled.anomaly, duration, 1.0, scaled.eccentricity) - scaled.anomaly
-    return float(target - craft)
+    return 2 * math.sqrt(place / thrust) + velocity / thrust
 
 
 def _eccentricity(start: Array) -> tuple[float, float]:

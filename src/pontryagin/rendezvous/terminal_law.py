@@ -14,11 +14,3 @@ def end_switching(ratio: float, peak: float) -> float:
         return 1 / peak
     root = math.sqrt(ratio)
     return 2 * root if root <= peak else ratio / peak + peak
-
-
-def end_switching_slopes(ratio: float, peak: float) -> tuple[float, float]:
-    """Derivatives of `end_switching` in log(alpha1/alpha2) and log p_max."""
-    if ratio == math.inf:
-        return 0.0, -1 / peak
-    root = math.sqrt(ratio)
-    return (root, 0.0) if root <= peak else (ratio / peak, peak - ratio / peak)

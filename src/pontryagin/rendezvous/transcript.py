@@ -112,7 +112,7 @@ def table(report: Report) -> Report:
         searched = report["searched"]
         rows["searched"] = {
             "first durations": [float(f"{duration:.5g}") for duration in searched["durations"]],
-            "further revolutions": searched["revolutions"],
+            "laps": searched["revolutions"],
             "search ended": searched["ends"],
             "attempts given up": len(searched["given_up"]),
         }

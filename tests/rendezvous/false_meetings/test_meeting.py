@@ -7,14 +7,13 @@ import pytest
 
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.rotation import about_third, conjugate, product, rotated
-from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
+from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.false_meetings.family import false_meeting
 from pontryagin.rendezvous.false_meetings.meeting import RotatedMeeting
-from pontryagin.rendezvous.false_meetings.rotated_target import rotated_equations
+from pontryagin.rendezvous.false_meetings.rotated_target import leading_equations, rotated_equations
 from pontryagin.rendezvous.reduced.conditions import Setting, equations
 from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import Extremal
-from pontryagin.rendezvous.reduced.start import cold_start
 
 CRAFT = Chaser(1.0, 0.0, 1.0, [math.cos(0.2), 0.0, math.sin(0.2), 0.0])
 
@@ -24,9 +23,7 @@ def meeting(degrees, duration=6.0):
     relative = Orbit.from_angles(1.5, 0.1, 0.3, math.radians(degrees), 0.0, 0.6)
     target = Orbit(1.5, 0.1, product(CRAFT.attitude, relative.attitude), 0.3)
     problem = Rendezvous(CRAFT, target, time_weight=0, energy_weight=1, peak=math.inf, duration=duration)
-    scaled = problem.scaled
-    setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
-    return Extremal(problem, cold_start(setting))
+    return solve(problem)
 
 
 @pytest.fixture(scope="module", params=[0, 20])
@@ -75,8 +72,9 @@ def test_the_distance_missed_is_that_by_newton_s_law_and_kepler_s_equation(true)
     assert found.certificate.cartesian > gap / 4
 
 
+@pytest.mark.parametrize("rotated_equations", [rotated_equations, leading_equations])
 @pytest.mark.parametrize("free", [True, False])
-def test_the_jacobian_and_the_slope_are_the_derivatives_of_the_rotated_equations(free):
+def test_the_jacobian_and_the_slope_are_the_derivatives_of_the_rotated_equations(free, rotated_equations):
     extremal = meeting(20)
     scaled, h = extremal.problem.scaled, 1e-6
     setting = Setting(scaled, 0.004 if free else 0.0, math.inf, duration=None if free else scaled.duration)

@@ -62,7 +62,7 @@ LEAST_TIMES = [
 def test_least_time_on_each_lap_leads_to_an_exact_extremal(name, laps, duration):
     scaled, setting = posed(name)
     lap = Lap.of(scaled, laps)
-    start = duration_of_thrust(guesses_on(lap, lambda _: math.inf), 0.9 * scaled.peak)
+    start = duration_of_thrust(guesses_on(lap, math.inf, lambda _: math.inf), 0.9 * scaled.peak)
     path = least_time(lap, least_energy(lap, start), scaled.peak)
     found = meet(setting, np.append(reduced_costates(scaled, path.nodes[:, 0]), path.duration))
     assert found.flight.duration == pytest.approx(duration, abs=1e-6)
@@ -76,7 +76,7 @@ def test_the_energy_at_the_least_time_is_at_most_that_of_full_thrust(name, laps,
     scaled, _ = posed(name)
     lap = Lap.of(scaled, laps)
     assert energy_of(least_energy(lap, duration)) < scaled.peak**2 * duration
-    assert duration_of_thrust(guesses_on(lap, lambda _: math.inf), scaled.peak) < duration
+    assert duration_of_thrust(guesses_on(lap, math.inf, lambda _: math.inf), scaled.peak) < duration
 
 
 def test_a_lap_that_ends_before_the_start_is_refused():

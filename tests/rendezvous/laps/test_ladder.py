@@ -22,7 +22,9 @@ EXTREMALS = {0: [3.954787], 1: [6.985022, 8.175853, 9.153051]}
 
 def on_lap(laps, peak):
     lap, cost = Lap.of(SCALED, laps), RunningCost(SCALED.ratio, 1.0, peak)
-    seeds = [duration for _, duration in minima(guesses_on(lap, lambda _: math.inf), SCALED.ratio, peak)]
+    seeds = [
+        duration for _, duration in minima(guesses_on(lap, math.inf, lambda _: math.inf), SCALED.ratio, peak)
+    ]
     return Ladder(lap, cost), Ladder(lap, cost).transfers(seeds, [])
 
 
@@ -63,7 +65,7 @@ def test_a_curve_that_is_not_begun_is_given_up():
 
 
 def test_minima_are_durations_of_which_the_guess_costs_least():
-    guesses = guesses_on(Lap.of(SCALED, 1), lambda _: math.inf)
+    guesses = guesses_on(Lap.of(SCALED, 1), math.inf, lambda _: math.inf)
     (cost, best), *_ = minima(guesses, SCALED.ratio)
     costs = SCALED.ratio * guesses.durations + guesses.energies
     assert cost == costs.min() and best == guesses.durations[costs.argmin()]
@@ -71,7 +73,7 @@ def test_minima_are_durations_of_which_the_guess_costs_least():
 
 
 def test_mean_thrust_of_a_guess_falls_to_the_given_one():
-    guesses = guesses_on(Lap.of(SCALED, 1), lambda _: math.inf)
+    guesses = guesses_on(Lap.of(SCALED, 1), math.inf, lambda _: math.inf)
     thrust = np.sqrt(guesses.energies / guesses.durations)
     duration = duration_of_thrust(guesses, 0.1)
     assert np.interp(duration, guesses.durations, thrust) == pytest.approx(0.1, rel=2e-2)

@@ -14,15 +14,14 @@ from pontryagin.rendezvous.reduced.certificate import certify
 from pontryagin.rendezvous.reduced.conditions import Setting, equations
 from pontryagin.rendezvous.reduced.quadrature import energy
 from pontryagin.rendezvous.reduced.shooting import meet
-from pontryagin.rendezvous.reduced.start import cold_start
 from pontryagin.rendezvous.root import Root
 from rendezvous_problems import CRAFT, orbit, problem
 
 
 @pytest.mark.slow
 def test_the_certificate_detects_a_wrong_costate():
-    setting = Setting(problem(20).scaled, 1.0, math.inf, duration=3.0)
-    root = meet(setting, cold_start(setting).unknowns)
+    root = solve(problem(20, duration=3.0)).root
+    setting = Setting(problem(20).scaled, 1.0, math.inf, duration=root.flight.duration)
     moved = equations(setting, root.unknowns + 1e-6 * np.eye(6)[3])
     assert certify(root, (0.0, 1.0), free=False).holds(1e-10)
     wrong = Root(root.unknowns, moved)
@@ -34,9 +33,10 @@ def test_a_meeting_ahead_of_the_target_violates_only_the_condition_on_the_attitu
     """In one plane and with a circular target orbit, (5), (15), (16) and H = 0 hold anywhere on the orbit."""
     free = Rendezvous(CRAFT, orbit(0, eccentricity=0.0), 0.002, 1.0, math.inf)
     best = solve(free)
+    later = replace(free, target=replace(free.target, anomaly=free.target.anomaly + 0.1))
+    ahead = meet(Setting(later.scaled, later.scaled.ratio, math.inf), best.root.unknowns).unknowns
     setting = Setting(free.scaled, free.scaled.ratio, math.inf)
-    ahead = meet(setting.replace(lead=0.1), best.root.unknowns)
-    false = certify(ahead, free.scaled.weights, free=True)
+    false = certify(Root(ahead, equations(setting, ahead)), free.scaled.weights, free=True)
     others = (false.boundary, false.transversality, false.hamiltonian, false.maximality, false.agreement)
     assert max(others) < 1e-10
     assert false.attitude == pytest.approx(math.sin(0.05), rel=1e-6)

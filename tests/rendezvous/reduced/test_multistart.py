@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from pontryagin.rendezvous import (
-    Extremal,
     carry,
     multistart,
+    solve,
 )
-from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.start import cold_start
 from rendezvous_problems import FALLING, LEAP, in_units, starts
 
 
@@ -31,10 +29,8 @@ def test_costates_that_are_zero_give_a_coasting_craft(leap):
 
 @pytest.fixture(scope="module")
 def best():
-    """The extremal found by continuation from coasting, without random starts."""
-    given = in_units()
-    scaled = given.scaled
-    return Extremal(given, cold_start(Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)))
+    """The best extremal found lap by lap, without random starts."""
+    return solve(in_units())
 
 
 @pytest.mark.parametrize("peak", [math.inf, 0.06])

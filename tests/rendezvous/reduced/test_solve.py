@@ -17,13 +17,7 @@ from pontryagin.rendezvous import (
     solve,
     solve_in_elements,
 )
-from pontryagin.rendezvous.families import bounded
 from pontryagin.rendezvous.problem.cases import cases, chaser_on
-from pontryagin.rendezvous.reduced.certificate import certify
-from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.search_log import SearchLog
-from pontryagin.rendezvous.reduced.shooting import SHOOTING
-from pontryagin.rendezvous.reduced.solve import KEPT, extremals
 from rendezvous_problems import LEAP, beside, problem
 
 
@@ -39,22 +33,12 @@ def test_a_mixed_problem_reaches_the_bound_and_obeys_the_law_at_the_end():
     assert best.searched.durations and 0 in best.searched.revolutions
 
 
-def least_time(degrees: float):
-    """A problem of least time, and its extremal by one homotopy from the unbounded problem."""
-    given = problem(degrees, time_weight=1, energy_weight=0, peak=0.1)
-    scaled = given.scaled
-    loose = Setting(scaled, (2.5 * scaled.peak) ** 2, math.inf)
-    (root, *_) = extremals(loose, SearchLog())
-    return given, bounded(SHOOTING, Setting(scaled, scaled.ratio, scaled.peak), loose, root)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 30])
 def test_the_thrust_of_least_time_is_saturated_throughout(degrees):
-    given, root = least_time(degrees)
-    certificate = certify(root, given.scaled.weights, free=True)
-    assert certificate.holds(1e-10)
-    assert [piece.mode for piece in root.flight.pieces] == ["saturated"]
+    best = solve(problem(degrees, time_weight=1, energy_weight=0, peak=0.1))
+    assert all(found.certificate.holds(1e-9) for found in (best, *best.others))
+    assert best.modes == ("saturated",)
 
 
 @pytest.mark.slow
@@ -94,9 +78,7 @@ def test_least_energy_in_free_time_is_infeasible():
 
 @pytest.mark.slow
 def test_a_bound_too_small_for_the_duration_is_infeasible():
-    with pytest.raises(
-        pontryagin.Infeasible, match=r"the bound on the thrust could be lowered to 0\.\d+, but not to 0\.04"
-    ):
+    with pytest.raises(pontryagin.Infeasible, match=r"at least about 0\.\d+ on each lap.*the peak of 0\.04$"):
         solve(problem(20, peak=0.04, duration=4.0))
 
 
@@ -128,24 +110,17 @@ class TestBesideTheTarget:
 
 
 @pytest.mark.slow
-def test_without_a_bound_all_extremals_are_returned():
+def test_all_extremals_found_are_returned():
     best = solve(cases()["ellipse-mixed"].problem)
-    assert len(best.others) >= KEPT and not best.searched.given_up
+    assert len(best.others) >= 7 and not best.searched.given_up
     assert len(best.searched.ends) == 2
     times = [one.duration for one in (best, *best.others)]
     assert len({round(t, 6) for t in times}) == len(times)
 
 
 @pytest.mark.slow
-def test_with_a_bound_the_extremals_not_continued_are_counted():
-    best = solve(replace(cases()["ellipse-mixed"].problem, peak=1.0))
-    assert len(best.others) == KEPT - 1
-    assert best.searched.given_up[0].startswith("the 4 most costly extremals of the problem without bound")
-
-
-@pytest.mark.slow
-def test_a_bound_below_every_family_is_infeasible_and_a_failure_is_not_converged():
-    with pytest.raises(Infeasible, match="the costates grow without limit"):
+def test_a_bound_below_every_mean_thrust_is_infeasible_and_a_failure_is_not_converged():
+    with pytest.raises(Infeasible, match="no transfer of this duration keeps the thrust within the peak"):
         solve(replace(LEAP, peak=0.02))
     with pytest.raises(NotConverged):
         solve(replace(LEAP, target=Orbit(1.5, 0.1, [0, 1, 0, 0], 0.6), duration=0.3))

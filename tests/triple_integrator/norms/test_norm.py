@@ -13,8 +13,11 @@ from independent import integral, moments_of, pieces, propagate
 from pontryagin import NotConverged
 from pontryagin.triple_integrator.norms.energy import minimum_energy
 from pontryagin.triple_integrator.norms.impulse import minimum_impulse
+from pontryagin.triple_integrator.norms.minimal_element import solve_norm
 from pontryagin.triple_integrator.norms.norm import dual_bound, minimum_norm
 from pontryagin.triple_integrator.norms.peak import minimum_peak
+from pontryagin.triple_integrator.norms.power_rules import table
+from pontryagin.triple_integrator.norms.quadratic_programme import certify
 from pontryagin.triple_integrator.norms.quadrature import (
     Quadratic,
     graded_rule,
@@ -229,6 +232,34 @@ def test_a_stack_is_its_members():
         assert_allclose(control[i], one.control(t[i]), rtol=1e-9)
         assert_allclose(state[i], one.state(t[i]), atol=1e-11)
         assert_allclose(costate[i], one.costate(t[i]), rtol=1e-9)
+
+
+@pytest.mark.parametrize("q", [1.02, 1.3, 2.0, 3.3, 30.0, 1000.0])
+def test_a_stack_of_mixed_scales_is_its_members_and_its_plain_source(q):
+    rng = np.random.default_rng(11)
+    T = 10.0 ** rng.uniform(-3, 3, 40)
+    k = rng.normal(size=(40, 3)) * 10.0 ** rng.uniform(-6, 6, (40, 1))
+    m = Maneuver(np.zeros(3), k * np.stack([T**3 / 6, T**2 / 2, T], axis=-1), T)
+    s = minimum_norm(m, q)
+    ones = [minimum_norm(Maneuver(m.x0[i], m.xf[i], T[i]), q) for i in range(40)]
+    for name in ("norm", "peak", "multipliers"):
+        assert_allclose(getattr(s, name), [getattr(one, name) for one in ones], rtol=1e-12)
+    rules = np.frombuffer(table(q)).tolist()
+    plain = [solve_norm(*c, T, rules)[9] for c, T in zip(m.moments.tolist(), T.tolist(), strict=True)]
+    assert_allclose(s.norm, plain, rtol=1e-12)
+
+
+@pytest.mark.parametrize("q", [1.001, 1.02, 1.3, 3.3, 30.0, 1e5])
+def test_the_certificate_is_that_of_an_independent_rule(q):
+    """Norm, residual and bound from nodes and panels that the kernel does not have."""
+    rng = np.random.default_rng(12)
+    m = Maneuver(rng.normal(size=(60, 3)), rng.normal(size=(60, 3)), 10.0 ** rng.uniform(-1, 1, 60))
+    s = minimum_norm(m, q)
+    bound = dual_bound(m, q, s.multipliers)
+    again = certify(m, s.shape, s.peak, s._law[1], q, bound)
+    assert_allclose(s.certificate.primal_value, again.primal_value, rtol=1e-11)
+    assert_allclose(s.certificate.dual_value, bound, rtol=1e-11)
+    assert np.max(again.primal_residual) <= 1e-11 and np.abs(again.gap).max() <= 1e-11
 
 
 def test_nothing_to_do_needs_no_control():

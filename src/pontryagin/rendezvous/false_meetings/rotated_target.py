@@ -15,9 +15,10 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.continuation import Family
+from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced import shooting
 from pontryagin.rendezvous.reduced.conditions import (
+    I3,
     ReducedEquations,
     Setting,
     end_rates,
@@ -41,13 +42,23 @@ def rotated_target_family(solution: Extremal) -> Family[ReducedEquations]:
     scaled = solution.problem.scaled
     setting = Setting(scaled, scaled.ratio, scaled.peak, duration=scaled.duration)
     if in_one_plane(scaled):
-        return shooting.family(setting, "lead")
+        return lambda unknowns, angle: leading_equations(setting, unknowns, angle)
     return lambda unknowns, angle: rotated_equations(setting, unknowns, angle)
 
 
 def in_one_plane(scaled: Scaled) -> bool:
     """Whether craft and target move in one plane, in the same direction."""
     return bool(np.hypot(*scaled.orientation[1:3]) < FLAT)
+
+
+def leading_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[ReducedEquations, Array]:
+    """`conditions.equations` for a target that is ahead by an angle, and their derivative by the angle."""
+    led = setting.replace(lead=angle)
+    found = equations(led, unknowns)
+    goal, _ = goal_of(led, float(found.flight.end[3]))
+    by_angle = np.zeros(len(found.residual))
+    by_angle[:6] = mismatch(found.flight, goal).by_goal[:, 3:] @ product(goal[3:], I3) / 2
+    return found, by_angle
 
 
 def rotated_equations(setting: Setting, unknowns: Array, angle: float) -> tuple[ReducedEquations, Array]:

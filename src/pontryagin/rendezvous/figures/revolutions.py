@@ -18,7 +18,7 @@ from pontryagin.numerics.continuation import follow
 from pontryagin.rendezvous.figures.labels import CRAFT, OTHER
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
-from pontryagin.rendezvous.reduced.shooting import family
+from pontryagin.rendezvous.reduced.shooting import over_duration
 from pontryagin.rendezvous.reduced.solution import Extremal
 from pontryagin.rendezvous.root import scales
 
@@ -91,7 +91,7 @@ def _points(extremal: Extremal, sign: int) -> Iterator[tuple[float, float]]:
     start = math.log(extremal.flight.duration)
     unknowns = extremal.root.unknowns[:6]
     points = follow(
-        family(setting, "duration"),
+        over_duration(setting),
         unknowns,
         start,
         sign,

@@ -15,10 +15,9 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-from pontryagin.numerics.rotation import about_third, conjugate, product, rotated
+from pontryagin.numerics.rotation import about_third, conjugate, product, rotated, twist
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
-from pontryagin.rendezvous.reduced.start import twist
 from pontryagin.rendezvous.witness.cartesian import (
     cartesian_of,
     target_by_kepler,

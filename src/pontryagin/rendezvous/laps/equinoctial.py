@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.errors import NotConverged
 from pontryagin.numerics import kepler
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
@@ -14,14 +15,27 @@ from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
 
 TAU = 2 * math.pi
+OPPOSITE = 1e-12
+"""1 + cos(i) below which the inclination counts as 180 degrees."""
 
 
 def elements_of(state: Array) -> Array:
-    """p, f, g, h, k, L (6,) of R and V (6,), fM = 1; the inclination must be below 180 degrees."""
+    """p, f, g, h, k, L (6,) of R and V (6,), fM = 1.
+
+    Raises
+    ------
+    NotConverged
+        If the inclination is 180 degrees.
+    """
     position, velocity = state[:3], state[3:]
     momentum = np.cross(position, velocity)
     parameter = momentum @ momentum
     normal = momentum / math.sqrt(parameter)
+    if 1 + normal[2] < OPPOSITE:
+        raise NotConverged(
+            "craft and target move in opposite senses in one plane, where equinoctial elements are singular",
+            math.inf,
+        )
     h, k = -normal[1] / (1 + normal[2]), normal[0] / (1 + normal[2])
     size = 1 + h**2 + k**2
     first = np.array([1 + h**2 - k**2, 2 * h * k, -2 * k]) / size

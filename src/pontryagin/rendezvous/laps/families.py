@@ -27,6 +27,8 @@ TRIES, GROWTH = 120, 2.0
 """How many steps of a continuation are tried, and the factor by which one grows after a success."""
 FIRST, LARGEST, LEAST = 0.5, 1.0, 1 / 16
 """First, largest and least step of a continuation whose end is wanted, in units of its length."""
+FINEST = 1 / 512
+"""The least step where no other start is tried, as for a fixed duration."""
 
 LATE = 0.2
 """Value of theta from which the time of the meeting is free on the way to least time."""
@@ -67,8 +69,10 @@ def points(
     )
 
 
-def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
+def continued(posed: Posed, path: Path, begin: float, end: float, least: float = LEAST) -> Path:
     """The extremal at the last value of the parameter, from that at the first.
+
+    The continuation ends at steps below ``least``, in units of its length.
 
     Raises
     ------
@@ -76,17 +80,17 @@ def continued(posed: Posed, path: Path, begin: float, end: float) -> Path:
         If the continuation ends before.
     """
     way = abs(end - begin)
-    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, least * way))
     if last.parameter != end:
         raise NotConverged("the continuation on this lap ended", abs(end - last.parameter) / way)
     return Path.of(last.unknowns)
 
 
-def least_energy(lap: Lap, duration: float) -> Path:
+def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
     """The extremal of least energy, without a bound, of a fixed duration.
 
-    If it is not reached from a guess, that for a nearer goal is continued: the goal moves from the craft's
-    orbit to the target's, at the same longitude.
+    If it is not reached from a guess, that for a nearer goal is continued, by steps down to ``least``: the
+    goal moves from the craft's orbit to the target's, at the same longitude.
 
     Raises
     ------
@@ -109,7 +113,9 @@ def least_energy(lap: Lap, duration: float) -> Path:
         if guesses.durations.size:
             try:
                 start = extremal(*nearer(share), guesses.path(0), ROUGH)
-                return start if share == 1 else continued(lambda x, _: nearer(x), start, share, 1.0)
+                if share == 1:
+                    return start
+                return continued(lambda x, _: nearer(x), start, share, 1.0, least)
             except NotConverged as failure:
                 reason = failure
     raise reason
@@ -137,7 +143,16 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     def posed(logarithm: float, _: Path) -> tuple[Lap, Cost, float | None]:
         return lap, replace(cost, peak=math.exp(logarithm)), duration
 
-    return continued(posed, path, math.log(largest), math.log(cost.peak))
+    begin, end = math.log(largest), math.log(cost.peak)
+    way = abs(end - begin)
+    *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, LEAST * way))
+    if last.parameter != end:
+        factor = math.exp(last.parameter - end)
+        raise NotConverged(
+            f"the bound on the thrust could be lowered to {factor:.4g} times the peak, but not to it",
+            factor - 1,
+        )
+    return Path.of(last.unknowns)
 
 
 def least_time(lap: Lap, path: Path, peak: float) -> Path:

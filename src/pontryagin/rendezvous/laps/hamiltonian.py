@@ -95,10 +95,10 @@ class RunningCost:
             slope = peak / (2 * size)
             saturated = peak * size - weight * peak**2, slope, -slope / (2 * square)
         inside = square <= (2 * weight * peak) ** 2
-        if not inside.any():
+        if peak < math.inf and not inside.any():
             return saturated
         within = square / (4 * weight), np.full_like(square, 1 / (4 * weight)), np.zeros_like(square)
-        if inside.all():
+        if inside.all() or peak == math.inf:
             return within
         first, second, third = (np.where(inside, a, b) for a, b in zip(within, saturated, strict=True))
         return first, second, third

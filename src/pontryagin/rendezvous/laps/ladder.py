@@ -20,8 +20,8 @@ from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
 from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, square
 
-DURATIONS = np.geomspace(0.2, 120.0, 48)
-"""Durations of the guesses, in units of sqrt(p*^3/fM)."""
+SHORTEST, FACTOR = 0.2, 1.146
+"""The shortest of the usual durations of guesses, in units of sqrt(p*^3/fM), and the ratio of two of them."""
 HORIZONS = 9.0, 33.0, 120.0
 """Longest durations of the guesses, one after the other."""
 COARSE = 12
@@ -42,10 +42,19 @@ RANGE = 3.0
 """Largest change of the logarithm of the duration along the curve."""
 
 
-def guesses_on(lap: Lap, needed: Callable[[Guesses], float], limit: float = math.inf) -> Guesses:
-    """Guesses over longer and longer durations, until the longest that is needed or the limit is reached."""
+def guesses_on(
+    lap: Lap, shortest: float, needed: Callable[[Guesses], float], limit: float = math.inf
+) -> Guesses:
+    """Guesses over longer and longer durations, until the longest that is needed or the limit is reached.
+
+    They begin at the shortest of interest or at `SHORTEST`, whichever is less.
+    """
+    begin = min(shortest, SHORTEST)
     for horizon in HORIZONS:
-        guesses = least_energy_guesses(lap, DURATIONS[min(horizon, limit) >= DURATIONS], per_lap=COARSE)
+        end = min(horizon, limit)
+        count = max(0, 1 + math.floor(math.log(end / begin) / math.log(FACTOR))) if end > 0 else 0
+        durations = np.asarray(begin * FACTOR ** np.arange(count), float)
+        guesses = least_energy_guesses(lap, durations, per_lap=COARSE)
         if horizon >= limit or (guesses.durations.size and needed(guesses) <= horizon):
             break
     return guesses

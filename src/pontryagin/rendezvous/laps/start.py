@@ -19,7 +19,7 @@ from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path
 
 ROUNDS = 4
 """Number of references, the first of which is straight."""
-NEAREST = 0.1
+NEAREST = 1e-3
 """Least longitude of the meeting, in radians, measured from the craft's at t0."""
 THINNEST, ROUNDEST = 0.05, 0.95
 """Smallest parameter, in units of p*, and largest square of the eccentricity, of a reference."""

@@ -21,7 +21,7 @@ from pontryagin.rendezvous.reduced.flight import (
     fly,
     switching,
 )
-from pontryagin.rendezvous.terminal_law import end_switching, end_switching_slopes
+from pontryagin.rendezvous.terminal_law import end_switching
 from pontryagin.value import value_class
 
 SEEN = [0, 1, 2, 7, 8, 9, 10]
@@ -44,8 +44,7 @@ class Setting:
     peak : float
         p_max, inf for no bound.
     lead : float
-        Angle by which the target's orbit is turned ahead in its plane, in radians: 2 pi for each revolution
-        that the craft makes beyond those that it makes with a lead of 0.
+        Angle by which the target's orbit is turned ahead in its plane, in radians.
     duration : float or None
         t_k if it is fixed.
     rough : bool
@@ -92,16 +91,11 @@ class ReducedEquations:
         Residuals; n = 6, or 7 with the terminal law.
     jacobian : (n, n) array
         Derivatives of the residual in the unknowns.
-    by_peak, by_ratio, by_lead : (n,) arrays
-        Derivatives of the residual in log p_max, log(alpha1/alpha2) and the lead.
     """
 
     flight: Flight
     residual: Array
     jacobian: Array
-    by_peak: Array
-    by_ratio: Array
-    by_lead: Array
 
 
 @dataclass(frozen=True)
@@ -171,29 +165,17 @@ def equations(setting: Setting, unknowns: Array) -> ReducedEquations:
     )
     goal, moving = goal_of(setting, float(flight.end[3]))
     met = mismatch(flight, goal)
-    columns = met.by_start
-    peak = setting.peak if setting.peak < math.inf else 0.0
-    by_lead = met.by_goal[:, 3:] @ product(goal[3:], I3) / 2
+    columns = met.by_start[:, :6]
     if not setting.free:
-        zero = np.zeros(6)
-        return ReducedEquations(flight, met.residual, columns[:, :6], columns[:, 6] * peak, zero, by_lead)
+        return ReducedEquations(flight, met.residual, columns)
     rates = end_rates(flight)
     by_time = met.by_end @ rates + met.by_goal @ moving
     law, law_by_state = _terminal(setting, flight)
-    law_columns = law_by_state @ flight.slopes
+    law_columns = law_by_state @ flight.slopes[:, :6]
     jacobian = np.block(
-        [[columns[:, :6], by_time[:, None]], [law_columns[None, :6], np.array([[law_by_state @ rates]])]]
+        [[columns, by_time[:, None]], [law_columns[None, :], np.array([[law_by_state @ rates]])]]
     )
-    by_ratio, by_peak = end_switching_slopes(setting.ratio, setting.peak)
-    share = (law + 1) / setting.end_switching
-    return ReducedEquations(
-        flight,
-        np.append(met.residual, law),
-        jacobian,
-        np.append(columns[:, 6] * peak, law_columns[6] * peak - share * by_peak),
-        np.append(np.zeros(6), -share * by_ratio),
-        np.append(by_lead, 0.0),
-    )
+    return ReducedEquations(flight, np.append(met.residual, law), jacobian)
 
 
 def _terminal(setting: Setting, flight: Flight) -> tuple[float, Array]:

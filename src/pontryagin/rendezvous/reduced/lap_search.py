@@ -1,8 +1,8 @@
 """Extremals lap by lap: transcribed transfers in equinoctial elements, then Newton's method on exact flights.
 
 Laps are counted from the target's own: lap 0 ends at the target's longitude next ahead of its start, each
-further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, until a guess
-of the least cost on a lap is more than `WORSE` times the best extremal.
+further lap one turn later, negative laps sooner. They are tried upwards and downwards from 0, up to the first
+lap that guesses of the least cost show to be dearer than `WORSE` times the best extremal.
 """
 
 import math
@@ -11,6 +11,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.progress import report
+from pontryagin.rendezvous.estimate import TOGETHER, gap, gap_duration
 from pontryagin.rendezvous.laps import families, ladder
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
@@ -24,45 +26,72 @@ from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
 WORSE = 2.0
-"""Transfers that cost more than this many times the best extremal are not continued."""
+"""The search ends in a direction with the first lap that costs more than this many times the best."""
+FURTHER = 2.5
+"""Extremals of free duration on that last lap are taken if they cost less than this many times the best."""
 FARTHEST = 6
 """Largest number of laps more or fewer than the target's own that is tried."""
 MEAN_THRUSTS = (1.0, 0.7, 0.9, 0.8, 0.6)
 """Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
 LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
+SHORT = 0.3
+"""The shortest duration of a guess, in units of that in which the thrust closes the gap without gravity."""
 MARGIN = 1.2
 """Factor by which the energy of a guess may exceed the largest possible energy under the bound."""
+COASTING = np.array([0, 0, 0, 0, 0, 1e-6])
+"""Costates of a craft that coasts; nu is slightly off zero, so that it has a direction."""
 ALIKE, SAME = 1e-2, 1e-7
 """Largest differences of one extremal: in the duration, relative, as transcribed; in an unknown, as flown."""
 
 
-def extremals_on_laps(setting: Setting, log: SearchLog) -> list[Root[Flight]]:
+def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
     """The extremals of a problem that are found lap by lap, in no particular order.
 
     Raises
     ------
+    Infeasible
+        If on every lap a fixed duration needs a larger mean thrust than the bound.
     NotConverged
-        If none was reached on any lap.
+        If no extremal was reached for another reason.
     """
-    roots: list[Root[Flight]] = []
+    if max(gap(setting.scaled)) < TOGETHER:  # So the duration is fixed, and no thrust is needed.
+        yield meet(setting, COASTING)
+        return
     best = math.inf
     for sense in (1, -1):
-        laps = 0 if sense > 0 else -1
-        while abs(laps) <= FARTHEST:
-            lap = Lap.of(setting.scaled, laps)
+        laps, last = 0 if sense > 0 else -1, False
+        while abs(laps) <= FARTHEST and not last:
+            report(f"seeking extremals on lap {laps:+d}")
+            lap, most = Lap.of(setting.scaled, laps), FURTHER * best if setting.free else math.inf
             starts = first_durations(setting, lap, WORSE * best)
-            if not starts and (roots or sense < 0):
-                break
-            found = on_lap(setting, lap, starts, log, WORSE * best)
-            best = min([best, *(cost(setting, root) for root in found)])
-            roots += found
+            if not starts and best < math.inf:
+                starts, last = first_durations(setting, lap, most), True
+            for root in on_lap(setting, lap, starts, log, most):
+                own = cost(setting, root)
+                best, last = min(best, own), last or own > WORSE * best
+                yield root
             laps += sense
         log.ends.append(f"laps from {laps:+d} {'up' if sense > 0 else 'down'} were not tried")
-    if not roots:
-        reasons = log.given_up or ["each lap costs too much thrust, or is over before the start"]
-        raise NotConverged(f"no extremal was reached on any lap: {'; '.join(reasons)}", math.inf)
-    return roots
+    if best == math.inf:
+        raise _failure(setting, log)
+
+
+def _failure(setting: Setting, log: SearchLog) -> Infeasible | NotConverged:
+    """The reason why a search found nothing."""
+    if setting.duration is not None and not log.durations:
+        laps = [Lap.of(setting.scaled, number) for number in range(-FARTHEST, FARTHEST + 1)]
+        guesses = [least_energy_guesses(lap, np.array([setting.duration])) for lap in laps]
+        least = min((float(energy) for guess in guesses for energy in guess.energies), default=math.inf)
+        if least < math.inf:
+            mean, unit = math.sqrt(least / setting.duration), setting.scaled.acceleration
+            return Infeasible(
+                "no transfer of this duration keeps the thrust within the peak: its root mean square is at "
+                f"least about {mean * unit:.4g} on each lap, which is above the peak of "
+                f"{setting.peak * unit:.4g}"
+            )
+    reasons = log.given_up or ["each lap costs too much thrust, or is over before the start"]
+    return NotConverged(f"no extremal was reached on any lap: {'; '.join(reasons)}", math.inf)
 
 
 def cost(setting: Setting, root: Root[Flight]) -> float:
@@ -83,7 +112,7 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
         largest = min(most, MARGIN * setting.peak**2 * setting.duration)
         return [setting.duration] if (guesses.energies < largest).any() else []
     if setting.bang:
-        return _with_mean_thrusts(lap, setting.peak, most)
+        return _with_mean_thrusts(setting, lap, most)
 
     def minima(guesses: Guesses) -> list[tuple[float, float]]:
         return ladder.minima(guesses, setting.ratio, setting.peak)
@@ -91,17 +120,22 @@ def first_durations(setting: Setting, lap: Lap, most: float = math.inf) -> list[
     def longest(guesses: Guesses) -> float:
         return min((WORSE * price / setting.ratio for price, _ in minima(guesses)), default=math.inf)
 
-    guesses = ladder.guesses_on(lap, longest, most / setting.ratio)
+    shortest = SHORT * gap_duration(setting.scaled, math.sqrt(setting.ratio))
+    guesses = ladder.guesses_on(lap, shortest, longest, most / setting.ratio)
     return [duration for price, duration in minima(guesses) if price < most]
 
 
-def _with_mean_thrusts(lap: Lap, peak: float, most: float) -> list[float]:
+def _with_mean_thrusts(setting: Setting, lap: Lap, most: float) -> list[float]:
     """The durations of guesses whose thrust has the sizes `MEAN_THRUSTS`, in their order."""
 
     def durations(guesses: Guesses, *shares: float) -> list[float]:
-        return [ladder.duration_of_thrust(guesses, share * peak) for share in shares]
+        return [ladder.duration_of_thrust(guesses, share * setting.peak) for share in shares]
 
-    guesses = ladder.guesses_on(lap, lambda found: max(durations(found, *MEAN_THRUSTS)), LONGER * most)
+    def longest(guesses: Guesses) -> float:
+        return max(durations(guesses, *MEAN_THRUSTS))
+
+    shortest = SHORT * gap_duration(setting.scaled, setting.peak)
+    guesses = ladder.guesses_on(lap, shortest, longest, LONGER * most)
     (least,) = durations(guesses, 1.0)
     return [found for found in durations(guesses, *MEAN_THRUSTS) if found < math.inf] if least < most else []
 
@@ -114,7 +148,7 @@ def on_lap(
     Those whose transcription costs more than ``most`` are left out.
     """
     found: list[Root[Flight]] = []
-    log.durations.extend(durations)
+    log.durations.extend(duration for duration in durations if duration not in log.durations)
     for path in _transcribed(setting, lap, durations, log, most):
         try:
             costates = reduced_costates(setting.scaled, path.nodes[:, 0])
@@ -142,7 +176,7 @@ def _transcribed(
             yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
             log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
         else:
-            path = families.least_energy(lap, setting.duration)
+            path = families.least_energy(lap, setting.duration, families.FINEST)
             yield families.bounded(lap, path, cost, setting.duration)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")

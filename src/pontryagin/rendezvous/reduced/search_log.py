@@ -15,13 +15,14 @@ class Search:
     Attributes
     ----------
     durations : tuple of float
-        Durations at which a first extremal was sought, in the solver's unit.
+        Durations at which first transfers were sought, in the solver's unit.
     revolutions : tuple of int
-        Revolutions of the extremals of the unbounded problem, counted from those of the first.
+        The laps of the extremals found: turns in addition to those after which the craft meets the target at
+        the longitude next ahead.
     ends : tuple of str
-        Where the curve over the revolutions was left in each direction, and why.
+        Up to which lap extremals were sought in each direction.
     given_up : tuple of str
-        Extremals that could not be reached or were not continued, and why.
+        Extremals that could not be reached, and why.
     """
 
     durations: tuple[float, ...] = ()

@@ -1,42 +1,27 @@
-"""Solve a rendezvous: first without a bound on the thrust, then with it, and for least time with alpha2 = 0.
+"""Solve a rendezvous: extremals are sought lap by lap, and the cheapest one is returned with the others."""
 
-Every step follows a family of rendezvous problems: without bound over the duration and over the revolutions,
-then over the bound, then over alpha1/alpha2. All extremals reached are returned, cheapest first.
-"""
-
-import math
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.errors import Infeasible, NotConverged
-from pontryagin.progress import report
 from pontryagin.rendezvous.estimate import require_solvable
-from pontryagin.rendezvous.families import bounded, loose_ratios
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.search import UnboundedExtremal, through_revolutions
+from pontryagin.rendezvous.reduced.lap_search import extremals_on_laps
 from pontryagin.rendezvous.reduced.search_log import INTERRUPTED, SearchLog
-from pontryagin.rendezvous.reduced.shooting import SHOOTING, meet
+from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
-from pontryagin.rendezvous.reduced.start import unbounded
-from pontryagin.rendezvous.root import Root
-
-KEPT = 4
-"""Number of extremals of the unbounded problem that are continued to the bound; for least time it is two."""
 
 
 def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     """The best extremal found of the rendezvous (1)-(7); its `others` are the other extremals found.
 
     The equations solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
-    By continuation from coasting a transfer without bound is found, by families over the duration and over
-    the revolutions further ones. Then the bound is lowered, and for least time alpha1/alpha2 is raised until
-    the thrust is saturated throughout. The maximum principle is necessary, not sufficient: the cheapest of
-    the extremals found is returned, and `searched` states where they were sought.
+    On each lap, which is a number of turns that the craft makes more or fewer than the target, extremals are
+    transcribed in equinoctial elements and continued to the bound or to least time; they are the guesses of
+    Newton's method for exact flights. The maximum principle is necessary, not sufficient: the cheapest of the
+    extremals found is returned, and `searched` states where they were sought.
 
     Parameters
     ----------
@@ -49,8 +34,7 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     Returns
     -------
     Extremal
-        The cheapest one found. Its ``others`` are, without a bound, all extremals that the search found;
-        with a bound, those that could be continued to it.
+        The cheapest one found. Its ``others`` are all other extremals found.
 
     Raises
     ------
@@ -60,7 +44,8 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
         If the duration is free and the craft is with the target at the start.
     Infeasible
         If the duration is free and costs nothing (``time_weight=0``), or if a fixed one is too short for the
-        bound: no extremal was reached, and in one of the families the costates grew without limit.
+        bound: on every lap the transfer of least energy needs a mean thrust above the bound, or the costates
+        grew without limit as the bound was lowered.
     NotConverged
         If no extremal was reached for another reason.
     KeyboardInterrupt
@@ -86,7 +71,7 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     log = SearchLog()
     found: list[Extremal] = []
     try:
-        found.extend(Extremal(problem, root) for root in extremals(setting, log))
+        found.extend(Extremal(problem, root) for root in extremals_on_laps(setting, log))
     except KeyboardInterrupt as stop:
         if found:
             log.ends.append(INTERRUPTED)
@@ -106,63 +91,3 @@ def _unknowns(start: Extremal, problem: Rendezvous) -> Array:
     scaled = problem.scaled
     costates = start.initial_costate / scaled.costate_units
     return np.append(costates, start.duration / scaled.time) if problem.free else costates
-
-
-def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
-    """All extremals found of a problem, in no particular order, each as soon as it is found.
-
-    Raises
-    ------
-    NotConverged
-        If none was reached.
-    Infeasible
-        If none was reached and in one of the families the bound came to the least for the fixed duration.
-    """
-    none, too_short = True, False
-    for ratio in loose_ratios(setting.ratio, setting.peak):
-        loose = setting.replace(peak=math.inf, ratio=ratio)
-        reached: list[UnboundedExtremal] = []
-        try:
-            kept = _without_bound(setting, loose, log, reached)
-        except KeyboardInterrupt:
-            if setting.peak == math.inf:
-                yield from (known.root for known in reached)
-            raise
-        for number, known in enumerate(kept, start=1):
-            report("continuing extremals to the bound", number - 1, len(kept))
-            try:
-                root = bounded(SHOOTING, setting, loose.replace(lead=known.lead), known.root)
-            except (NotConverged, Infeasible) as reason:
-                too_short = too_short or isinstance(reason, Infeasible)
-                log.given_up.append(f"extremal {number} of the problem without bound: {reason}")
-                continue
-            none = False
-            yield root
-    if not none:
-        return
-    reasons = "; ".join(log.given_up)
-    if too_short and not setting.free:
-        raise Infeasible(f"no extremal of this duration keeps the thrust within the peak: {reasons}")
-    raise NotConverged(f"no extremal was found: {reasons}", float("inf"))
-
-
-def _without_bound(
-    setting: Setting, loose: Setting, log: SearchLog, reached: list[UnboundedExtremal]
-) -> list[UnboundedExtremal]:
-    """The extremals without bound that are continued to the bound, cheapest first; all if there is none.
-
-    Each extremal is appended to ``reached`` as soon as it is found.
-    """
-    try:
-        reached.extend(through_revolutions(loose, unbounded(loose, log), log))
-    except NotConverged as reason:
-        log.given_up.append(f"the problem without bound: {reason}")
-        return []
-    found = sorted(reached, key=lambda one: one.cost)
-    most = len(found) if setting.peak == math.inf else 2 if setting.bang else KEPT
-    if most < len(found):
-        log.given_up.append(
-            f"the {len(found) - most} most costly extremals of the problem without bound were not continued "
-            "to the bound"
-        )
-    return found[:most]

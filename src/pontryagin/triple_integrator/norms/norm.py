@@ -5,8 +5,10 @@ that attains the maximum in (1.14). The solver measures the time to go as a shar
 """
 
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from numbers import Real
+from struct import Struct
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,18 +16,19 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
-from pontryagin.triple_integrator.norms.minimal_element import minimal_elements
-from pontryagin.triple_integrator.norms.quadratic_programme import (
-    BLOCK,
-    Profile,
-    QuadraticProgramme,
-    certify,
-    scaled_moments,
-)
-from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule, logistic_rule, orthonormal
+from pontryagin.numerics.jit import batched
+from pontryagin.triple_integrator.norms.minimal_element import solve_norm
+from pontryagin.triple_integrator.norms.power_rules import table
+from pontryagin.triple_integrator.norms.quadratic_programme import BLOCK, Profile, QuadraticProgramme
+from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import breakpoints
-from pontryagin.value import value_class
+from pontryagin.triple_integrator.problem.programme import breakpoints, over_stack
+from pontryagin.value import Packed, value_class
+
+solve_stack = batched(solve_norm, outputs=11, groups=(4,), packed=True, tables=1)
+
+LAST_THREE = Struct("3d")
+"""Residual, norm and bound at the end of the numbers of one problem."""
 
 CONVERGED = 1e-10
 """Largest residual of the moments and largest relative gap of a solution that is returned."""
@@ -33,7 +36,7 @@ CONVERGED = 1e-10
 
 @value_class
 @dataclass(frozen=True, eq=False)
-class NormSolution(QuadraticProgramme):
+class NormSolution(Packed, QuadraticProgramme):
     """Control of least L_q norm: u = peak |h|^(p-1) sign h for a quadratic h whose largest modulus is 1.
 
     Attributes
@@ -60,6 +63,9 @@ class NormSolution(QuadraticProgramme):
     shape: Quadratic
     certificate: Certificate
 
+    def _unpacked(self, numbers: Array) -> dict[str, Any]:
+        return _answer(numbers[4:])
+
     @property
     def breakpoints(self) -> Array:
         """Times within one manoeuvre at which u changes sign, (j,); for q > 2 u is not smooth there."""
@@ -85,7 +91,7 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     -------
     NormSolution
         The dual value of its certificate is l'c / ||l'h||_p for the multipliers found; this is a lower bound
-        for every l.
+        for every l. A stack takes 5 to 11 microseconds a manoeuvre for q from 1.1 to 1e5, and up to 80 below.
 
     Raises
     ------
@@ -93,7 +99,8 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
         If q is not a finite number greater than 1; `minimum_impulse` and `minimum_peak` solve q = 1 and inf.
     pontryagin.NotConverged
         If the moments are missed by more than 1e-10, or the relative gap between norm and lower bound exceeds
-        it. This was seen for q - 1 <= 1e-4, and for q = 1e6 next to a constant control.
+        it. Of 20000 random manoeuvres this happened to none for q from 1.0001 to 1e6, and to 2000 for
+        q = 1.00001, where rounding in the exponent p = 100001 costs as much.
 
     Examples
     --------
@@ -102,29 +109,19 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     (720.0, True)
     """
     q = exponent(q)
-    targets = scaled_moments(maneuver)
-    flat = targets.reshape(-1, 3)
-    size = np.abs(flat).max(axis=1)
-    moving = size > 0
-    coefficients, discriminant = np.zeros_like(flat), np.zeros_like(size)
-    peak, scale = np.zeros_like(size), np.zeros_like(size)
-    if moving.any():
-        w = (flat[moving] / size[moving, None]) @ from_scaled_moments().T
-        length = np.linalg.norm(w, axis=1)
-        element, _ = minimal_elements(w / length[:, None], q)
-        top = largest(element)
-        h = element.scaled(1 / top)
-        coefficients[moving], discriminant[moving] = h.coefficients, h.discriminant
-        peak[moving] = length * size[moving] / (top * integral_of_power(h, conjugate(q)))
-        scale[moving] = top / (length * size[moving])
-    stack = maneuver.shape
-    shape = Quadratic(coefficients, discriminant).reshape(*stack)
-    multipliers = _multipliers(shape, scale.reshape(stack), maneuver.duration)
-    profile, peak = partial(signed_power, power=1 / (q - 1)), peak.reshape(stack)
-    bound = dual_bound(maneuver, q, multipliers)
-    certificate = certify(maneuver, shape, peak, profile, q, bound)
-    _require_convergence(certificate, q)
-    return NormSolution(maneuver, q, multipliers, peak, shape, certificate)
+    rules = table(q)
+    numbers = solve_stack.call(maneuver._numbers, rules)
+    if numbers is not None:
+        solution = NormSolution.from_numbers(numbers)
+        solution.__dict__.update(maneuver=maneuver, q=q)
+        residual, norm, bound = LAST_THREE.unpack_from(numbers, len(numbers) - LAST_THREE.size)
+        if residual <= CONVERGED and abs(norm - bound) <= CONVERGED * norm:
+            return solution
+    else:
+        result = over_stack(solve_stack, maneuver, rules)
+        solution = NormSolution(maneuver, q, **_answer(result))
+    _require_convergence(solution.certificate, q)
+    return solution
 
 
 def exponent(q: float) -> float:
@@ -149,29 +146,16 @@ def signed_power(h: Array, power: float) -> Array:
     return np.sign(h) * np.abs(h) ** power
 
 
-@cache
-def from_scaled_moments() -> Array:
-    """The matrix that takes scaled moments to moments in the orthonormal basis."""
-    return np.asarray(orthonormal()[:, ::-1] / np.array([3.0, 2.0, 1.0]))
-
-
-def largest(h: Quadratic) -> Array:
-    """max |h| on [0, 1]."""
-    return np.asarray(np.abs(h.cuts[1]).max(axis=-1))
-
-
-def integral_of_power(h: Quadratic, p: float) -> Array:
-    """Integral of |h|^p over [0, 1] by the logistic rule, (n,)."""
-    blocks = []
-    for start in range(0, len(h.discriminant), BLOCK):
-        _, values, weights = h[start : start + BLOCK].sample(logistic_rule())
-        blocks.append((np.abs(values) ** p * weights).sum(axis=(-2, -1)))
-    return np.concatenate(blocks)
-
-
-def _multipliers(shape: Quadratic, scale: Array, T: Array) -> Array:
-    h0, h1, h2 = np.moveaxis(shape.coefficients, -1, 0)
-    return np.stack([2 * h2 / T / T, h1 / T, h0], axis=-1) * (scale / T)[..., None]
+def _answer(result: Array) -> dict[str, Any]:
+    """The fields of a solution from the results of `solve_norm`, (..., 11)."""
+    certificate = Certificate(result[..., 8], result[..., 9], result[..., 10])
+    shape = Quadratic(result[..., :3], result[..., 3])
+    return {
+        "multipliers": result[..., 4:7],
+        "peak": result[..., 7],
+        "shape": shape,
+        "certificate": certificate,
+    }
 
 
 def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:

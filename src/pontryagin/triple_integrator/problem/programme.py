@@ -109,14 +109,14 @@ def response(t: Array, knots: Array, amplitudes: Array, order: int) -> Array:
     return np.stack(parts, axis=-1)
 
 
-def over_stack(solver: Batched, maneuver: Maneuver) -> Array:
-    """Run a scalar solver (c1, c2, c3, T) -> numbers over a manoeuvre or a stack, as (..., numbers)."""
+def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
+    """Run a solver (c1, c2, c3, T, tables) -> numbers over one manoeuvre or a stack, as (..., numbers)."""
     c = _within_range(maneuver.moments)
     if c.ndim == 1:
-        result = solver.one(*c.tolist(), float(maneuver.duration))
+        result = solver.one(*c.tolist(), float(maneuver.duration), tables=tables)
     else:
         flat = c.reshape(-1, 3)
-        result = solver(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel())
+        result = solver(flat[:, 0], flat[:, 1], flat[:, 2], maneuver.duration.ravel(), tables=tables)
         result = result.reshape(*maneuver.shape, result.shape[-1])
     return _within_range(result)
 
