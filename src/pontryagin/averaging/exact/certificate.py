@@ -13,10 +13,11 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.arcs import switched_flow
 from pontryagin.averaging.exact.canonical import Canonical, y
-from pontryagin.averaging.exact.shooting import Shooting, Shot
+from pontryagin.averaging.exact.shooting import TOLERANCE, Shooting, Shot
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import Flow, flow
+from pontryagin.numerics.flow import Flow, integrator
+from pontryagin.numerics.symbolic import Symbolic
 
 SAMPLES = 200
 """The Hamiltonian and its maximum are evaluated at this many points of the trajectory."""
@@ -62,5 +63,8 @@ def _along(equations: Canonical) -> Callable[..., tuple[Array, ...]]:
 @lru_cache(maxsize=32)
 def _follow(equations: Canonical) -> Flow:
     """The flow of (a, p, y, tau, J, x) in slow time."""
-    arguments = ((*equations.states, equations.anomaly), equations.time_rates, equations.parameters)
-    return switched_flow(equations.modes, *arguments) if equations.modes else flow(*arguments)
+    states, rates = (*equations.states, equations.anomaly), equations.time_rates
+    if equations.modes:
+        return switched_flow(equations.modes, states, rates, equations.parameters)
+    along = integrator(Symbolic(states, rates, equations.parameters), TOLERANCE)
+    return lambda start, times, parameters: along.sample(start, times, parameters)[0]

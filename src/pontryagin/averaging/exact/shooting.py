@@ -19,10 +19,11 @@ from pontryagin.averaging.exact.arcs import switched_ends
 from pontryagin.averaging.exact.canonical import Canonical, canonical, y
 from pontryagin.errors import NotConverged
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.flow import TOLERANCE
 from pontryagin.numerics.lanes import Ends, ends
 from pontryagin.numerics.newton_stack import solved
 
+TOLERANCE = 3e-15
+"""Relative error allowed in a step; over hundreds of turns the errors add up to about 1e-11."""
 ROUGH = 1e-9
 """Tolerance of the flow with derivatives, which serves Newton's matrices only and not the residuals."""
 
@@ -146,8 +147,7 @@ class Shooting:
         the faster one for one or two.
         """
         starts = self.starts(w)
-        carry = _carry(self.equations) if together else _carry_one(self.equations)
-        reached, _ = carry(starts, self.anomaly, theta, self.parameters)
+        reached, _ = _carry(self.equations, together)(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> Slopes:
@@ -247,13 +247,8 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
 
 
 @lru_cache(maxsize=32)
-def _carry(equations: Canonical) -> Ends:
-    return _ends(equations, (), TOLERANCE, None)
-
-
-@lru_cache(maxsize=32)
-def _carry_one(equations: Canonical) -> Ends:
-    return _ends(equations, (), TOLERANCE, False)
+def _carry(equations: Canonical, together: bool = True) -> Ends:
+    return _ends(equations, (), TOLERANCE, None if together else False)
 
 
 @lru_cache(maxsize=32)
