@@ -1,7 +1,7 @@
 """``python -m pontryagin.rendezvous.small_weight``: the case ``mixed`` at decreasing weights of time.
 
 At a smaller weight the best flight makes more revolutions and the shooting equations are worse conditioned.
-The last rows take minutes to compute, so the results are kept in ``small_weight.csv``.
+The last rows take half a minute to compute, so the results are kept in ``small_weight.csv``.
 """
 
 import csv

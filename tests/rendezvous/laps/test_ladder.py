@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from pontryagin.rendezvous.laps import ladder as ladder_module
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import Ladder, duration_of_thrust, energy, guesses_on, minima
@@ -24,7 +25,7 @@ def on_lap(laps, peak):
     seeds = [
         duration for _, duration in minima(guesses_on(lap, math.inf, lambda _: math.inf), SCALED.ratio, peak)
     ]
-    return Ladder(lap, cost), Ladder(lap, cost).transfers(seeds)
+    return Ladder(lap, cost), Ladder(lap, cost).transfers(seeds, [])
 
 
 def flown(path, peak):
@@ -42,7 +43,9 @@ def test_every_extremal_of_a_lap_is_found(laps):
 
 
 @pytest.mark.slow
-def test_two_extremals_near_each_other_are_told_apart():
+@pytest.mark.parametrize("step", [0.05, 0.07])
+def test_two_extremals_near_each_other_are_told_apart(step, monkeypatch):
+    monkeypatch.setattr(ladder_module, "STEPS", (0.05, step, 0.005))
     ladder, paths = on_lap(2, math.inf)
     costs = [ladder.price(path) for path in paths]
     assert costs == pytest.approx([0.280036, 0.284688, 0.284865], rel=5e-3)
@@ -53,6 +56,12 @@ def test_a_transfer_under_a_bound_is_found_along_the_curve_under_the_bound():
     assert path.switching().max() > 2 * PEAK
     assert flown(path, PEAK).duration == pytest.approx(path.duration, rel=0.02)
     assert ladder.price(path) == pytest.approx(0.178142, rel=0.02)
+
+
+def test_a_curve_that_is_not_begun_is_given_up():
+    given_up = []
+    assert Ladder(Lap.of(SCALED, -3), RunningCost(1.0, 1.0, math.inf)).transfers([1.0], given_up) == []
+    assert given_up == ["from the duration 1: the meeting is not ahead of the craft (residual inf)"]
 
 
 def test_minima_are_durations_of_which_the_guess_costs_least():

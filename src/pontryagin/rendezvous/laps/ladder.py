@@ -5,7 +5,7 @@ until a transfer costs more than a given multiple of the best one.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -34,6 +34,8 @@ ROOM = 0.8
 """Largest mean thrust of a guess from which a curve is begun, in units of the bound."""
 WORSE = 2.0
 """Transfers that cost more than this many times the best one on the lap are left out."""
+NEAR = 0.9
+"""A point is added where the law is expected to fall to this share of its value at the point beside."""
 SHORTENINGS = 4
 """How often two points of the curve are brought nearer to each other."""
 RANGE = 3.0
@@ -106,43 +108,35 @@ class Ladder:
         """The cost of a transfer."""
         return self.cost.time_weight * path.duration + energy(path, self.cost.peak)
 
-    def transfers(self, seeds: list[float], most: float = math.inf) -> list[Path]:
+    def transfers(self, seeds: list[float], given_up: list[str], most: float = math.inf) -> list[Path]:
         """The transfers on the curves through some durations, the best first.
 
         Curves are followed, and transfers kept, while they cost less than ``most`` and `WORSE` times the
-        best one.
-
-        Raises
-        ------
-        NotConverged
-            If no curve could be begun.
+        best one. Why a curve was not begun, or a transfer not reached, is added to the list given.
         """
         found: list[Path] = []
         passed: list[tuple[float, float]] = []
-        reason: NotConverged | None = None
         for duration in seeds[:SEEDS]:
             if any(shortest <= duration <= longest for shortest, longest in passed):
                 continue
             try:
                 start = bounded(self.lap, least_energy(self.lap, duration), self.fixed, duration)
-            except NotConverged as failure:
-                reason = failure
+            except NotConverged as reason:
+                given_up.append(f"from the duration {duration:.4g}: {reason}")
                 continue
             reached = [duration]
             for end in (RANGE, -RANGE):
-                for one, other in pairwise(self._along(start, end, most, reached)):
+                for one, other in pairwise(self._with_turns(self._along(start, end, most, reached))):
                     if self._law(one) * self._law(other) > 0:
                         continue
                     try:
                         path = self._between(one, other)
-                    except NotConverged as failure:
-                        reason = failure
+                    except NotConverged as reason:
+                        given_up.append(f"near the duration {math.exp(one.parameter):.4g}: {reason}")
                         continue
                     found.append(path)
                     most = min(most, WORSE * self.price(path))
             passed.append((min(reached), max(reached)))
-        if reason and not passed:
-            raise reason
         return sorted((path for path in found if self.price(path) < most), key=self.price)
 
     @property
@@ -169,10 +163,44 @@ class Ladder:
             if self.price(path) > most:
                 return
 
+    def _with_turns(self, curve: Iterable[Point[None]]) -> Iterator[Point[None]]:
+        """The points, and one more where the law turns before zero or just beyond it."""
+        last: Point[None] | None = None
+        here: Point[None] | None = None
+        for following in curve:
+            if here is not None:
+                turn = None if last is None else self._turn(last, here, following)
+                pair = [here] if turn is None else [here, turn]
+                yield from sorted(
+                    pair, key=lambda point: abs(point.parameter - following.parameter), reverse=True
+                )
+            last, here = here, following
+        if here is not None:
+            yield here
+
+    def _turn(self, last: Point[None], here: Point[None], following: Point[None]) -> Point[None] | None:
+        """The point where a parabola through three values of the law turns, if it turns near zero there."""
+        near = [point.parameter - here.parameter for point in (last, here, following)]
+        values = [self._law(point) for point in (last, here, following)]
+        if min(values) * max(values) <= 0 or abs(values[1]) > min(abs(values[0]), abs(values[2])):
+            return None
+        bend, slope, value = np.polyfit(near, values, 2)
+        shift = -slope / (2 * bend)
+        if (value + slope * shift / 2) / value > NEAR:
+            return None
+        beyond = (shift > 0) == (near[2] > 0)
+        logarithm = here.parameter + shift
+        guess = between(here, following if beyond else last, logarithm)
+        try:
+            return Point(extremal(*self._at(logarithm), Path.of(guess), ROUGH).unknowns, logarithm, None)
+        except NotConverged:
+            return None
+
     def _between(self, one: Point[None], other: Point[None]) -> Path:
         """The transfer of free duration between two points of the curve, where the law changes its sign.
 
-        While Newton's method does not end between them, the distance is shortened by a point of the curve.
+        While Newton's method does not end between them, the distance is shortened by a point of the curve;
+        the last such point is returned if it never does.
         """
         for _ in range(SHORTENINGS):
             here, there = self._law(one), self._law(other)
@@ -188,4 +216,4 @@ class Ladder:
             middle = extremal(*self._at(logarithm), guess, ROUGH)
             point = Point(middle.unknowns, logarithm, None)
             one, other = (point, other) if self._law(point) * here > 0 else (one, point)
-        raise NotConverged("the transfer of free duration was not reached", other.parameter - one.parameter)
+        return middle

@@ -172,7 +172,9 @@ def _transcribed(
     cost = RunningCost(setting.ratio if setting.free else 0.0, 1.0, setting.peak)
     try:
         if setting.duration is None:
-            yield from ladder.Ladder(lap, cost).transfers(durations, most)
+            reasons: list[str] = []
+            yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
+            log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
         else:
             path = families.least_energy(lap, setting.duration, families.FINEST)
             yield families.bounded(lap, path, cost, setting.duration)
