@@ -108,6 +108,9 @@ class Entry:
     def proof(self) -> list[str]:
         """Run the check and return its steps, each a sentence."""
         self.check()
+        return self._steps()
+
+    def _steps(self) -> list[str]:
         return [words for words, _ in self.evidence.steps()] if self.evidence else []
 
     def checked_forms(self) -> tuple[str, str]:
@@ -116,7 +119,8 @@ class Entry:
 
     def checked_steps(self) -> list[str]:
         """The steps of `proof`; a build keeps them under the sources' hash."""
-        return self._kept("steps", self.proof)
+        self.checked_forms()
+        return self._kept("steps", self._steps)
 
     def _check_forms(self) -> tuple[str, str]:
         self.check()
