@@ -47,6 +47,14 @@ def test_results_are_computed_once_under_each_key(solver):
     assert len(list((solver.workspace.results / MODULE).rglob("*.pickle"))) == 4
 
 
+def test_users_of_results_are_the_notebooks_that_import_their_module(solver):
+    solver.notebook("01-user", "# Title", f"from {MODULE} import twice")
+    solver.notebook("02-other", "# Title", f"from pontryagin.{PACKAGE} import other")
+    solver.module(f"{PACKAGE}/playback.py", f"from {MODULE} import twice")
+    assert ahead.users(solver.workspace, [MODULE]) == {"01-user", f"pontryagin.{PACKAGE}.playback"}
+    assert ahead.users(solver.workspace, []) == set()
+
+
 def test_a_result_that_fails_is_named_and_due_again(solver):
     solver.module(f"{PACKAGE}/solver.py", SOLVER.replace("2 * number", "1 / 0"))
     with pytest.raises(AheadFailure, match=f"the results of {MODULE}: ZeroDivisionError"):

@@ -22,11 +22,12 @@ def test_the_longest_job_begins_first_and_results_are_in_the_given_order(checkou
     assert list(found.items()) == [("short", "SHORT"), ("unknown", "UNKNOWN"), ("long", "LONG")]
 
 
-def test_what_others_wait_for_is_begun_before_them(checkout, monkeypatch):
+def test_what_others_wait_for_is_begun_first_and_they_are_begun_last(checkout, monkeypatch):
     monkeypatch.setattr(schedule, "SECONDS", {"long": 100.0})
     log = []
-    run_all(checkout.workspace, logged(log, ["short", "long", "dear"]), 1, first=["dear", "none of them"])
-    assert log == ["dear", "long", "short"]
+    jobs = logged(log, ["short", "long", "dear", "middle"])
+    run_all(checkout.workspace, jobs, 1, first=["dear", "none of them"], last=["long"])
+    assert log == ["dear", "short", "middle", "long"]
 
 
 def test_a_measured_duration_takes_the_place_of_the_stated_one(checkout, monkeypatch):

@@ -1,18 +1,19 @@
 """Dear results, computed beside the notebooks that will need them; see `kept_results.kept`."""
 
 import ast
-import importlib
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from pontryagin.io import files
-from pontryagin.report import dependencies
+from pontryagin.report import dependencies, execute, recordings
 from pontryagin.report.environment import environment
 from pontryagin.report.workspace import Workspace
 
 FUNCTION = "ahead"
 """The function by which a module has its dear results computed."""
+_SCRIPT = f"import sys, importlib as i; i.import_module(sys.argv[1]).{FUNCTION}(); print(*sys.modules)"
+"""Calls it, and tells which modules were loaded."""
 
 
 class AheadFailure(RuntimeError):
@@ -34,6 +35,19 @@ def modules(workspace: Workspace, keys: Mapping[str, str]) -> list[str]:
     return [module for module in offering if not _is_done(workspace, module, keys[module])]
 
 
+def users(workspace: Workspace, dear: Sequence[str]) -> set[str]:
+    """The notebooks and the papers' playback modules, by name, that may use results of some modules."""
+    source = dependencies.Source(workspace.source)
+    wanted = {source.modules[module] for module in dear}
+    if not wanted:
+        return set()
+    files_read = {
+        path.stem: execute.files_of(workspace, execute.read_notebook(path)) for path in workspace.notebooks
+    }
+    files_read |= {name: dependencies.reached(source, [name]) for name in recordings.modules(workspace)}
+    return {name for name, known in files_read.items() if known & wanted}
+
+
 def compute(workspace: Workspace, module: str, key: str) -> None:
     """Have a module's dear results computed in a process of their own.
 
@@ -42,14 +56,13 @@ def compute(workspace: Workspace, module: str, key: str) -> None:
     AheadFailure
         When one cannot be computed, or when a module was loaded that is not in the key.
     """
-    command = [sys.executable, "-m", "pontryagin.report.ahead", module]
+    command = [sys.executable, "-c", _SCRIPT, module]
     done = subprocess.run(command, capture_output=True, text=True, env=environment(workspace))
     if done.returncode:
         error = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise AheadFailure(f"the results of {module}: {error}")
     source = dependencies.Source(workspace.source)
-    loaded = [name for name in done.stdout.split() if not name.startswith(__package__)]
-    if missing := dependencies.uncounted(source, loaded, dependencies.reached(source, [module])):
+    if missing := dependencies.uncounted(source, done.stdout.split(), dependencies.reached(source, [module])):
         raise AheadFailure(
             f"{module} loads {', '.join(missing)}, but no import that can be followed leads there: its "
             "results would be kept when that changes"
@@ -64,8 +77,3 @@ def _is_done(workspace: Workspace, module: str, key: str) -> bool:
 
 def _offers(text: str) -> bool:
     return any(isinstance(node, ast.FunctionDef) and node.name == FUNCTION for node in ast.parse(text).body)
-
-
-if __name__ == "__main__":
-    getattr(importlib.import_module(sys.argv[1]), FUNCTION)()
-    print(*sys.modules)

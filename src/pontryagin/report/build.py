@@ -85,8 +85,11 @@ def build(workspace: Workspace, stage: str, workers: int) -> None:
 def _make(workspace: Workspace, stage: str, workers: int) -> None:
     keys = result_keys.hand_down(workspace)
     watch = progress.Stopwatch()
+    dear = ahead.modules(workspace, keys) if stage != "recordings" else []
     with progress.bars() as bars:
-        made = run_all(workspace, _jobs(workspace, stage, keys, _Bars(bars)), workers, first=keys)
+        jobs = _jobs(workspace, stage, _Bars(bars))
+        jobs |= {module: partial(ahead.compute, workspace, module, keys[module]) for module in dear}
+        made = run_all(workspace, jobs, workers, first=dear, last=ahead.users(workspace, dear))
     executed = _executed(made)
     if stage != "recordings":
         progress.step("notebooks", f"{len(executed)} in {watch}")
@@ -100,14 +103,10 @@ def _make(workspace: Workspace, stage: str, workers: int) -> None:
         publish.write_report(workspace, executed, clips, entries)
 
 
-def _jobs(
-    workspace: Workspace, stage: str, keys: Mapping[str, str], advance: Progress
-) -> dict[str, Callable[[], Any]]:
-    """What there is to do before anything is put together; none of it needs another."""
+def _jobs(workspace: Workspace, stage: str, advance: Progress) -> dict[str, Callable[[], Any]]:
+    """What there is to do before anything is put together."""
     jobs: dict[str, Callable[[], Any]] = {}
     if stage != "recordings":
-        dear = ahead.modules(workspace, keys)
-        jobs |= {module: partial(ahead.compute, workspace, module, keys[module]) for module in dear}
         jobs |= {path.stem: partial(attempt, workspace, path, advance) for path in workspace.notebooks}
     if stage in ("recordings", "report") and _has_rerun():
         jobs |= {name: partial(recordings.record, workspace, name) for name in recordings.modules(workspace)}

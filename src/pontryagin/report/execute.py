@@ -102,13 +102,14 @@ def read_notebook(path: Path) -> NotebookNode:
 def notebook_key(workspace: Workspace, notebook: NotebookNode) -> str:
     """Key of a notebook's outputs: its code, the package files behind it, the lock and the interpreter."""
     code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
-    files_read = sorted(_files_of(workspace, notebook))
+    files_read = sorted(files_of(workspace, notebook))
     return dependencies.digest(
         *code, *files_read, workspace.lock_text, sys.version, FIXED_KEY, root=workspace.root
     )
 
 
-def _files_of(workspace: Workspace, notebook: NotebookNode) -> set[Path]:
+def files_of(workspace: Workspace, notebook: NotebookNode) -> set[Path]:
+    """The files that a notebook's outputs depend on."""
     plain = plain_code(notebook)
     parts = dependencies.closure(dependencies.Source(workspace.source), plain)
     return parts | {path for path in places_named_in(plain, workspace.root) if path.is_file()}
@@ -161,7 +162,7 @@ def _run_into(
 
 def _check_counted(workspace: Workspace, path: Path, notebook: NotebookNode, loaded: list[str]) -> None:
     source = dependencies.Source(workspace.source)
-    missing = dependencies.uncounted(source, loaded, _files_of(workspace, notebook))
+    missing = dependencies.uncounted(source, loaded, files_of(workspace, notebook))
     if missing:
         raise UncountedImport(
             f"notebooks/{path.name} loads {', '.join(missing)}, but no import that can be followed leads "

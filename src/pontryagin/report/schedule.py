@@ -35,6 +35,7 @@ def run_all(
     jobs: Mapping[str, Callable[[], T]],
     workers: int,
     first: Collection[str] = (),
+    last: Collection[str] = (),
 ) -> dict[str, T]:
     """Run jobs, `workers` at a time, in the order of the time that they are expected to take.
 
@@ -46,8 +47,8 @@ def run_all(
         Each job by its name.
     workers : int
         How many run at a time.
-    first : collection of str
-        Jobs that are begun before all others, since these wait for what they make.
+    first, last : collection of str
+        Jobs that are begun before all others, and those that wait for what these make.
 
     Returns
     -------
@@ -56,7 +57,7 @@ def run_all(
         is begun, and the error of the first of them in this order is raised.
     """
     expected = SECONDS | _durations(workspace)
-    order = sorted(jobs, key=lambda name: (name not in first, -expected.get(name, UNKNOWN)))
+    order = sorted(jobs, key=lambda name: (name not in first, name in last, -expected.get(name, UNKNOWN)))
     taken: dict[str, float] = {}
     failed = threading.Event()
 
