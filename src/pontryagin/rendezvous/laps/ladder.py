@@ -30,7 +30,7 @@ SEEDS = 3
 """Largest number of durations from which a curve is begun."""
 STEPS = 0.05, 0.05, 0.005
 """First, largest and least step of the curve over the logarithm of the duration."""
-ROOM = 0.8
+ROOM = 0.7
 """Largest mean thrust of a guess from which a curve is begun, in units of the bound."""
 WORSE = 2.0
 """Transfers that cost more than this many times the best one on the lap are left out."""
