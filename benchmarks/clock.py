@@ -1,11 +1,19 @@
-"""Processor time of contestants that run in turns, so that a busy machine slows all of them alike."""
+"""Processor time of contestants that run in turns, so that a busy machine slows all of them alike.
+
+Each runs in a process of its own: one that dies loses its own times alone.
+"""
 
 import gc
+import math
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from statistics import median
 from time import process_time
 from typing import Any
+
+from benchmarks.apart import Apart, Died
 
 LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SINGLE_THREAD = dict.fromkeys(LIMITS, "1")
@@ -68,16 +76,33 @@ def take_turns(contestants: Mapping[str, Callable[[], int]], rounds: int = 5) ->
     Returns
     -------
     dict of str to Timing
-        Per problem.
+        Per problem; nan for a contestant whose process died, which a line says.
     """
-    counts = {name: contestant() for name, contestant in contestants.items()}
     seconds: dict[str, list[float]] = {name: [] for name in contestants}
-    for _ in range(rounds):
-        for name, contestant in contestants.items():
-            gc.collect()
-            gc.disable()
-            start = process_time()
-            contestant()
-            seconds[name].append((process_time() - start) / counts[name])
-            gc.enable()
+    counts = dict.fromkeys(contestants, 0)
+    with ExitStack() as processes:
+        running = {
+            name: processes.enter_context(Apart(partial(_round, contestant)))
+            for name, contestant in contestants.items()
+        }
+        for number in range(1 + rounds):
+            for name, process in list(running.items()):
+                try:
+                    counts[name], taken = process()
+                except Died as reason:
+                    print(f"{name} {reason}: its times are empty")
+                    del running[name]
+                    seconds[name] = [math.nan]
+                    continue
+                if number > 0:
+                    seconds[name].append(taken / counts[name])
     return {name: Timing(median(taken), min(taken), counts[name]) for name, taken in seconds.items()}
+
+
+def _round(contestant: Callable[[], int]) -> tuple[int, float]:
+    """The number of problems that a contestant solves in one round, and its seconds of processor time."""
+    gc.collect()
+    gc.disable()
+    count, taken = timed(contestant)
+    gc.enable()
+    return count, taken

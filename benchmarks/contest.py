@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.apart import answer
 from benchmarks.clock import Timing, one_by_one, take_turns
 
 CALL, STACK = "pontryagin, one call", "pontryagin, in a stack"
@@ -55,7 +56,9 @@ def contest(problem: str, contestants: Mapping[str, Contestant], rounds: int) ->
 
 def peer(solve: Callable[..., float], optima: NDArray, *columns: Iterable[Any]) -> Contestant:
     """A method that solves one problem after the other, judged by their optima; nan is no answer."""
-    ratios = np.array([solve(*problem) for problem in zip(*columns, strict=True)]) / optima
+    problems = list(zip(*columns, strict=True))
+    none = [float("nan")] * len(problems)
+    ratios = np.array(answer("a peer", lambda: [solve(*problem) for problem in problems], none)) / optima
     found = np.isfinite(ratios)
     return Contestant(one_by_one(solve, *columns), worst(ratios[found] - 1), float(found.mean()))
 

@@ -7,6 +7,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.apart import answer
 from benchmarks.clock import one_by_one, one_call, repeated
 from benchmarks.contest import CALL, STACK, Contestant, Row, contest, peer, worst, worst_gap
 from benchmarks.orbit_correction import cones, linear, modelled
@@ -87,7 +88,8 @@ def _search_entrant(name: str, opponent: Peer, exact: Plan) -> Contestant:
     made, scaled = cache(lambda steps: opponent.make(name, steps)), exact.z0[: opponent.count] / PEAK
     least = thrust(name).fewest
     run = one_by_one(lambda state: search(made, state, least), scaled)
-    answers = [search(made, state, least) for state in scaled]
+    none = [(0, float("nan"))] * len(scaled)
+    answers = answer(name, lambda: [search(made, state, least) for state in scaled], none)
     steps, alpha = (np.array(column) for column in zip(*answers, strict=True))
     right = steps == exact.steps[: len(steps)]
     return Contestant(run, worst((alpha / exact.gauge[: len(steps)] - 1)[right]), float(right.mean()))

@@ -3,6 +3,7 @@
 from functools import partial
 from time import process_time
 
+from benchmarks.apart import answer
 from benchmarks.clock import one_call, repeated, take_turns
 from benchmarks.peers import absent
 from benchmarks.rendezvous import problems
@@ -69,9 +70,13 @@ def _direct(case: Case, best: float) -> tuple[float, float]:
         return float("nan"), float("nan")
     from pontryagin.rendezvous.judge.collocation import direct
 
-    begun = process_time()
-    try:
-        found = direct(case.problem, case.guess, case.revolutions, MESH)
-    except NotConverged:
-        return process_time() - begun, float("nan")
-    return process_time() - begun, found.cost / best
+    def timed() -> tuple[float, float]:
+        begun = process_time()
+        try:
+            found = direct(case.problem, case.guess, case.revolutions, MESH)
+        except NotConverged:
+            return process_time() - begun, float("nan")
+        return process_time() - begun, found.cost / best
+
+    seconds, ratio = answer("CasADi + Ipopt", timed, (float("nan"), float("nan")))
+    return seconds, ratio

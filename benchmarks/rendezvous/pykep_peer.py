@@ -31,7 +31,10 @@ def absent() -> str | None:
 
 
 def solve(problem: Rendezvous, start: Extremal, rounds: int) -> dict[str, Any]:
-    """Duration, residual and times of Newton's method on a least-time problem from a neighbour's costates."""
+    """Duration, residual and times of Newton's method on a least-time problem from a neighbour's costates.
+
+    Empty if pykep's process dies, which a line says.
+    """
     scaled = problem.scaled
     place, target = start_of(start.flight), target_by_kepler(scaled, 0.0)
     given = {
@@ -42,13 +45,13 @@ def solve(problem: Rendezvous, start: Extremal, rounds: int) -> dict[str, Any]:
         "peak": scaled.peak,
         "rounds": rounds,
     }
-    done = subprocess.run(
-        [str(interpreter()), pykep_least_time.__file__],
-        input=json.dumps(given),
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=300,
-    )
+    command = [str(interpreter()), pykep_least_time.__file__]
+    try:
+        done = subprocess.run(
+            command, input=json.dumps(given), capture_output=True, text=True, check=True, timeout=300
+        )
+    except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as reason:
+        print(f"pykep {reason}: its rows are empty")
+        return {}
     answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     return answer

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.apart import answer
 from benchmarks.clock import one_by_one, one_call, repeated
 from benchmarks.contest import CALL, STACK, Contestant, Row, contest, worst, worst_gap
 from benchmarks.peers import absent
@@ -53,7 +55,12 @@ def by_pontryagin(work: Transfers) -> Answers:
 
 
 def by_ruckig(work: Transfers) -> Answers:
-    """Ruckig's answers: its phases, brake phases included, propagated independently."""
+    """Ruckig's answers: its phases, brake phases included, propagated independently; none if it dies."""
+    none = np.full(len(work.peak), np.nan)
+    return answer("ruckig", partial(_by_ruckig, work), Answers(np.zeros(len(none), bool), none, none))
+
+
+def _by_ruckig(work: Transfers) -> Answers:
     import ruckig
 
     solve = RuckigAxis()
@@ -216,10 +223,10 @@ def _compare(ends: str, states: str, jerk: str, work: Transfers) -> Cell:
     both = answers["ruckig"].solved & answers["pontryagin"].solved
     least = np.minimum(answers["ruckig"].duration, answers["pontryagin"].duration)
     failed, longer, miss = {}, {}, {}
-    for side, answer in answers.items():
-        failed[side] = int((~answer.solved).sum())
-        longer[side] = int((both & (answer.duration > least * (1 + SAME))).sum())
-        miss[side] = worst(answer.miss[answer.returned])
+    for side, given in answers.items():
+        failed[side] = int((~given.solved).sum())
+        longer[side] = int((both & (given.duration > least * (1 + SAME))).sum())
+        miss[side] = worst(given.miss[given.returned])
     return Cell(ends, states, jerk, len(work.peak), failed, longer, miss)
 
 
