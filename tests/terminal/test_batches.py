@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -164,6 +165,20 @@ def interrupted(running):
     raise AssertionError("the process does not answer to Ctrl-C")
 
 
+def writer_of(pipe, running):
+    """A descriptor to write to a named pipe that a process reads; the process must open it in time."""
+    for _ in range(100 * PATIENCE):
+        try:
+            descriptor = os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
+        except OSError:  # There is no reader yet.
+            assert running.poll() is None, running.communicate()
+            time.sleep(0.01)
+        else:
+            os.set_blocking(descriptor, True)
+            return descriptor
+    raise AssertionError("the process does not read")
+
+
 def test_a_swallowed_interruption_is_still_known():
     with batches._pressed() as pressed:
         assert not pressed()
@@ -194,7 +209,7 @@ class TestInterruption:
         os.mkfifo(pipe)
         running = process(*SOLVE, "--batch", pipe)
         text = "\n".join(",".join(row) for row in [HEADER, *problems(4 * rows.BLOCK)])
-        with pipe.open("w") as file:
+        with open(writer_of(pipe, running), "w") as file:
             # What a pipe and its reader do not hold was read, so that blocks before it are solved.
             file.write(text)
             file.flush()
