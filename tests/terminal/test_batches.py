@@ -209,7 +209,7 @@ class TestInterruption:
         os.mkfifo(pipe)
         running = process(*SOLVE, "--batch", pipe)
         text = "\n".join(",".join(row) for row in [HEADER, *problems(4 * rows.BLOCK)])
-        with open(writer_of(pipe, running), "w") as file:
+        with os.fdopen(writer_of(pipe, running), "w") as file:
             # What a pipe and its reader do not hold was read, so that blocks before it are solved.
             file.write(text)
             file.flush()
