@@ -5,6 +5,8 @@ import io
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from pontryagin.io import rows
 
@@ -97,3 +99,31 @@ def test_doubles_read_back_and_a_column_that_recurs_is_the_same_text(read):
     cells = [line.split(",") for line in lines]
     assert [one for _, one, _, _ in cells] == ["0.1", "1e+23", "5e-324", "-0.0", ""]
     assert [one == two for _, one, two, _ in cells] == [True] * 5
+
+
+@given(
+    st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=9),
+    st.sampled_from([repr, "{:.3e}".format, "{:+.17g}".format, "{:.0f}".format, " {} ".format]),
+)
+def test_numbers_are_read_to_the_last_bit_however_they_are_written(values, written):
+    texts = list(map(written, values))
+    assert rows._numbers(texts).tobytes() == np.array(list(map(float, texts))).tobytes()
+
+
+@pytest.mark.parametrize("text", ["true", "null", '"5"', "[1]", "1,2", "1], [2", "1e400", "nan", ""])
+def test_what_only_another_language_reads_as_a_number_is_refused(text):
+    for others in ([], ["1", "2.5"]):
+        with pytest.raises(ValueError):
+            rows._numbers([*others, text])
+
+
+def test_numbers_are_written_with_the_fewest_digits_that_read_back():
+    values = np.random.default_rng(2).standard_normal(2000) * 10.0 ** np.arange(-300, 300, 0.3)
+    texts = rows._texts(np.concatenate([values, [np.nan, np.inf, -np.inf, 0.1, 5.0, -0.0]]))
+    assert texts[-6:] == ["", "inf", "-inf", "0.1", "5.0", "-0.0"]
+
+    def digits(text):
+        return text.split("e")[0].strip("-").replace(".", "").strip("0")
+
+    for value, text in zip(values.tolist(), texts, strict=False):
+        assert float(text) == value and digits(text) == digits(repr(value))
