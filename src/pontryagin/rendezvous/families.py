@@ -2,8 +2,7 @@
 
 The duration is changed to a fixed value, or until the terminal law holds. The bound is lowered from the
 largest thrust to p_max. For least time alpha1/alpha2 is raised until the thrust is saturated throughout; then
-alpha2 = 0. The equations are an argument: those of reduced dimension and those in Sapunkov's elements are
-treated in the same way.
+alpha2 = 0. The equations are an argument; those in Sapunkov's elements are solved in this way.
 """
 
 import math
