@@ -7,27 +7,14 @@ with mypy and the packages that have types, at the versions of requirements.lock
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+LOCK = ROOT / "requirements.lock"
 SUPPORTED = ("3.11", "3.12", "3.13")
-TYPED = (
-    "ipython",
-    "lazy-loader",
-    "matplotlib",
-    "mypy",
-    "nbclient",
-    "nbformat",
-    "numba",
-    "numpy",
-    "rerun-sdk",
-    "rich",
-    "scipy",
-    "scipy-stubs",
-    "sympy",
-    "typer",
-)
-"""The packages whose types mypy reads."""
+TYPED = ("ipython", "mypy", "nbclient", "nbformat", "rerun-sdk", "scipy-stubs")
+"""Packages whose types mypy reads, besides those that the library itself needs."""
 UV = str(Path(sys.executable).with_name("uv"))
 
 
@@ -37,27 +24,25 @@ def interpreters(version: str) -> list[str]:
     return [version, *map(str, sorted(kept.glob(f"{version}.*/bin/python")))]
 
 
+def packages() -> list[str]:
+    """What an environment for mypy holds: what the library needs, and what only its types need."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    return [*project["dependencies"], *TYPED]
+
+
 def environment(version: str) -> Path | None:
     """The Python of an environment with mypy for a version; None where it cannot be had."""
     folder = ROOT / "build" / f"types-{version}"
     python = folder / "bin" / "python"
-    if (folder / "complete").exists():
+    complete = folder / "complete"
+    content = "\n".join([*packages(), LOCK.read_text()])
+    if complete.exists() and complete.read_text() == content:
         return python
     make = [UV, "venv", "-q", "--clear", "--no-python-downloads", str(folder), "--python"]
-    install = [
-        UV,
-        "pip",
-        "install",
-        "-q",
-        "--python",
-        str(python),
-        "-c",
-        str(ROOT / "requirements.lock"),
-        *TYPED,
-    ]
+    install = [UV, "pip", "install", "-q", "--python", str(python), "-c", str(LOCK), *packages()]
     if not any(succeeds([*make, place]) for place in interpreters(version)) or not succeeds(install):
         return None
-    (folder / "complete").touch()
+    complete.write_text(content)
     return python
 
 
