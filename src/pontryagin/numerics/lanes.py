@@ -4,6 +4,7 @@
 `lane_assembly` compiles the equations for it.
 """
 
+import ctypes
 import functools
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
@@ -105,6 +106,11 @@ class CompiledLanes:
     step: int
     equations: Equations
     code: object
+
+    def evaluate(self, t: Array, x: Array, p: Array, out: Array) -> None:
+        """The rates of all lanes at t (LANES,), x (size, LANES) and p (p, LANES), written to ``out``."""
+        pointers = (array.ctypes.data for array in (t, x, p, out))
+        ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(self.rates)(*pointers)
 
     def run(
         self, start: Array, begin: Array, end: Array, values: Array, tolerance: float
