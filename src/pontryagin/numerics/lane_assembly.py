@@ -9,7 +9,7 @@ from functools import partial, reduce
 
 from pontryagin.numerics import assembly, dop853
 from pontryagin.numerics.lane_loop import LANES
-from pontryagin.numerics.lane_text import VECTOR, WHOLE, WIDE, Text, constant, sine_and_cosine
+from pontryagin.numerics.lane_text import VECTOR, WHOLE, WIDE, Instructions, constant, sine_and_cosine
 from pontryagin.numerics.tape import Recorded, Tape, operands
 
 
@@ -34,7 +34,7 @@ def function(name: str, tape: Tape, states: int, columns: int, results: Sequence
     results : sequence of Recorded
         What it writes to ``out``.
     """
-    text = Text("v")
+    text = Instructions("v")
     held: dict[int, str] = {}
     pairs: dict[int, tuple[str, str]] = {}
 
@@ -89,7 +89,7 @@ def step(name: str, rates: str, size: int) -> str:
     size : int
         Number of numbers of a trajectory.
     """
-    text = Text("v")
+    text = Instructions("v")
     pointers = ", ".join(f"ptr noalias %{of}" for of in ("t", "h", "y", "p", "k", "new", "off"))
     head = f"define void @{name}({pointers}, double %tolerance) {WIDE} {{"
     clock, there, slopes = (text.write(f"alloca [{n} x {VECTOR}], align 64") for n in (1, size, size))
@@ -134,7 +134,7 @@ def step(name: str, rates: str, size: int) -> str:
 
 
 def _error(
-    text: Text, h: str, states: Sequence[tuple[str, str]], estimates: Sequence[tuple[str, str]]
+    text: Instructions, h: str, states: Sequence[tuple[str, str]], estimates: Sequence[tuple[str, str]]
 ) -> str:
     """The estimated error of a step as a share of what is allowed, as in `runge_kutta.error`.
 

@@ -39,7 +39,7 @@ COSINE = (
 """Coefficients of (cos x - 1 + x^2/2)/x^4 in powers of x^2, for |x| < pi/4."""
 
 
-class Text:
+class Instructions:
     """Lines of a function's text, with a new name for each result."""
 
     def __init__(self, prefix: str) -> None:
@@ -85,7 +85,7 @@ WIDE = f'"prefer-vector-width"="{64 * LANES}" "min-legal-vector-width"="{64 * LA
 
 def sine_and_cosine() -> str:
     """The text of a function of a vector that returns its sine and its cosine."""
-    text = Text("s")
+    text = Instructions("s")
     size, most = text.function("fabs", "%x"), constant(LARGEST)
     small = text.write(f"fcmp ole {VECTOR} {size}, {most}")
     whole = text.write(f"bitcast <{LANES} x i1> {small} to i{LANES}")
@@ -98,14 +98,14 @@ def sine_and_cosine() -> str:
     return "\n".join([head, *text.lines, "}"]) + "\n"
 
 
-def _returned(text: Text, sine: str, cosine: str) -> list[str]:
+def _returned(text: Instructions, sine: str, cosine: str) -> list[str]:
     kind = f"{{{VECTOR}, {VECTOR}}}"
     first = text.write(f"insertvalue {kind} poison, {VECTOR} {sine}, 0")
     both = text.write(f"insertvalue {kind} {first}, {VECTOR} {cosine}, 1")
     return [f"  ret {kind} {both}"]
 
 
-def _reduced(text: Text) -> tuple[str, str]:
+def _reduced(text: Instructions) -> tuple[str, str]:
     """Sine and cosine of %x, from those of its distance to the nearest multiple of pi/2."""
     turns = text.function("rint", text.binary("mul", "%x", constant(0.63661977236758134308)))
     first, second, third = (text.binary("mul", turns, constant(part)) for part in QUARTERS)
@@ -132,7 +132,7 @@ def _reduced(text: Text) -> tuple[str, str]:
     return results[0], results[1]
 
 
-def _polynomials(text: Text, x: str, tail: str) -> tuple[str, str]:
+def _polynomials(text: Instructions, x: str, tail: str) -> tuple[str, str]:
     """Sine and cosine of x + tail, for |x| < pi/4 and a tail below its rounding."""
     add, subtract, multiply = (partial(text.binary, of) for of in ("add", "sub", "mul"))
 
