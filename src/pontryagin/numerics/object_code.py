@@ -219,10 +219,10 @@ def scratch_of(path: Path) -> Path:
 def cache_folder() -> Path:
     """The user's cache, or a temporary folder where it cannot be written."""
     base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    folder = Path(base).expanduser() / "pontryagin"
     try:
+        folder = Path(base).expanduser() / "pontryagin"
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder
-    except OSError:
+    except (OSError, RuntimeError):  # RuntimeError: neither HOME nor the system tells the user's home.
         return Path(tempfile.mkdtemp(prefix="pontryagin-"))

@@ -162,7 +162,7 @@ def reading(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot read {path}: {_cause(reason)}") from reason
+        raise Refusal(option, f"cannot read {path}: {cause(reason)}") from reason
     except (ValueError, csv.Error) as reason:
         raise Refusal(option, f": {path}, {reason}") from reason
 
@@ -173,7 +173,7 @@ def writable(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot write {path}: {_cause(reason)}") from reason
+        raise Refusal(option, f"cannot write {path}: {cause(reason)}") from reason
 
 
 @contextmanager
@@ -184,7 +184,14 @@ def writing(option: str, path: Path) -> Iterator[None]:
     typer.echo(f"wrote {path}", err=True)
 
 
-def _cause(reason: OSError) -> str:
+def cause(reason: OSError) -> str:
+    """What the system says about a file that cannot be used.
+
+    Examples
+    --------
+    >>> cause(OSError(28, "No space left on device"))
+    'no space left on device'
+    """
     return (reason.strerror or str(reason)).lower()
 
 

@@ -1,0 +1,105 @@
+"""Where the command line writes: through pipes and links, and one line where a place is full or no file."""
+
+import os
+import resource
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from command_line import assert_refused, run, write_table
+from pontryagin.numerics import object_code
+
+SOLVE = ("solve", "triple-integrator", "--norm", "2")
+ONE = (*SOLVE, "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2")
+SCRIPT = "import sys; from pontryagin.cli import main; sys.argv[0] = 'pontryagin'; main()"
+
+
+@pytest.fixture
+def table(tmp_path):
+    """A table with one problem."""
+    header = ("x10", "x20", "x30", "x1f", "x2f", "x3f", "tf")
+    return write_table(tmp_path / "in.csv", header, [["0", "0", "0", "1", "0", "0", "2"]])
+
+
+def command(option, table):
+    """The command that writes a file with this option."""
+    if option in ("--csv", "--json"):
+        return ("ledger", "--paper", "Gorelov", "--verdict", "misprint")
+    return (*SOLVE, "--batch", table) if option == "--out" else ONE
+
+
+WRITTEN = {
+    "--out": ("a.csv", b"x10,"),
+    "--plot": ("a.png", b"\x89PNG"),
+    "--record": ("a.rrd", b"RRF"),
+    "--csv": ("a.csv", b"paper,"),
+}
+
+
+@pytest.mark.parametrize("option", WRITTEN)
+def test_a_pipe_is_written_through_and_a_link_is_followed(tmp_path, table, option):
+    name, begins = WRITTEN[option]
+    pipe, target, link = tmp_path / "nodes" / name, tmp_path / f"target-{name}", tmp_path / name
+    pipe.parent.mkdir()
+    os.mkfifo(pipe)
+    target.write_bytes(b"old")
+    target.chmod(0o640)
+    link.symlink_to(target)
+    reader = subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE)
+    for place in (pipe, link):
+        result = run(*command(option, table), option, place)
+        assert (result.exit_code, result.stderr) == (0, f"wrote {place}\n")
+    assert reader.communicate(timeout=20)[0].startswith(begins)
+    assert stat.S_ISFIFO(pipe.stat().st_mode) and [*pipe.parent.iterdir()] == [pipe]
+    assert link.is_symlink() and target.read_bytes().startswith(begins)
+    assert stat.S_IMODE(target.stat().st_mode) == 0o640
+
+
+@pytest.mark.parametrize("option", ["--out", "--csv", "--json"])
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_what_is_no_name_of_a_file_is_refused(table, option, name):
+    result = run(*command(option, table), f"{option}={name}")
+    assert_refused(result, f"{option} cannot write {name or '.'}: is a directory")
+
+
+@pytest.mark.parametrize("option", ["--batch", "--file"])
+def test_no_file_is_read_from_an_empty_name(option):
+    solve = SOLVE if option == "--batch" else ("solve", "rendezvous")
+    assert_refused(run(*solve, f"{option}="), f"{option} cannot read .: is a directory")
+
+
+def no_room():
+    """Stand in for a full disk: the process may not make a file longer."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+
+@pytest.mark.parametrize("arguments", [["--version"], ["--help"], ONE])
+def test_a_full_standard_output_is_one_line(tmp_path, arguments):
+    with (tmp_path / "out").open("w") as out:
+        done = subprocess.run(
+            [sys.executable, "-c", SCRIPT, *arguments],
+            stdout=out,
+            stderr=subprocess.PIPE,
+            text=True,
+            preexec_fn=no_room,
+            timeout=60,
+        )
+    assert (done.returncode, done.stderr) == (1, "Error: cannot write the output: file too large\n")
+
+
+@pytest.mark.parametrize("base", [None, "~nobody-of-this-name/cache"])
+def test_without_a_home_code_is_kept_in_a_temporary_folder(monkeypatch, base):
+    def nowhere(self):
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    if base is None:
+        monkeypatch.setattr(Path, "expanduser", nowhere)
+    else:
+        monkeypatch.setenv("XDG_CACHE_HOME", base)
+    folder = object_code.cache_folder.__wrapped__()
+    assert folder.is_dir() and folder.name.startswith("pontryagin-")
+    folder.rmdir()
