@@ -128,3 +128,25 @@ def test_a_disturbance_with_a_function_without_definition_is_refused():
 def test_numbers_and_expressions_are_taken(number):
     assert expression("mass", number) == sp.sympify(number)
     assert expression("mass", np.array(number)) == sp.sympify(number)
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        sp.floor(x),
+        sp.frac(x),
+        sp.DiracDelta(x),
+        sp.erf(x),
+        sp.gamma(x),
+        sp.Integral(sp.sin(x * t), (t, 0, 1)),
+    ],
+    ids=str,
+)
+def test_what_numpy_does_not_evaluate_is_refused_by_name(function):
+    with pytest.raises(ValueError, match=r"f\[0\] holds .*, which NumPy does not evaluate"):
+        PhaseSystem(**SYSTEM | {"f": [u + function]})
+
+
+def test_a_step_is_written_with_a_sign():
+    assert expression("f", 2 * sp.Heaviside(x)) == 1 + sp.sign(x)
+    assert expression("f", sp.Heaviside(x, 0)) == (1 + sp.sign(x)) / 2

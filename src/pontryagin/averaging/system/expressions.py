@@ -5,13 +5,19 @@ inside lists, tuples and arrays. What a user gives therefore passes through `exp
 """
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.core.function import AppliedUndef
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+
+KINKED = (sp.Abs, sp.sign, sp.Piecewise, sp.Heaviside)
+"""Functions with kinks or jumps, between which they are differentiated."""
 
 
 def expression(name: str, value: Any, argument: str | None = None) -> sp.Expr:
@@ -28,7 +34,8 @@ def expression(name: str, value: Any, argument: str | None = None) -> sp.Expr:
     Raises
     ------
     TypeError, ValueError
-        If it is neither a number nor an expression of SymPy, or holds a function without a definition.
+        If it is neither a number nor an expression of SymPy, or holds a function that has no definition, or
+        that NumPy does not evaluate with its derivatives.
 
     Examples
     --------
@@ -46,10 +53,31 @@ def expression(name: str, value: Any, argument: str | None = None) -> sp.Expr:
         raise ArgumentTypeError(
             f"{name} must be a SymPy expression or a number, got {given}{value!r}", argument
         )
-    undefined = sorted(str(call.func) for call in read.atoms(AppliedUndef))
-    if undefined:
-        raise ArgumentValueError(f"{name} holds the function {undefined[0]}, which is not defined", argument)
-    return read
+    for call in sorted(read.atoms(sp.Function, sp.Derivative, sp.Subs, ExprWithLimits), key=str):
+        if isinstance(call, AppliedUndef):
+            raise ArgumentValueError(f"{name} holds the function {call.func}, which is not defined", argument)
+        if not (isinstance(call, sp.Function) and _differentiable(call.func, len(call.args))):
+            raise ArgumentValueError(
+                f"{name} holds {call}, which NumPy does not evaluate with its derivatives", argument
+            )
+    return read.replace(sp.Heaviside, lambda value, *_: (1 + sp.sign(value)) / 2)
+
+
+@cache
+def _differentiable(function: type[sp.Function], count: int) -> bool:
+    """Whether NumPy evaluates a function and its derivatives; on either side of a kink if it has some."""
+    if issubclass(function, KINKED):
+        return True
+    places = sp.symbols(f"z:{count}", real=True)
+    value = function(*places)
+    slopes = [value.diff(place) for place in places]
+    try:
+        sp.lambdify(places, [value, *slopes, *(slope.diff(places[0]) for slope in slopes)], "numpy")(
+            *[np.full(2, 0.5)] * count
+        )
+    except (NameError, TypeError, NotImplementedError, PrintMethodNotImplementedError):
+        return False
+    return True
 
 
 def _read(value: Any) -> sp.Expr | None:
