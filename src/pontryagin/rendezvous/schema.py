@@ -89,14 +89,14 @@ def of_row(cells: Mapping[str, str]) -> Rendezvous:
 
     Examples
     --------
-    >>> row = {"name": "a", "peak": "inf", "duration": "", "chaser.parameter": "1", "chaser.anomaly": "0"}
+    >>> row = {"name": "a", "peak": "1/10", "duration": "", "chaser.parameter": "1", "chaser.anomaly": "0"}
     >>> row |= {"chaser.eccentricity": "0", "target.parameter": "3/2", "target.eccentricity": "0.1"}
     >>> crafts = ("chaser", "target")
     >>> row |= {f"{craft}.attitude_{i}": str(int(i == 1)) for craft in crafts for i in range(1, 5)}
     >>> row |= {"target.anomaly": "pi/5"}
     >>> problem = of_row(row)
     >>> problem.peak, problem.free, problem.target.parameter
-    (inf, True, 1.5)
+    (0.1, True, 1.5)
     """
     value: dict[str, Any] = {}
     for name, text in cells.items():
