@@ -14,6 +14,8 @@ from pontryagin.numerics import object_code
 
 SOLVE = ("solve", "triple-integrator", "--norm", "2")
 ONE = (*SOLVE, "--x0", "0,0,0", "--xf", "1,0,0", "--duration", "2")
+MANY = "x10,x20,x30,x1f,x2f,x3f,tf\n" + "".join(f"0,0,0,{i},0,0,2\n" for i in range(1, 601))
+"""A table with so many problems that native code is made."""
 SCRIPT = "import sys; from pontryagin.cli import main; sys.argv[0] = 'pontryagin'; main()"
 
 
@@ -90,8 +92,8 @@ def test_a_full_standard_output_is_one_line(tmp_path, arguments):
     assert (done.returncode, done.stderr) == (1, "Error: cannot write the output: file too large\n")
 
 
-@pytest.mark.parametrize("base", [None, "~nobody-of-this-name/cache"])
-def test_without_a_home_code_is_kept_in_a_temporary_folder(monkeypatch, base):
+@pytest.mark.parametrize("base", [None, "~nobody-of-this-name/cache", "/dev/null/cache"])
+def test_where_no_code_can_be_kept_a_process_makes_its_own_and_says_so(monkeypatch, base):
     def nowhere(self):
         raise RuntimeError("Could not determine home directory.")
 
@@ -100,6 +102,22 @@ def test_without_a_home_code_is_kept_in_a_temporary_folder(monkeypatch, base):
         monkeypatch.setattr(Path, "expanduser", nowhere)
     else:
         monkeypatch.setenv("XDG_CACHE_HOME", base)
-    folder = object_code.cache_folder.__wrapped__()
+    with pytest.warns(RuntimeWarning, match="native code cannot be kept in .*; XDG_CACHE_HOME names another"):
+        folder = object_code.cache_folder.__wrapped__()
     assert folder.is_dir() and folder.name.startswith("pontryagin-")
-    folder.rmdir()
+
+
+def test_without_a_writable_home_the_answer_is_the_same_and_nothing_is_left(tmp_path):
+    known = run(*SOLVE, "--batch", "-", input=MANY)
+    surroundings = {name: value for name, value in os.environ.items() if name != "XDG_CACHE_HOME"}
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, *SOLVE, "--batch", "-"],
+        input=MANY,
+        capture_output=True,
+        text=True,
+        env=surroundings | {"HOME": "/dev/null/home", "TMPDIR": str(tmp_path)},
+        timeout=120,
+    )
+    assert (done.returncode, done.stdout) == (0, known.stdout)
+    assert done.stderr.startswith("Warning: native code cannot be kept in ~/.cache/pontryagin")
+    assert not list(tmp_path.iterdir())

@@ -108,6 +108,17 @@ def replacing(path: Path) -> Iterator[Path]:
     '32'
     """
     path = Path(path)
+    try:
+        with _replacing(path) as draft:
+            yield draft
+    except OSError as reason:
+        if reason.filename is None:
+            reason.filename = str(path)
+        raise
+
+
+@contextmanager
+def _replacing(path: Path) -> Iterator[Path]:
     if not replaceable(path):
         with tempfile.TemporaryDirectory(prefix="pontryagin-") as folder:
             draft = Path(folder) / path.name
