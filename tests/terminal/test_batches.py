@@ -257,7 +257,8 @@ class TestInterruption:
         out = tmp_path / "out.csv"
         result = run(*SOLVE, "--batch", table, "--out", out)
         assert (result.exit_code, result.stdout) == (130, "")
-        assert result.stderr == f"wrote {out}\nInterrupted: the first 4 rows are done and written\n"
+        done = "the first 4 rows are done and written; the same command goes on from there"
+        assert result.stderr == f"wrote {out}\nInterrupted: {done}\n"
         assert [row["name"] for row in read_table(out.read_text())] == ["n0", "n1", "n2", "n3"]
 
     def test_before_any_row_is_done_nothing_is_written(self, tmp_path, solved):

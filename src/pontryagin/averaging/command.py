@@ -197,4 +197,6 @@ def _solve_batch(
             )
         return transcript.answers(solution, epsilon, phase), None
 
-    batches.run(path, out, chosen.stacks(given, path), solved, json, ["--epsilon", "--phase", *shared])
+    shared += ["--epsilon", "--phase"]
+    settings = (chosen, sorted(given.items()), epsilon, phase)
+    batches.run(path, out, chosen.stacks(given, path), solved, json, shared, settings)

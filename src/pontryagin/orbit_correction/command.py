@@ -115,4 +115,5 @@ def _solve_batch(path: Path, out: str, engine: tuple[float, float, str], json: b
         plan = _planned(block.stack(transcript.COLUMNS), engine)
         return transcript.answers(plan), plan.certificate
 
-    batches.run(path, out, rows.blocks(path, transcript.COLUMNS), solved, json, ("--interval", "--peak"))
+    shared = ("--interval", "--peak")
+    batches.run(path, out, rows.blocks(path, transcript.COLUMNS), solved, json, shared, engine)

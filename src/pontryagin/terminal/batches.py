@@ -1,32 +1,29 @@
 """A batch of problems from a CSV file, read, solved and put aside block by block, and written at the end.
 
-The memory that a batch takes does not grow with its rows: answers wait in a temporary file. A row without an
-answer comes back with the reason in its column ``error``; the others do not suffer from it. After an
-interruption the result holds the rows that were done.
+The memory that a batch takes does not grow with its rows: answers wait in a file. A row without an answer
+comes back with the reason in its column ``error``; the others do not suffer from it. After an interruption
+the result holds the rows that were done; an interrupted or killed batch goes on when it is started again.
 """
 
-import os
-import pickle
 import re
 import signal
 import sys
-import tempfile
 import threading
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
-from typing import IO, Any, NamedTuple
+from typing import Any
 
 import typer
 
 from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
-from pontryagin.io import files, rows
+from pontryagin.io import files
 from pontryagin.io.rows import Rows
 from pontryagin.progress import report
 from pontryagin.terminal import bar, console
+from pontryagin.terminal.spool import Spool, piece
 
 Answers = Mapping[str, Any]
 """The columns of the answers of a block, (n,) or (n, k) each."""
@@ -36,75 +33,6 @@ Unsolved = (console.Refusal, ArgumentTypeError, ArgumentValueError, Infeasible, 
 """What a solver raises where a row of a block has no answer."""
 
 
-class Place(NamedTuple):
-    """Where some rows lie in the temporary file: their number, the width of their lines, and their errors."""
-
-    start: int
-    rows: int
-    width: int
-    errors: Mapping[int, str]
-
-
-class Spool:
-    """The rows done so far, with their answers, as lines of text in a temporary file beside the target.
-
-    In CSV, a block may have more columns than the blocks before it; its first ones are the same.
-
-    Attributes
-    ----------
-    rows, answered : int
-        Number of the rows done, and of those that have an answer.
-    errors : int
-        Number of the rows with an error.
-    """
-
-    def __init__(self, out: str, as_json: bool) -> None:
-        self._out, self._json = Path(out), as_json
-        self._header: list[str] = []
-        self._places: list[Place] = []
-        self.rows = self.answered = self.errors = 0
-
-    @cached_property
-    def _file(self) -> IO[bytes]:
-        if self._out == Path("-") or not files.replaceable(self._out):
-            return tempfile.TemporaryFile()
-        folder = Path(os.path.realpath(self._out)).parent
-        folder.mkdir(parents=True, exist_ok=True)
-        return tempfile.TemporaryFile(dir=folder)
-
-    def add(self, block: Rows, answers: Answers | None, errors: Mapping[int, str]) -> None:
-        """Put rows aside, with their answers if they have some, and with errors by the index of their row."""
-        rows.require_new(block.header, [rows.ERROR])
-        header, lines = block.header, []
-        if self._json:
-            lines = rows.as_json(block, answers or {}, errors)
-        elif answers is None:
-            lines = rows.unanswered(block)
-        else:
-            columns, lines = rows.answered(block, answers)
-            header = [*header, *columns]
-        with console.writable("--out", self._out):
-            start = self._file.seek(0, os.SEEK_END)
-            pickle.dump(lines, self._file)
-        self._header = max(self._header, header, key=len)
-        self._places.append(Place(start, len(lines), len(header), errors))
-        self.rows, self.errors = self.rows + len(lines), self.errors + len(errors)
-        self.answered += len(lines) if answers is not None else 0
-
-    def texts(self) -> Iterator[str]:
-        """All rows as lines of JSON, or as CSV below a header, where narrower rows end with empty cells."""
-        if not self._json:
-            yield rows.header_line([*self._header, *([rows.ERROR] if self.errors else [])]) + "\n"
-        for place in self._places:
-            self._file.seek(place.start)
-            lines = pickle.load(self._file)
-            if not self._json:
-                empty = "," * (len(self._header) - place.width + bool(self.errors))
-                cells = {i: rows.header_line([error]) for i, error in place.errors.items()}
-                lines = [f"{line}{empty}{cells.get(i, '')}" for i, line in enumerate(lines)]
-            yield "\n".join([*lines, ""])
-
-
 def run(
     path: Path,
     out: str,
@@ -112,6 +40,7 @@ def run(
     solve: Solver,
     as_json: bool = False,
     shared: Collection[str] = (),
+    settings: object = None,
 ) -> None:
     """Solve blocks of problems, and write all their rows with the answers.
 
@@ -129,6 +58,8 @@ def run(
         Whether a JSON object is written for each row, in place of CSV.
     shared : collection of str
         Options whose values are those of all rows: an error about one of them is not that of a row.
+    settings : object
+        All that the answers depend on beside the rows; its `repr` tells it from other settings.
 
     Raises
     ------
@@ -137,29 +68,27 @@ def run(
     typer.TyperException
         When rows are without answer: with the first reason, and the number of its line.
     """
-    spool, first = Spool(out, as_json), _First()
-    stopped = _solved(path, blocks, partial(_parts, solve, frozenset(shared)), spool, first)
-    if spool.answered:
-        _write(out, spool.texts())
+    spool = Spool(out, f"{solve.__module__} {settings!r}", as_json)
+    try:
+        stopped = _solved(path, blocks, partial(_parts, solve, frozenset(shared)), spool, as_json, out)
+        if spool.answered:
+            _write(out, spool.texts())
+    except BaseException:
+        if not spool.answered:
+            spool.remove()
+        raise
+    if stopped and spool.answered:
+        further = "; the same command goes on from there" if spool.lasting else ""
+        raise console.interrupted(f"the first {spool.rows} rows are done and written{further}")
+    spool.remove()
     if stopped:
-        raise console.interrupted(
-            f"the first {spool.rows} rows are done and written" if spool.answered else "no row is done"
-        )
-    if spool.errors:
+        raise console.interrupted("no row is done")
+    if spool.first:
+        line, error, status = spool.first
         some = f"{spool.errors} of {spool.rows} rows, the first of them in " if spool.answered else ""
-        message = f"--batch: {path}, {some}line {first.line}: {first.error}"
-        failure = typer.TyperException(message)
-        failure.exit_code = 1 if spool.answered else first.status
+        failure = typer.TyperException(f"--batch: {path}, {some}line {line}: {error}")
+        failure.exit_code = 1 if spool.answered else status
         raise failure
-
-
-@dataclass
-class _First:
-    """The first error of a batch, the line of its row, and the exit code if no row has an answer."""
-
-    line: int = 0
-    error: str = ""
-    status: int = 0
 
 
 def _solved(
@@ -167,25 +96,36 @@ def _solved(
     blocks: Iterator[Rows],
     parts: Callable[[Rows], Iterator[tuple[Rows, Answers | None, dict[int, str], int]]],
     spool: Spool,
-    first: _First,
+    as_json: bool,
+    out: str,
 ) -> bool:
     """Put aside the answers of all blocks, or of those before an interruption; whether there was one."""
     try:
         with _pressed() as pressed, bar.shown():
             total = _lines(path) if sys.stderr.isatty() else None
             for block in _read(path, blocks):
-                for part, answers, errors, status in parts(block):
+                with console.writable("--out", Path(out)):
+                    known = spool.recall(block)
+                if not known:
+                    _tell(spool)
+                    solved = list(parts(block))
                     with console.reading("--batch", path):
-                        spool.add(part, answers, errors)
-                    if errors and not first.error:
-                        i = min(errors)
-                        first.line, first.error, first.status = part.lines[i], errors[i], status
+                        pieces = [piece(*part, as_json) for part in solved]
+                    with console.writable("--out", Path(out)):
+                        spool.keep(block, pieces)
                 report("rows done", block.lines[-1], total)
                 if pressed():
                     return True
     except KeyboardInterrupt:
         return True
     return False
+
+
+def _tell(spool: Spool) -> None:
+    """Say once that rows of an earlier process are taken."""
+    if spool.earlier:
+        typer.echo(f"Goes on after {spool.earlier} rows that were done before", err=True)
+        spool.earlier = 0
 
 
 def _read(path: Path, blocks: Iterator[Rows]) -> Iterator[Rows]:

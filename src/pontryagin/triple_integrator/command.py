@@ -194,4 +194,4 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any, json: bool) -> No
     # A formula is integrated over the times of all rows at once, from the first start to the last end.
     whole = isinstance(force, Formula)
     shared = ("--norm", "--peak", "--disturbance")
-    batches.run(path, out, batch.blocks(path, goal.least_time, whole), solved, json, shared)
+    batches.run(path, out, batch.blocks(path, goal.least_time, whole), solved, json, shared, (goal, force))
