@@ -23,7 +23,7 @@ from pontryagin.io import files
 from pontryagin.io.rows import Rows
 from pontryagin.progress import report
 from pontryagin.terminal import bar, console
-from pontryagin.terminal.spool import Spool, piece
+from pontryagin.terminal.spool import Spool, rows_done
 
 Answers = Mapping[str, Any]
 """The columns of the answers of a block, (n,) or (n, k) each."""
@@ -110,7 +110,7 @@ def _solved(
                     _tell(spool)
                     solved = list(parts(block))
                     with console.reading("--batch", path):
-                        pieces = [piece(*part, as_json) for part in solved]
+                        pieces = [rows_done(*part, as_json) for part in solved]
                     with console.writable("--out", Path(out)):
                         spool.keep(block, pieces)
                 report("rows done", block.lines[-1], total)

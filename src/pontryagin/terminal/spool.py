@@ -33,7 +33,7 @@ LENGTH, SUM = 8, 4
 
 
 @dataclass(frozen=True)
-class Piece:
+class RowsDone:
     """Some rows done: their lines of text, and the errors of rows by their index."""
 
     header: list[str]
@@ -44,9 +44,9 @@ class Piece:
     """The line of the first row with an error, the error, and the exit code if no row has an answer."""
 
 
-def piece(
+def rows_done(
     block: Rows, answers: Mapping[str, Any] | None, errors: Mapping[int, str], status: int, as_json: bool
-) -> Piece:
+) -> RowsDone:
     """Rows with their answers if they have some, and with errors by the index of their row.
 
     Raises
@@ -64,7 +64,7 @@ def piece(
         columns, lines = rows.answered(block, answers)
         header = [*header, *columns]
     first = (block.lines[min(errors)], errors[min(errors)], status) if errors else None
-    return Piece(header, lines, answers is not None, sorted(errors.items()), first)
+    return RowsDone(header, lines, answers is not None, sorted(errors.items()), first)
 
 
 class Spool:
@@ -88,7 +88,7 @@ class Spool:
     earlier : int
         Number of the rows that were done by a process before this one.
     first : tuple or None
-        `Piece.first` of the first row with an error.
+        `RowsDone.first` of the first row with an error.
     """
 
     def __init__(self, out: str, settings: str, as_json: bool) -> None:
@@ -133,18 +133,18 @@ class Spool:
             self._file.seek(start)
             self._file.truncate()
             return False
-        pieces = [Piece(**known) for known in orjson.loads(content)]
+        pieces = [RowsDone(**known) for known in orjson.loads(content)]
         self._count(start, pieces)
         self.earlier = self.rows
         return True
 
-    def keep(self, block: Rows, pieces: list[Piece]) -> None:
+    def keep(self, block: Rows, pieces: list[RowsDone]) -> None:
         """Put the pieces of a block aside."""
         start = self._file.tell()
         _append(self._file, _of(block), orjson.dumps([vars(one) for one in pieces]))
         self._count(start, pieces)
 
-    def _count(self, start: int, pieces: list[Piece]) -> None:
+    def _count(self, start: int, pieces: list[RowsDone]) -> None:
         self._done.append(start)
         for one in pieces:
             self._header = max(self._header, one.header, key=len)
@@ -161,9 +161,9 @@ class Spool:
             self._file.seek(start + SIZE)
             length = int.from_bytes(self._file.read(LENGTH))
             for known in orjson.loads(self._file.read(length)):
-                yield self._text(Piece(**known))
+                yield self._text(RowsDone(**known))
 
-    def _text(self, done: Piece) -> str:
+    def _text(self, done: RowsDone) -> str:
         if self._json:
             return "\n".join([*done.lines, ""])
         empty = "," * (len(self._header) - len(done.header) + bool(self.errors))
