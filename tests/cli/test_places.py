@@ -5,6 +5,7 @@ import resource
 import stat
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -90,6 +91,40 @@ def test_a_full_standard_output_is_one_line(tmp_path, arguments):
             timeout=60,
         )
     assert (done.returncode, done.stderr) == (1, "Error: cannot write the output: file too large\n")
+
+
+@contextmanager
+def room_for(size):
+    """Stand in for a disk that is all but full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("size", [0, 30_000])
+@pytest.mark.parametrize(
+    "option", ["--plot=a.svg", "--plot=a.pdf", "--plot=a.png", "--record=a.rrd", "--csv=a.csv"]
+)
+def test_no_half_of_a_file_is_left_where_the_disk_is_full(tmp_path, monkeypatch, option, size):
+    monkeypatch.chdir(tmp_path)
+    name, path = option.split("=")
+    (tmp_path / path).write_text("old")
+    many = ("ledger", "--paper", "Gorelov")
+    with room_for(size if path != "a.pdf" else 0):
+        result = run(*(many if name == "--csv" else ONE), option)
+    assert_refused(result, f"{name} cannot write {path}: ")
+    assert "file too large" in result.stderr
+    assert (tmp_path / path).read_text() == "old" and len([*tmp_path.iterdir()]) == 1
+
+
+def test_a_batch_that_finds_no_room_leaves_nothing(tmp_path, table):
+    with room_for(0):
+        result = run(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
+    assert_refused(result, f"--out cannot write {tmp_path / 'out.csv'}: file too large")
+    assert [*tmp_path.iterdir()] == [table]
 
 
 @pytest.mark.parametrize("base", [None, "~nobody-of-this-name/cache", "/dev/null/cache"])

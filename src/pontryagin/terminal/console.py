@@ -4,6 +4,7 @@ Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in
 """
 
 import csv
+import io
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -211,12 +212,14 @@ def save_figure(option: str, path: Path, figure: Any) -> None:
     """Write a Matplotlib figure as SVG, PDF or PNG, as the file's ending says."""
     from pontryagin.display.plotting import svg_of
 
+    ending = path.suffix.lower()
+    drawn = io.BytesIO()
+    if ending == ".svg":
+        drawn.write(svg_of(figure).encode())
+    else:
+        figure.savefig(drawn, format=ending.removeprefix("."), dpi=200)
     with writing(option, path):
-        if path.suffix.lower() == ".svg":
-            files.write(path, svg_of(figure))
-            return
-        with files.replacing(path) as draft:
-            figure.savefig(draft, dpi=200)
+        files.write(path, drawn.getvalue())
 
 
 def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> None:

@@ -112,7 +112,11 @@ class Spool:
         if _next(file, self._about) is None:
             file.seek(0)
             file.truncate()
-            _append(file, self._about, b"")
+            try:
+                _append(file, self._about, b"")
+            except OSError:
+                Path(file.name).unlink()
+                raise
         return file
 
     @property
@@ -180,7 +184,8 @@ class Spool:
         if self.lasting:
             Path(self._file.name).unlink(missing_ok=True)
             self._remove_drafts()
-        self._file.close()
+        with suppress(OSError):  # What could not be written before cannot be written now.
+            self._file.close()
 
     def _remove_drafts(self) -> None:
         """Remove what processes that were killed at the end had written of the target."""
