@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 from pontryagin.cli import app
 
 
-def run(*arguments):
+def run(*arguments, **given):
     """The outcome of a command; an unexpected exception is raised."""
-    return CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
+    return CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False, **given)
 
 
 def assert_refused(result, begins, status=2):

@@ -144,7 +144,11 @@ def test_files_are_drawn_and_recorded(tmp_path):
         ("smooth", [*SMOOTH, "--record", "a.rrd"], "--record needs --epsilon"),
         ("smooth", [*SMOOTH, "--plot", "a.gif"], "--plot takes a file name ending"),
         ("smooth", [*SMOOTH, "--out", "a.csv"], "--out needs --batch"),
-        ("smooth", [*SMOOTH, "--batch", "a.csv", "--json"], "--json cannot be combined with --batch"),
+        (
+            "smooth",
+            [*SMOOTH, "--batch", "a.csv", "--plot", "a.svg"],
+            "--plot cannot be combined with --batch",
+        ),
         ("smooth", ["--batch", "none.csv"], "--batch cannot read none.csv"),
         ("smooth", ["--v0", "1", "--v1", "1", "--plot", "a.svg"], "--plot needs a motion"),
     ],
@@ -194,7 +198,8 @@ class TestBatch:
             ([], "v0\n1\n", "--batch: {path}, line 1: column v1 is missing"),
             (["--v1", "2"], "v0\nfast\n", "--batch: {path}, line 2: v0 takes a number"),
             (["--v1", "2", "--k", "3"], "v0,k\n1,2\n", "--k cannot be combined with the column of {path}"),
-            (["--v1", "2"], "v0\n-1\n", "--v0 must be"),
+            (["--v1", "2"], "v0\n-1\n", "--batch: {path}, line 2: v0 must be"),
+            (["--v1", "-2"], "v0\n1\n", "--v1 must be"),
         ],
     )
     def test_what_is_wrong_is_named(self, tmp_path, arguments, text, begins):

@@ -123,3 +123,22 @@ def test_ahead_a_result_is_computed_unless_it_is_there_or_on_its_way(folder):
     slowly.ahead(2)
     slowly.ahead(2)
     assert log == [1, 2] and slowly(2) == 2 and log == [1, 2]
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda data: b"", lambda data: data[:-9], lambda data: data[:9] + b"?" + data[10:]]
+)
+def test_a_damaged_result_is_computed_anew(folder, damage):
+    log = []
+    assert between_processes("a", "3", lambda: square(log, 3)) == 9
+    (place,) = folder.glob("a/*/*.pickle")
+    place.write_bytes(damage(place.read_bytes()))
+    for _ in range(2):
+        assert between_processes("a", "3", lambda: square(log, 3)) == 9
+    assert log == [3, 3]
+
+
+def test_damaged_keys_are_no_keys(folder):
+    (folder / kept_results.KEYS).write_text('{"a": "1"')
+    kept_results._keys.cache_clear()
+    assert between_processes("a", "3", lambda: 9) == 9

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from command_line import read_table, write_table
 from pontryagin.cli import app
 from pontryagin.display.recording import read_back
 from pontryagin.io.files import repository
@@ -41,15 +42,35 @@ TILTED = {
 LEAP = {"chaser": CRAFT, "target": TARGET, "time_weight": 0, "energy_weight": 1, "peak": "inf", "duration": 6}
 
 
-def run(*arguments):
+def run(*arguments, **given):
     arguments = ["solve", "rendezvous", *(str(argument) for argument in arguments)]
-    return CliRunner().invoke(app, arguments, catch_exceptions=False)
+    return CliRunner().invoke(app, arguments, catch_exceptions=False, **given)
 
 
 def assert_refused(result, begins, status=2):
     assert (result.exit_code, result.stdout) == (status, "")
     assert result.stderr.startswith(f"Error: {begins}"), result.stderr
     assert result.stderr.count("\n") == 1
+
+
+def flat(problem, prefix=""):
+    """A problem as the cells of a row."""
+    cells = {}
+    for key, value in problem.items():
+        if isinstance(value, dict):
+            cells |= flat(value, f"{key}.")
+        elif isinstance(value, list):
+            cells |= {f"{prefix}{key}_{i}": str(part) for i, part in enumerate(value, 1)}
+        else:
+            cells[prefix + key] = str(value)
+    return cells
+
+
+def write_rows(path, problems):
+    """Write a table with a row for each problem, and return its path."""
+    cells = [flat(problem) | {"name": f"n{i}"} for i, problem in enumerate(problems)]
+    header = list(dict.fromkeys(name for row in cells for name in row))
+    return write_table(path, header, [[row.get(name, "") for name in header] for row in cells])
 
 
 @pytest.fixture
@@ -290,6 +311,40 @@ TEXTS = {
 }
 
 
+class TestBatch:
+    def test_each_row_comes_back_with_its_best_extremal(self, tmp_path, leap):
+        table = write_rows(tmp_path / "in.csv", [LEAP, LEAP | {"duration": 5, "target": TILTED}])
+        result = run("--batch", table)
+        assert (result.exit_code, result.stderr) == (0, "")
+        first, second = read_table(result.stdout)
+        assert (first["name"], float(first["solution.cost"])) == ("n0", leap.cost)
+        single = json.loads(
+            run("--file", "-", "--json", input=json.dumps(LEAP | {"duration": 5, "target": TILTED})).stdout
+        )
+        for name in ("duration", "cost", "arrival_anomaly", "revolutions"):
+            assert float(second[f"solution.{name}"]) == single["solution"][name]
+        costate = [float(second[f"solution.initial_costate_{i}"]) for i in range(1, 7)]
+        assert costate == single["solution"]["initial_costate"]
+        assert float(second["certificate.residual"]) == single["certificate"]["residual"]
+
+    def test_a_row_without_an_answer_loses_no_other(self, tmp_path, leap):
+        bad = {
+            "peak takes a number": {"peak": "none"},
+            "chaser.r must be": {"chaser": CRAFT | {"r": -1}},
+            "target.inclination is missing": {"target": {**TILTED, "inclination": ""}},
+            "target.height is an unknown key": {"target": TARGET | {"height": 1}},
+            "time_weight must be positive where the duration is free": {"duration": ""},
+        }
+        table = write_rows(tmp_path / "in.csv", [LEAP, *(LEAP | change for change in bad.values())])
+        result = run("--batch", table, "--json")
+        assert result.exit_code == 1
+        assert result.stderr.startswith(f"Error: --batch: {table}, 5 of 6 rows, the first of them in line 3")
+        first, *others = map(json.loads, result.stdout.splitlines())
+        assert first["solution.cost"] == leap.cost and "error" not in first
+        for row, begins in zip(others, bad, strict=True):
+            assert row["error"].startswith(begins), row["error"]
+
+
 class TestErrors:
     @pytest.mark.parametrize("name", BAD)
     def test_the_error_of_a_wrong_value_names_its_key(self, write, name):
@@ -387,10 +442,11 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
 
     monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", known)
     examples = re.findall(r"^ +pontryagin (.*)$", shown, re.MULTILINE)
-    assert len(examples) == 4
+    assert len(examples) == 5
+    write_rows(tmp_path / "problems.csv", [LEAP])
     for example in examples:
         assert CliRunner().invoke(app, example).exit_code == 0, example
-    assert [schema.to_dict(given)["duration"] for given in solved] == [8.0, 8.0, 9.0]
+    assert [schema.to_dict(given)["duration"] for given in solved] == [8.0, 8.0, 9.0, 6.0]
 
 
 def test_the_file_in_the_readme_is_a_problem():

@@ -1,6 +1,7 @@
-"""Batches: any number of rows in the same memory, nothing after an error, the rows done after Ctrl-C."""
+"""Batches: any number of rows in the same memory, rows at fault beside others, what is done after Ctrl-C."""
 
 import contextlib
+import json
 import os
 import re
 import signal
@@ -117,41 +118,104 @@ class TestBlocks:
 
 
 class TestFaults:
-    @pytest.mark.parametrize(
-        ("row", "begins"),
-        [
-            (["a", "0", "0", "much", "1", "0", "0", "2"], "--batch: {path}, line 6: x30 takes a number"),
-            (["a", "0", "0", "0", "1", "0", "0", "-2"], "--batch: {path}, line 6: tf must be later than t0"),
-            (
-                ["a", "0", "0", "0", "1e308", "0", "0", "1e-200"],
-                "--xf must give, with x0 and tf - t0, a control",
-            ),
-        ],
+    FAR = ("far", "0", "0", "0", "1e308", "0", "0", "1e-200")
+    FAULTS = (
+        (["a", "0", "0", "much", "1", "0", "0", "2"], "x30 takes a number, got 'much'"),
+        (["a", "0", "0", "0", "1", "0", "0", "-2"], "tf must be later than t0, got t0 = 0.0 and tf = -2.0"),
+        (["a", "0", "0"], "has 3 entries, but the header has 8"),
+        (FAR, "xf must give, with x0 and tf - t0, a control"),
     )
-    def test_a_fault_in_a_late_row_leaves_no_result(self, tmp_path, small_blocks, row, begins):
-        table = write_table(tmp_path / "in.csv", HEADER, [*problems(4), row])
+
+    @pytest.mark.parametrize(("row", "reason"), FAULTS)
+    @pytest.mark.parametrize("place", [0, 3, 5])
+    def test_a_row_at_fault_loses_no_other(self, tmp_path, row, reason, place):
+        good = problems(6)
+        whole = read_table(run(*SOLVE, "--batch", write_table(tmp_path / "in.csv", HEADER, good)).stdout)
+        faulty = [*good[:place], row, *good[place:]]
+        for out in ("-", tmp_path / "out.csv"):
+            table = write_table(tmp_path / "in.csv", HEADER, faulty)
+            result = run(*SOLVE, "--batch", table, "--out", out)
+            said = f"Error: --batch: {table}, 1 of 7 rows, the first of them in line {place + 2}: {reason}"
+            assert result.exit_code == 1
+            assert result.stderr.splitlines()[-1].startswith(said)
+            found = read_table(result.stdout if out == "-" else out.read_text())
+            failed = found.pop(place)
+            assert failed["error"].startswith(reason) and not failed["norm"]
+            assert [row | {"error": ""} for row in whole] == found
+
+    def test_any_number_of_rows_may_be_at_fault(self, tmp_path, small_blocks):
+        table = write_table(tmp_path / "in.csv", HEADER, [self.FAR, *problems(5), self.FAR, self.FAR])
+        result = run(*SOLVE, "--batch", table, "--json")
+        assert "3 of 8 rows, the first of them in line 2" in result.stderr
+        found = [json.loads(line) for line in result.stdout.splitlines()]
+        assert ["error" in row for row in found] == [True, *[False] * 5, True, True]
+        assert ["norm" in row for row in found] == [False, *[True] * 5, False, False]
+
+    @pytest.mark.parametrize(("row", "reason"), FAULTS)
+    def test_without_any_answer_nothing_is_written(self, tmp_path, small_blocks, row, reason):
+        table = write_table(tmp_path / "in.csv", HEADER, [row] * 3)
         (tmp_path / "out.csv").write_text("old")
         for out in ("-", tmp_path / "out.csv"):
             result = run(*SOLVE, "--batch", table, "--out", out)
-            assert_refused(result, begins.format(path=table))
-            assert "line 6" in result.stderr
+            assert_refused(result, f"--batch: {table}, line 2: {reason}")
         assert (tmp_path / "out.csv").read_text() == "old"
         assert {path.name for path in tmp_path.iterdir()} == {"in.csv", "out.csv"}
 
-    def test_an_index_is_that_of_the_row_in_the_file(self, tmp_path, small_blocks):
-        row = ["a", "0", "0", "0", "1e308", "0", "0", "1e-200"]
-        table = write_table(tmp_path / "in.csv", HEADER, [*problems(3), [], row])
-        assert "at index [3], line 6" in run(*SOLVE, "--batch", table).stderr
+    @pytest.mark.parametrize(
+        ("options", "begins"),
+        [
+            (["--disturbance", "1/(t-1)", "--norm", "2"], "--disturbance must be finite"),
+            (["--disturbance", "tan(9*t)", "--norm", "2"], "disturbance is not integrable"),
+        ],
+    )
+    def test_an_option_at_fault_is_named_once(self, tmp_path, monkeypatch, options, begins):
+        calls, plain = [], triple_integrator.Maneuver
+        monkeypatch.setattr(
+            triple_integrator, "Maneuver", lambda *given: calls.append(given) or plain(*given)
+        )
+        table = write_table(tmp_path / "in.csv", HEADER, problems(9))
+        result = run("solve", "triple-integrator", *options, "--batch", table)
+        assert_refused(result, begins, status=2 if begins.startswith("--") else 1)
+        assert len(calls) == 1
 
-    def test_certificates_of_all_blocks_are_counted(self, tmp_path, small_blocks, monkeypatch):
+    def test_rows_without_proof_come_back_with_their_answers(self, tmp_path, small_blocks, monkeypatch):
         from pontryagin.terminal import console
 
         monkeypatch.setattr(console, "ACCEPTED", -1.0)
         table = write_table(tmp_path / "in.csv", HEADER, problems(5))
         result = run(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv")
         assert result.exit_code == 1
-        assert "5 of 5 certificates do not hold" in result.stderr
-        assert len(read_table((tmp_path / "out.csv").read_text())) == 5
+        assert "5 of 5 rows, the first of them in line 2: the certificate does not hold" in result.stderr
+        found = read_table((tmp_path / "out.csv").read_text())
+        assert all(row["norm"] and "does not hold" in row["error"] for row in found)
+
+    def test_a_result_is_no_batch_as_its_columns_are_answers(self, tmp_path):
+        table = write_table(tmp_path / "in.csv", HEADER, problems(2))
+        assert run(*SOLVE, "--batch", table, "--out", tmp_path / "out.csv").exit_code == 0
+        for more in ([], ["--json"]):
+            result = run(*SOLVE, "--batch", tmp_path / "out.csv", *more)
+            assert_refused(result, f"--batch: {tmp_path / 'out.csv'}, line 1: column 'norm' has the name of")
+
+
+def test_the_name_of_standard_input_is_a_hyphen(tmp_path, process):
+    table = write_table(tmp_path / "in.csv", HEADER, problems(3))
+    expected = run(*SOLVE, "--batch", table).stdout
+    running = process(*SOLVE, "--batch", "-", stdin=subprocess.PIPE)
+    assert running.communicate(table.read_text(), timeout=PATIENCE) == (expected, "")
+
+
+def test_json_has_an_object_with_the_answers_for_each_row(tmp_path, small_blocks):
+    table = write_table(tmp_path / "in.csv", HEADER, problems(3))
+    text = run(*SOLVE, "--batch", table, "--json", "--out", tmp_path / "out.jsonl")
+    assert (text.exit_code, text.stdout) == (0, "")
+    found = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
+    shown = read_table(run(*SOLVE, "--batch", table).stdout)
+    for one, other in zip(found, shown, strict=True):
+        assert one["name"] == other["name"] and one["tf"] == 2.0
+        assert one["coefficients"] == [float(other[f"coefficients_{i}"]) for i in (1, 2, 3)]
+        assert {name: one[name] for name in ("norm", "gap")} == {
+            name: float(other[name]) for name in ("norm", "gap")
+        }
 
 
 def interrupted(running):
@@ -193,7 +257,8 @@ class TestInterruption:
         out = tmp_path / "out.csv"
         result = run(*SOLVE, "--batch", table, "--out", out)
         assert (result.exit_code, result.stdout) == (130, "")
-        assert result.stderr == f"wrote {out}\nInterrupted: the first 4 rows are done and written\n"
+        done = "the first 4 rows are done and written; the same command goes on from there"
+        assert result.stderr == f"wrote {out}\nInterrupted: {done}\n"
         assert [row["name"] for row in read_table(out.read_text())] == ["n0", "n1", "n2", "n3"]
 
     def test_before_any_row_is_done_nothing_is_written(self, tmp_path, solved):

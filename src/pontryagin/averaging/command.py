@@ -75,7 +75,7 @@ def solve(
         File, typer.Option(metavar="FILE", help="With --epsilon: record the motion for rerun, as .rrd.")
     ] = None,
     batch: Annotated[
-        File, typer.Option(metavar="FILE", help="CSV file with one problem in each row.")
+        File, typer.Option(metavar="FILE", help="CSV file, or -, with one problem in each row.")
     ] = None,
     out: Out = "-",
 ) -> None:
@@ -121,8 +121,8 @@ def solve(
     small = None if epsilon is None else console.positive("--epsilon", epsilon)
     start = None if phase is None else console.number("--phase", phase)
     if batch is not None:
-        console.excluded("--batch", {"--json": json, "--plot": plot, "--record": record})
-        _solve_batch(chosen, given, batch, out, small, start)
+        console.excluded("--batch", {"--plot": plot, "--record": record})
+        _solve_batch(chosen, given, batch, out, json, small, start)
         return
     console.file_names(plot, record, out)
     values = chosen.read(given)
@@ -178,13 +178,16 @@ def _solve_batch(
     given: schema.Given,
     path: Path,
     out: str,
+    json: bool,
     epsilon: float | None,
     phase: float | None,
 ) -> None:
     from pontryagin.terminal import batches
 
+    shared = [schema.option(name) for name, text in given.items() if text is not None]
+
     def solved(block: rows.Rows) -> tuple[dict[str, Any], None]:
-        values = chosen.of_block(given, path, block)
+        values = chosen.of_block(given, block)
         solution = schema.solve(chosen, values)
         if epsilon is not None and "peak" in values:
             raise console.Refusal(
@@ -194,4 +197,6 @@ def _solve_batch(
             )
         return transcript.answers(solution, epsilon, phase), None
 
-    batches.run(path, out, chosen.stacks(given, path), solved)
+    shared += ["--epsilon", "--phase"]
+    settings = (chosen, sorted(given.items()), epsilon, phase)
+    batches.run(path, out, chosen.stacks(given, path), solved, json, shared, settings)

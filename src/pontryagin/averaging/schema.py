@@ -64,13 +64,22 @@ class ExampleSchema:
         return {name: value(name, text) for name, text in texts.items() if text is not None}
 
     def stacks(self, given: Given, path: Path) -> Iterator[rows.Rows]:
-        """Read a table with one problem in each row, block by block; see `of_block`."""
-        yield from rows.blocks(path, _columns(self._wanted(given)), _columns(self._possible))
+        """Read a table with one problem in each row, block by block; see `of_block`.
 
-    def of_block(self, given: Given, path: Path, read: rows.Rows) -> dict[str, Any]:
+        Raises
+        ------
+        pontryagin.terminal.console.Refusal
+            If an argument has both an option and a column, or one is missing, or two exclude each other.
+        """
+        for block in rows.blocks(path, _columns(self._wanted(given)), _columns(self._possible)):
+            both = [name for name in self.options if given[name] and set(columns(name)) & set(block.header)]
+            console.excluded(f"the column of {path} that holds it", {option(name): True for name in both})
+            held = [name for name in self.either if given[name] or set(columns(name)) <= set(block.header)]
+            self._require_one(held)
+            yield block
+
+    def of_block(self, given: Given, read: rows.Rows) -> dict[str, Any]:
         """The value of every argument: the array of a column, or one number from an option for all rows."""
-        both = [name for name in self.options if given[name] and set(columns(name)) & set(read.header)]
-        console.excluded(f"the column of {path} that holds it", {option(name): True for name in both})
         names = (*self._wanted(given), *self._possible)
         stated = {name: self._column(read, name) for name in names if given[name] is None}
         given_columns = {name: column for name, column in stated.items() if column is not None}
@@ -78,7 +87,6 @@ class ExampleSchema:
             name: given[name] or self.optional.get(name) for name in self.options if name not in given_columns
         }
         values = {name: value(name, text) for name, text in texts.items() if text is not None}
-        self._require_one([name for name in self.either if name in given_columns or name in values])
         return given_columns | values
 
     def _wanted(self, given: Given) -> list[str]:

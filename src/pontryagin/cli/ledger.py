@@ -33,11 +33,11 @@ def ledger(
     """
     with console.refusing({"paper": "--paper", "verdict": "--verdict"}):
         entries = book.entries(paper, verdict)
-    if csv:
+    if csv is not None:
         console.emit("--csv", csv, book.to_csv(entries))
-    if json:
+    if json is not None:
         console.emit("--json", json, book.to_json(entries) + "\n")
-    if not csv and not json:
+    if csv is None and json is None:
         from rich.console import Console
 
         Console().print(book.table(entries))

@@ -10,6 +10,7 @@ unit quaternions, scalar part first, that rotate body axes into the axes of the 
         recording.event("events", 0.5, "impulse 3.2")
 """
 
+import errno
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -30,6 +31,9 @@ from pontryagin.display.views import Scene as Scene
 from pontryagin.display.views import View as View
 from pontryagin.errors import ArgumentValueError
 from pontryagin.io import files
+
+FOOTER = b"RRF2FOOT"
+"""What a recording of rerun that was written whole has among its last bytes."""
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -193,6 +197,8 @@ def record(
     ------
     RuntimeError
         When rerun is not installed.
+    OSError
+        When the file cannot be written whole.
 
     Examples
     --------
@@ -206,10 +212,30 @@ def record(
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
         Path(draft).touch()  # raises OSError where nothing can be written, which rerun does not
-        with rr.RecordingStream("pontryagin", recording_id=name) as stream:
-            stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
-            yield Recording(stream)
-        stream.disconnect()
+        try:
+            with rr.RecordingStream("pontryagin", recording_id=name) as stream:
+                stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
+                yield Recording(stream)
+            stream.disconnect()
+        except RuntimeError:
+            _require_room(draft)
+            raise
+        if not _is_whole(draft):  # rerun does not tell where the disk becomes full.
+            _require_room(draft)
+            raise OSError(errno.EIO, "the recording is incomplete", str(path))
+
+
+def _is_whole(draft: Path) -> bool:
+    with draft.open("rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 2 * len(FOOTER)))
+        return FOOTER in file.read()
+
+
+def _require_room(draft: Path) -> None:
+    """Raise what the system says where a file cannot be made longer."""
+    with draft.open("ab", buffering=0) as file:
+        for _ in range(64):
+            file.write(bytes(4096))
 
 
 def read_back(path: Path) -> dict[str, dict[str, NDArray[Any]]]:

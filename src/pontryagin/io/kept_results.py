@@ -15,7 +15,7 @@ from functools import cache, update_wrapper
 from pathlib import Path
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
-from pontryagin.io import files
+from pontryagin.io import sealed
 
 FOLDER = "PONTRYAGIN_KEPT"
 """The environment variable that names the folder."""
@@ -103,18 +103,21 @@ def between_processes(module: str, name: str, compute: Callable[[], T], waits: b
         return compute()
     place = Path(folder) / module / hashlib.sha256(name.encode()).hexdigest()[:24]
     target = place / f"{key}.pickle"
-    if not target.is_file():
+    kept = sealed.read(target)
+    if kept is None:
         with _alone(place, waits):
-            if not target.is_file():
-                files.write(target, pickle.dumps(compute()))
+            kept = sealed.read(target)
+            if kept is None:
+                kept = pickle.dumps(compute())
+                sealed.write(target, kept)
                 _forget_old(place)
-    found: T = pickle.loads(target.read_bytes())
+    found: T = pickle.loads(kept)
     return found
 
 
 @cache
 def _keys(folder: Path) -> dict[str, str]:
-    with suppress(OSError):
+    with suppress(OSError, ValueError):
         keys: dict[str, str] = json.loads((folder / KEYS).read_text(encoding="utf-8"))
         return keys
     return {}

@@ -2,8 +2,8 @@
 
 import csv
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice, zip_longest
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -12,12 +12,16 @@ import numpy as np
 import orjson
 
 from pontryagin.arrays import Array
-from pontryagin.io import formula
+from pontryagin.io import files, formula
 
 DECIMAL = b"0123456789+-.eE,"
 """The characters of decimal numbers in a list."""
 BLOCK = 2048
 """Number of rows that are held at a time: the solvers are as fast as on larger stacks."""
+SEPARATORS = ";\t|"
+"""Characters other than the comma by which programs separate columns."""
+ERROR = "error"
+"""The column that says why a row has no answer."""
 
 
 class Rows(NamedTuple):
@@ -32,22 +36,34 @@ class Rows(NamedTuple):
     lines : list of int
         Number of each row's line in the file, counted from 1.
     columns : dict of str to (n,) array
-        The numbers in the columns that the reader asked for.
+        The numbers in the columns that the reader asked for; nan in rows at fault.
+    faults : dict of int to str
+        What is wrong with the rows at fault, by their index.
     """
 
     header: list[str]
     rows: list[list[str]]
     lines: list[int]
     columns: dict[str, Array]
+    faults: Mapping[int, str]
 
     def stack(self, names: Sequence[str]) -> Array:
         """Columns side by side, (n, len(names))."""
         return np.stack([self.columns[name] for name in names], axis=-1)
 
+    def part(self, start: int, end: int) -> "Rows":
+        """The rows from one index to another one."""
+        faults = {i - start: fault for i, fault in self.faults.items() if start <= i < end}
+        columns = {name: column[start:end] for name, column in self.columns.items()}
+        return Rows(self.header, self.rows[start:end], self.lines[start:end], columns, faults)
+
 
 def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), holds: str = "problem") -> Rows:
-    """Read numbers from a CSV file with a header line; `blocks` reads it in parts."""
-    return next(blocks(path, required, possible, holds, whole=True))
+    """Read numbers from a CSV file with a header line, none of whose rows is at fault; see `blocks`."""
+    (whole,) = blocks(path, required, possible, holds, size=None)
+    for i, fault in whole.faults.items():
+        raise ValueError(f"line {whole.lines[i]}: {fault}")
+    return whole
 
 
 def blocks(
@@ -55,60 +71,76 @@ def blocks(
     required: Sequence[str],
     possible: Sequence[str] = (),
     holds: str = "problem",
-    whole: bool = False,
+    size: int | None = 0,
 ) -> Iterator[Rows]:
-    """Read numbers from a CSV file with a header line, `BLOCK` rows at a time.
+    """Read numbers from a CSV file with a header line, some rows at a time.
 
     Parameters
     ----------
     path : Path
-        The file. Numbers may be written like ``pi/2``.
+        The file, or ``-`` for standard input. Numbers may be written like ``pi/2``.
     required, possible : sequence of str
         Columns that must be there, and columns that are read where they are there. Other columns are kept
         as text.
     holds : str
         What a row holds, for the message about a file without rows.
-    whole : bool
-        Whether all rows are one block.
+    size : int, optional
+        Number of rows in a block; 0 stands for `BLOCK`, and None for all rows.
 
     Raises
     ------
     ValueError
-        With the number of the line, if a column is missing or an entry is not a number.
+        With the number of the line, if a column is missing or is there twice, or there is no row.
     OSError
         If the file cannot be read.
     """
-    with path.open(newline="", encoding="utf-8-sig") as file:
+    with files.reading(path) as file:
         reader = csv.reader(file)
-        header = [name.strip() for name in next(reader, [])]
-        missing = [name for name in required if name not in header]
-        if missing:
-            raise ValueError(f"line 1: column {missing[0]} is missing, needs {', '.join(required)}")
-        wanted = [*required, *(name for name in possible if name in header)]
-        filled = ((row, reader.line_num) for row in reader if row)
-        empty = True
-        while block := list(islice(filled, None if whole else BLOCK)):
-            rows, lines = map(list, zip(*block, strict=True))
-            del block
-            yield Rows(header, rows, lines, _columns(rows, lines, header, wanted))
-            empty = False
+        try:
+            header = [name.strip() for name in next(reader, [])]
+            _check_header(header, required)
+            wanted = [*required, *(name for name in possible if name in header)]
+            filled = ((row, reader.line_num) for row in reader if row)
+            empty = True
+            while block := list(islice(filled, BLOCK if size == 0 else size)):
+                rows, lines = map(list, zip(*block, strict=True))
+                del block
+                yield Rows(header, rows, lines, *_columns(rows, header, wanted))
+                empty = False
+        except (csv.Error, UnicodeDecodeError) as reason:
+            raise ValueError(f"near line {reader.line_num}: {reason}") from None
     if empty:
         raise ValueError(f"line 2: the file holds no {holds}")
 
 
+def _check_header(header: list[str], required: Sequence[str]) -> None:
+    twice = next((name for i, name in enumerate(header) if name in header[:i]), None)
+    if twice is not None:
+        raise ValueError(f"line 1: column {twice!r} is there twice")
+    missing = [name for name in required if name not in header]
+    if not missing:
+        return
+    for separator in SEPARATORS:
+        if missing[0] in [name.strip() for part in header for name in part.split(separator)]:
+            raise ValueError(f"line 1: columns are separated by {separator!r}, but must be by ','")
+    raise ValueError(f"line 1: column {missing[0]} is missing, needs {', '.join(required)}")
+
+
 def _columns(
-    rows: list[list[str]], lines: list[int], header: list[str], wanted: Sequence[str]
-) -> dict[str, Array]:
-    """The numbers in the wanted columns, converted column by column; row by row only to name a fault."""
+    rows: list[list[str]], header: list[str], wanted: Sequence[str]
+) -> tuple[dict[str, Array], dict[int, str]]:
+    """The numbers in the wanted columns, and the faults; row by row only where there are some."""
     if set(map(len, rows)) == {len(header)}:
         texts = list(zip(*rows, strict=True))
         try:
-            return {name: _numbers(texts[header.index(name)]) for name in wanted}
+            return {name: _numbers(texts[header.index(name)]) for name in wanted}, {}
         except ValueError:
             pass
-    for row, line in zip(rows, lines, strict=True):
-        _check(row, header, wanted, line)
-    raise AssertionError("a row that is at fault was not found")
+    found = [_row(row, header, wanted) for row in rows]
+    faults = {i: numbers for i, numbers in enumerate(found) if isinstance(numbers, str)}
+    none = [math.nan] * len(wanted)
+    table = np.array([none if isinstance(numbers, str) else numbers for numbers in found])
+    return {name: table[:, i] for i, name in enumerate(wanted)}, faults
 
 
 def _numbers(texts: Sequence[str]) -> Array:
@@ -136,16 +168,18 @@ def _decimals(texts: Sequence[str]) -> Array | None:
     return numbers if len(numbers) == len(texts) else None
 
 
-def _check(row: list[str], header: list[str], wanted: Sequence[str], line: int) -> None:
-    """Raise `ValueError` with the number of the line if a row has another length or an entry is no number."""
+def _row(row: list[str], header: list[str], wanted: Sequence[str]) -> list[float] | str:
+    """The wanted numbers of a row, or what is wrong with it."""
     if len(row) != len(header):
-        raise ValueError(f"line {line}: has {len(row)} entries, but the header has {len(header)}")
+        return f"has {len(row)} entries, but the header has {len(header)}"
+    numbers = []
     for name in wanted:
         text = row[header.index(name)]
         try:
-            formula.number(text)
+            numbers.append(formula.number(text))
         except ValueError:
-            raise ValueError(f"line {line}: {name} takes a number, got {text!r}") from None
+            return f"{name} takes a number, got {text!r}"
+    return numbers
 
 
 def to_csv(read: Rows, answers: Mapping[str, Any]) -> str:
@@ -169,7 +203,13 @@ def header_line(names: Sequence[str]) -> str:
 
 
 def answered(read: Rows, answers: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """Names of the answers' columns, and each row with its answers as CSV without the line's end."""
+    """Names of the answers' columns, and each row with its answers as CSV without the line's end.
+
+    Raises
+    ------
+    ValueError
+        If an answer has the name of a column that was read.
+    """
     columns: dict[str, Sequence[str]] = {}
     known: dict[bytes, list[str]] = {}
     for name, values in answers.items():
@@ -179,7 +219,34 @@ def answered(read: Rows, answers: Mapping[str, Any]) -> tuple[list[str], list[st
             # A norm is often the primal value too, to the last digit, and to write numbers takes longest.
             key = column.dtype.str.encode() + column.tobytes()
             columns[part] = known[key] = known.get(key) or _texts(column)
+    require_new(read.header, columns)
     return list(columns), list(map(",".join, zip(_as_written(read.rows), *columns.values(), strict=True)))
+
+
+def require_new(header: Sequence[str], names: Iterable[str]) -> None:
+    """Raise ValueError if a name of an answer is the name of a column that was read."""
+    both = [name for name in names if name in header]
+    if both:
+        raise ValueError(f"line 1: column {both[0]!r} has the name of an answer: rename it or leave it out")
+
+
+def unanswered(read: Rows) -> list[str]:
+    """Rows as CSV without the line's end, with as many entries as the header has."""
+    width = len(read.header)
+    return _as_written([[*row, *[""] * width][:width] for row in read.rows])
+
+
+def as_json(read: Rows, answers: Mapping[str, Any], errors: Mapping[int, str]) -> list[str]:
+    """Each row with its answers as a JSON object; errors, by the index of their row, are its last entry."""
+    require_new(read.header, answers)
+    columns = {name: np.asarray(values).tolist() for name, values in (read.columns | dict(answers)).items()}
+    lines = []
+    for i, row in enumerate(read.rows):
+        texts = {name or "": text for name, text in zip_longest(read.header, row) if name is not None}
+        numbers = {name: column[i] for name, column in columns.items()}
+        error = {ERROR: errors[i]} if i in errors else {}
+        lines.append(orjson.dumps(texts | numbers | error).decode())
+    return lines
 
 
 def _as_written(rows: Sequence[Sequence[str]]) -> list[str]:

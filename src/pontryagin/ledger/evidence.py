@@ -25,7 +25,7 @@ def vanishes(difference: Any) -> bool:
     """Whether an expression, or every entry of a matrix, simplifies to zero."""
     if isinstance(difference, sp.MatrixBase):
         return all(vanishes(entry) for entry in difference)
-    difference = sp.sympify(difference)
+    difference = sp.sympify(difference, strict=True)
     somewhere = difference.subs(sample_point(difference))
     if somewhere.is_Rational and somewhere != 0:
         return False
@@ -150,7 +150,10 @@ class Misprint(Equality):
         ):
             raise Unsupported(f"printed minus derived is {left_over}, not {dict(self.defect)}")
         shown = self.consequence()
-        if sp.sympify(shown.printed).free_symbols | sp.sympify(shown.required).free_symbols:
+        if (
+            sp.sympify(shown.printed, strict=True).free_symbols
+            | sp.sympify(shown.required, strict=True).free_symbols
+        ):
             raise Unsupported(f"{shown.words}: {shown.printed} and {shown.required} are not numbers")
         if vanishes(shown.printed - shown.required):
             raise Unsupported(f"{shown.words}: the print gives {shown.printed}, as required")

@@ -7,6 +7,7 @@ no other one sees a part of it, and a file that is damaged is made anew. What is
 opened that belong to the user, or to the superuser, and that nobody else may write.
 """
 
+import atexit
 import ctypes
 import hashlib
 import os
@@ -17,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -74,7 +76,7 @@ def store(code: bytes, path: Path, symbols: Sequence[str], externals: Externals 
     try:
         return _stored(code, path, symbols, externals)
     except OSError:  # The disk is full, or something that is no file lies in this place.
-        elsewhere = Path(tempfile.mkdtemp(prefix="pontryagin-")) / path.name
+        elsewhere = passing_folder() / path.name
         return _stored(code, elsewhere, symbols, externals)
 
 
@@ -217,12 +219,30 @@ def scratch_of(path: Path) -> Path:
 
 @cache
 def cache_folder() -> Path:
-    """The user's cache, or a temporary folder where it cannot be written."""
+    """The user's cache; where it cannot be written, a folder of this process alone, and a warning."""
     base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    folder = Path(base).expanduser() / "pontryagin"
     try:
+        folder = Path(base).expanduser() / "pontryagin"
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder
-    except OSError:
-        return Path(tempfile.mkdtemp(prefix="pontryagin-"))
+    except (OSError, RuntimeError) as reason:  # RuntimeError: neither HOME nor the system tells the home.
+        warnings.warn(
+            f"native code cannot be kept in {base}/pontryagin, so that each process makes its own: {reason}; "
+            "XDG_CACHE_HOME names another folder",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+        return passing_folder()
+
+
+def passing_folder() -> Path:
+    """A new temporary folder, removed when this process ends."""
+    folder, owner = Path(tempfile.mkdtemp(prefix="pontryagin-")), os.getpid()
+
+    def remove() -> None:
+        if os.getpid() == owner:  # A process that this one started as its copy leaves the folder alone.
+            shutil.rmtree(folder, ignore_errors=True)
+
+    atexit.register(remove)
+    return folder

@@ -45,7 +45,8 @@ def solve(
     ] = None,
     record: Annotated[File, typer.Option(metavar="FILE", help="Record the flight: .rrd for rerun.")] = None,
     batch: Annotated[
-        File, typer.Option(metavar="FILE", help="CSV file with one state in each row, instead of --z0.")
+        File,
+        typer.Option(metavar="FILE", help="CSV file, or -, with one state in each row, instead of --z0."),
     ] = None,
     out: Out = "-",
 ) -> None:
@@ -65,8 +66,8 @@ def solve(
     """
     engine = _engine(interval, peak, thrust)
     if batch is not None:
-        console.excluded("--batch", {"--z0": z0, "--json": json, "--plot": plot, "--record": record})
-        _solve_batch(batch, out, engine)
+        console.excluded("--batch", {"--z0": z0, "--samples": samples, "--plot": plot, "--record": record})
+        _solve_batch(batch, out, engine, json)
         return
     console.required({"--z0": z0})
     console.together({"--samples": samples}, "--json", json)
@@ -107,11 +108,12 @@ def _files(plan: Any, plot: File, record: File) -> None:
         console.save_recording("--record", record, lambda path: record_plan(plan, path))
 
 
-def _solve_batch(path: Path, out: str, engine: tuple[float, float, str]) -> None:
+def _solve_batch(path: Path, out: str, engine: tuple[float, float, str], json: bool) -> None:
     from pontryagin.terminal import batches
 
     def solved(block: rows.Rows) -> tuple[dict[str, Any], Certificate]:
         plan = _planned(block.stack(transcript.COLUMNS), engine)
         return transcript.answers(plan), plan.certificate
 
-    batches.run(path, out, rows.blocks(path, transcript.COLUMNS), solved)
+    shared = ("--interval", "--peak")
+    batches.run(path, out, rows.blocks(path, transcript.COLUMNS), solved, json, shared, engine)

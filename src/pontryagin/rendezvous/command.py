@@ -1,18 +1,22 @@
-"""``pontryagin solve rendezvous``: a case of the report, or a problem from a file."""
+"""``pontryagin solve rendezvous``: a case of the report, or problems from a file."""
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from pontryagin.io import files, rows
 from pontryagin.terminal import bar, console
-from pontryagin.terminal.console import File, Json, Text
+from pontryagin.terminal.console import File, Json, Out, Text
 
 
 def solve(
     case: Annotated[
         Text, typer.Option(metavar="NAME", help="One of the report's cases, which --list prints.")
     ] = None,
-    file: Annotated[File, typer.Option(metavar="FILE", help="Solve the problem of a JSON file.")] = None,
+    file: Annotated[
+        File, typer.Option(metavar="FILE", help="Solve the problem of a JSON file; - is standard input.")
+    ] = None,
     listed: Annotated[bool, typer.Option("--list", help="Print the cases and solve none.")] = False,
     json: Json = False,
     samples: Annotated[
@@ -24,6 +28,13 @@ def solve(
     record: Annotated[
         File, typer.Option(metavar="FILE", help="Record the flight for rerun, as .rrd.")
     ] = None,
+    batch: Annotated[
+        File,
+        typer.Option(
+            metavar="FILE", help="CSV file, or -, with one problem in each row, in place of --file."
+        ),
+    ] = None,
+    out: Out = "-",
 ) -> None:
     """Meet a target on a Kepler orbit under low thrust, at the least cost of time and thrust.
 
@@ -44,20 +55,29 @@ def solve(
     1, energy_weight 0 and gravity 1; the duration is free, which may be written as null. The problem that
     --json prints is such an object.
 
+    A CSV file for --batch has a column for each key, such as peak, chaser.r, target.inclination and
+    target.attitude_1 to target.attitude_4, and any others, which are kept. An empty cell is a key left out.
+    Each row comes back with its best extremal.
+
     \b
     Examples:
       pontryagin solve rendezvous --list
       pontryagin solve rendezvous --case circle-energy
       pontryagin solve rendezvous --case circle-energy --json --samples 101
       pontryagin solve rendezvous --file problem.json --plot thrust.svg --record flight.rrd
+      pontryagin solve rendezvous --batch problems.csv --out flights.csv
     """
+    single = {"--case": case, "--file": file, "--samples": samples, "--plot": plot, "--record": record}
     if listed:
-        solving = {"--case": case, "--file": file, "--samples": samples, "--plot": plot, "--record": record}
-        console.excluded("--list", solving)
+        console.excluded("--list", single | {"--batch": batch})
         _list(json)
         return
+    if batch is not None:
+        console.excluded("--batch", single)
+        _solve_batch(batch, out, json)
+        return
     console.together({"--samples": samples}, "--json", json)
-    console.file_names(plot, record, "-")
+    console.file_names(plot, record, out)
     problem = _problem(case, file)
     extremal, unfinished = _solved(problem, "--case" if file is None else "--file")
     _files(extremal, plot, record)
@@ -90,8 +110,8 @@ def _problem(case: Text, file: File) -> Any:
             raise console.Refusal("--case", f"takes {', '.join(known)}, got {case!r}")
         return known[case].problem
     console.excluded("--file", {"--case": case is not None})
-    with console.reading("--file", file), console.solving({}):
-        return schema.read(file.read_text(encoding="utf-8-sig"))
+    with console.reading("--file", file), console.solving({}), files.reading(file) as text:
+        return schema.read(text.read())
 
 
 def _solved(problem: Any, option: str) -> tuple[Any, bool]:
@@ -118,6 +138,21 @@ def _solved(problem: Any, option: str) -> tuple[Any, bool]:
                 float(extremal.certificate.residual),
             )
     return extremal, unfinished
+
+
+def _solve_batch(path: Path, out: str, json: bool) -> None:
+    from pontryagin.rendezvous import schema, transcript
+    from pontryagin.terminal import batches
+
+    def solved(block: rows.Rows) -> tuple[dict[str, Any], None]:
+        problem = schema.of_row(dict(zip(block.header, block.rows[0], strict=True)))
+        extremal, unfinished = _solved(problem, "--batch")
+        if unfinished:
+            raise KeyboardInterrupt
+        return transcript.answers(extremal), None
+
+    # A search takes long: one problem in each block, so that Ctrl-C finds those before it done.
+    batches.run(path, out, rows.blocks(path, [], size=1), solved, json)
 
 
 def _title(problem: Any, case: Text) -> str:

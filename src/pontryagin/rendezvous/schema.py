@@ -60,7 +60,11 @@ def read(text: str) -> Rendezvous:
     >>> problem.free, problem.peak, round(problem.target.anomaly, 6)
     (True, 0.1, 0.785398)
     """
-    value = json_io.from_json(text)
+    return of(json_io.from_json(text))
+
+
+def of(value: Any) -> Rendezvous:
+    """The rendezvous that a JSON object describes; see `read`."""
     given = _object("", value, REQUIRED, OPTIONAL)
     present = [key for key in OPTIONAL if key in given and (key, given[key]) != ("duration", None)]
     values = {key: _number(key, given[key]) for key in present}
@@ -69,6 +73,43 @@ def read(text: str) -> Rendezvous:
     gravity = number("gravity", values.get("gravity", 1.0), 0.0, excluded=True)
     target = _orbit("target", given["target"])
     return Rendezvous(_chaser(given["chaser"], gravity), target, **values)
+
+
+def of_row(cells: Mapping[str, str]) -> Rendezvous:
+    """The rendezvous that a row of a table describes.
+
+    A column is named as the key that it holds, ``peak`` or ``target.eccentricity``, and the parts of a
+    quaternion as ``target.attitude_1`` to ``target.attitude_4``. Columns of other names are left out, and so
+    are empty cells.
+
+    Raises
+    ------
+    ValueError
+        As `read`.
+
+    Examples
+    --------
+    >>> row = {"name": "a", "peak": "1/10", "duration": "", "chaser.parameter": "1", "chaser.anomaly": "0"}
+    >>> row |= {"chaser.eccentricity": "0", "target.parameter": "3/2", "target.eccentricity": "0.1"}
+    >>> crafts = ("chaser", "target")
+    >>> row |= {f"{craft}.attitude_{i}": str(int(i == 1)) for craft in crafts for i in range(1, 5)}
+    >>> row |= {"target.anomaly": "pi/5"}
+    >>> problem = of_row(row)
+    >>> problem.peak, problem.free, problem.target.parameter
+    (0.1, True, 1.5)
+    """
+    value: dict[str, Any] = {}
+    for name, text in cells.items():
+        craft, dot, key = name.partition(".")
+        if not text.strip() or craft not in ((*REQUIRED[:2],) if dot else (*REQUIRED[2:], *OPTIONAL)):
+            continue
+        place = value.setdefault(craft, {}) if dot else value
+        part = key.removeprefix("attitude_")
+        if part in ("1", "2", "3", "4") and part != key:
+            place.setdefault("attitude", [None] * 4)[int(part) - 1] = text
+        else:
+            place[key if dot else craft] = text.strip()
+    return of(value)
 
 
 def to_dict(problem: Rendezvous) -> dict[str, Any]:

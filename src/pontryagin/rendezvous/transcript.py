@@ -78,6 +78,15 @@ def transcript(extremal: Extremal) -> Report:
     return report
 
 
+def answers(extremal: Extremal) -> dict[str, Array]:
+    """The columns of one solution in a table, (1,) or (1, 6) each, named as in the transcript."""
+    names = ("duration", "cost", "arrival_anomaly", "revolutions", "initial_costate")
+    values: dict[str, Any] = {f"solution.{name}": getattr(extremal, name) for name in names}
+    values |= {f"certificate.{name}": getattr(extremal.certificate, name) for name in CERTIFICATE}
+    values |= {"others.count": len(extremal.others)}
+    return {name: np.asarray(value)[None] for name, value in values.items()}
+
+
 def samples(extremal: Extremal, count: int) -> dict[str, Array]:
     """The solution at evenly spaced times.
 

@@ -63,6 +63,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (RuntimeError, ValueError) as reason:
         progress.failure(str(reason))
         return 1
+    except OSError as reason:
+        place = f"{reason.filename}: " if reason.filename else ""
+        progress.failure(f"{place}{reason.strerror or reason}; the same command goes on from here")
+        return 1
     except KeyboardInterrupt:
         progress.failure("stopped; the same command goes on from here")
         return 130

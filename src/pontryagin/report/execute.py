@@ -18,9 +18,10 @@ from typing import Any
 import nbformat
 from nbformat import NotebookNode
 
-from pontryagin.io import files
+from pontryagin.io import files, sealed
 from pontryagin.report import dependencies, syntax
 from pontryagin.report.environment import FIXED_KEY, environment
+from pontryagin.report.progress import note
 from pontryagin.report.workspace import Workspace
 
 CELL_TIMEOUT = 1200
@@ -81,8 +82,11 @@ def execute(workspace: Workspace, path: Path, progress: Progress = lambda *_: No
     """
     notebook = read_notebook(path)
     entry = workspace.cache / "notebooks" / path.stem / notebook_key(workspace, notebook)
-    fresh = not entry.is_dir()
+    fresh = not sealed.whole_folder(entry)
     if fresh:
+        if entry.exists():
+            note(f"{path.stem}: its kept outputs are damaged, and are made anew")
+            shutil.rmtree(entry)
         _run_into(entry, workspace, path, notebook, progress)
     kept = nbformat.read(entry / "executed.ipynb", as_version=4)
     seconds = float((entry / "seconds").read_text())
@@ -156,6 +160,7 @@ def _run_into(
     _check_counted(workspace, path, notebook, loaded)
     (draft / "seconds").write_text(f"{time.perf_counter() - started:.1f}")
     nbformat.write(notebook, draft / "executed.ipynb")
+    sealed.close_folder(draft)
     draft.replace(entry)
     _forget_old_entries(entry.parent)
 

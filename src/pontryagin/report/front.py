@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from pontryagin.display.tables import markdown_table
-from pontryagin.io import files
+from pontryagin.io import sealed
 from pontryagin.ledger.verdict import TABLE
 from pontryagin.papers import PAPERS, Paper
 from pontryagin.report import dependencies
@@ -35,15 +35,17 @@ def ledger_entries(workspace: Workspace) -> list[dict[str, str]]:
     source = dependencies.Source(workspace.source)
     parts = sorted(dependencies.closure(source, [_ASK]))
     key = dependencies.digest(*parts, workspace.lock_text, sys.version, root=workspace.root)
-    kept = workspace.cache / "ledger" / f"{key}.json"
-    if not kept.is_file():
+    place = workspace.cache / "ledger" / f"{key}.json"
+    kept = sealed.read(place)
+    if kept is None:
         done = subprocess.run(
             [sys.executable, "-c", _ASK], capture_output=True, text=True, env=environment(workspace)
         )
         if done.returncode:
             raise RuntimeError(f"the ledger: {done.stderr.strip().splitlines()[-1]}")
-        files.write(kept, done.stdout)
-    entries: list[dict[str, str]] = json.loads(kept.read_text(encoding="utf-8"))
+        kept = done.stdout.encode()
+        sealed.write(place, kept)
+    entries: list[dict[str, str]] = json.loads(kept)
     return entries
 
 

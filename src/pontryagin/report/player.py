@@ -15,7 +15,7 @@ from base64 import b64encode
 from importlib import metadata, util
 from pathlib import Path
 
-from pontryagin.io import files
+from pontryagin.io import files, sealed
 from pontryagin.report.recordings import Clip
 from pontryagin.report.render_html import ASSETS
 from pontryagin.report.workspace import Workspace
@@ -82,13 +82,15 @@ def viewer_script(workspace: Workspace) -> bytes:
         version = metadata.version("rerun-sdk")
     except metadata.PackageNotFoundError:
         raise NoViewer("rerun-sdk is not installed here") from None
-    kept = workspace.cache / "viewer" / f"{version}.js"
-    if not kept.is_file():
+    place = workspace.cache / "viewer" / f"{version}.js"
+    kept = sealed.read(place)
+    if kept is None:
         script, wasm = _served("re_viewer.js", "re_viewer_bg.wasm")
         packed = b64encode(gzip.compress(wasm, mtime=0))
         body = b'\nlet pontryaginViewerWasm = "' + packed + b'";\n'
-        files.write(kept, script + body + _START.encode())
-    return kept.read_bytes()
+        kept = script + body + _START.encode()
+        sealed.write(place, kept)
+    return kept
 
 
 def _served(*names: str) -> list[bytes]:

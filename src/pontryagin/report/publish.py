@@ -6,7 +6,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from pontryagin import __version__
-from pontryagin.io import files
+from pontryagin.io import files, sealed
 from pontryagin.report import (
     assemble,
     browser,
@@ -57,14 +57,14 @@ def write_report(
         progress.note("typst is not installed here: no PDF")
         del targets["pontryagin.pdf"]
     stamps = {name: workspace.cache / "report" / f"{name}.key" for name in targets}
-    due = [name for name in targets if not _is_current(workspace.report / name, stamps[name], key)]
+    due = [name for name in targets if not sealed.is_stamped(workspace.report / name, stamps[name], key)]
     read = text.read(markdown) if due else None
 
     def bring_up_to_date(name: str) -> None:
         watch = progress.Stopwatch()
         if read and name in due:
             _placed(read, targets[name], workspace.report / name)
-            files.write(stamps[name], key)
+            sealed.stamp(workspace.report / name, stamps[name], key)
         told = f"rendered in {watch}" if name in due else "nothing changed since it was rendered"
         progress.step("report", f"build/report/{name}: {told}")
 
@@ -125,10 +125,6 @@ def _placed(read: text.Text, render: Callable[[text.Text, Path], None], target: 
         render(read, target)
     except tree.PandocWarning as warning:
         raise (read.unreadable(str(warning)) or warning) from None
-
-
-def _is_current(target: Path, stamp: Path, key: str) -> bool:
-    return target.is_file() and stamp.is_file() and stamp.read_text() == key
 
 
 def _key(workspace: Workspace, markdown: str, title: Mapping[str, str]) -> str:

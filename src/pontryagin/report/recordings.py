@@ -15,7 +15,7 @@ from contextlib import redirect_stdout
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from pontryagin.io import files
+from pontryagin.io import files, sealed
 from pontryagin.papers import packages
 from pontryagin.report import dependencies
 from pontryagin.report.environment import environment
@@ -64,12 +64,13 @@ def record(workspace: Workspace, module: str) -> list[tuple[Clip, bool]]:
         When a writer raises.
     """
     key = _key(workspace, module)
-    kept = workspace.cache / "recordings" / f"{module}.{key}.json"
-    if not kept.is_file():
+    place = workspace.cache / "recordings" / f"{module}.{key}.json"
+    kept = sealed.read(place)
+    if kept is None:
         clips = _written(workspace, module, key)
-        files.write(kept, json.dumps([asdict(clip) for clip in clips]))
+        sealed.write(place, json.dumps([asdict(clip) for clip in clips]))
         return [(clip, True) for clip in clips]
-    clips = [Clip(**clip) for clip in json.loads(kept.read_text(encoding="utf-8"))]
+    clips = [Clip(**clip) for clip in json.loads(kept)]
     due = [clip.name for clip in clips if not _is_current(workspace, clip.name, key)]
     if due:
         _written(workspace, module, key, *due)
@@ -96,9 +97,11 @@ def _key(workspace: Workspace, module: str) -> str:
 
 
 def _is_current(workspace: Workspace, name: str, key: str) -> bool:
-    target = workspace.recordings / f"{name}.rrd"
-    stamp = _stamp(workspace, name)
-    return target.is_file() and stamp.is_file() and stamp.read_text() == key
+    return sealed.is_stamped(_target(workspace, name), _stamp(workspace, name), key)
+
+
+def _target(workspace: Workspace, name: str) -> Path:
+    return workspace.recordings / f"{name}.rrd"
 
 
 def _stamp(workspace: Workspace, name: str) -> Path:
@@ -112,7 +115,7 @@ def _written(workspace: Workspace, module: str, key: str, *names: str) -> list[C
     done = subprocess.run(command, capture_output=True, text=True, env=environment(workspace))
     clips = [Clip(**json.loads(line)) for line in done.stdout.splitlines()]
     for clip in clips:
-        files.write(_stamp(workspace, clip.name), key)
+        sealed.stamp(_target(workspace, clip.name), _stamp(workspace, clip.name), key)
     if done.returncode:
         error = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise RecordingFailure(f"recording {error}")

@@ -5,6 +5,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from pontryagin.report import progress
+
 
 @dataclass(frozen=True)
 class Workspace:
@@ -61,11 +63,18 @@ class Workspace:
 
 @contextmanager
 def alone(workspace: Workspace) -> Iterator[None]:
-    """Hold the workspace for this process; a second build waits. Freed by the system when it is killed."""
+    """Hold the workspace for this process; a second build says so and waits.
+
+    The system frees it when the process is killed.
+    """
     workspace.build.mkdir(parents=True, exist_ok=True)
     with (workspace.build / ".lock").open("w") as held:
         with suppress(ImportError):
             import fcntl
 
-            fcntl.flock(held, fcntl.LOCK_EX)
+            try:
+                fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                progress.note("another build is at work here: this one waits until it is done")
+                fcntl.flock(held, fcntl.LOCK_EX)
         yield

@@ -1,99 +1,46 @@
 """A batch of problems from a CSV file, read, solved and put aside block by block, and written at the end.
 
-The memory that a batch takes does not grow with its rows: answers wait in a temporary file. The result is
-complete or, after an interruption, holds the rows that were done; after an error there is none.
+The memory that a batch takes does not grow with its rows: answers wait in a file. A row without an answer
+comes back with the reason in its column ``error``; the others do not suffer from it. After an interruption
+the result holds the rows that were done; an interrupted or killed batch goes on when it is started again.
 """
 
-import math
-import os
-import pickle
 import re
 import signal
 import sys
-import tempfile
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
-from functools import cached_property
+from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
-import numpy as np
 import typer
 
 from pontryagin.certificate import Certificate
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
 from pontryagin.io import files
-from pontryagin.io.rows import Rows, answered, header_line
+from pontryagin.io.rows import Rows
 from pontryagin.progress import report
 from pontryagin.terminal import bar, console
+from pontryagin.terminal.spool import Spool, rows_done
 
 Answers = Mapping[str, Any]
 """The columns of the answers of a block, (n,) or (n, k) each."""
-
-
-class Spool:
-    """The rows done so far, with their answers, as lines of CSV in a temporary file beside the target.
-
-    A block may have more columns than the blocks before it; its first ones are the same.
-    """
-
-    def __init__(self, out: str) -> None:
-        self._out = Path(out)
-        self._header: list[str] = []
-        self._places: list[tuple[int, int, int]] = []
-
-    @cached_property
-    def _file(self) -> IO[bytes]:
-        if self._out == Path("-"):
-            return tempfile.TemporaryFile()
-        self._out.parent.mkdir(parents=True, exist_ok=True)
-        return tempfile.TemporaryFile(dir=self._out.parent)
-
-    @property
-    def rows(self) -> int:
-        """Number of the rows done."""
-        return sum(count for _, _, count in self._places)
-
-    def add(self, block: Rows, answers: Answers) -> None:
-        """Put a block of rows with its answers aside."""
-        columns, lines = answered(block, answers)
-        header = [*block.header, *columns]
-        with console.writable("--out", self._out):
-            place = self._file.seek(0, os.SEEK_END)
-            pickle.dump(lines, self._file)
-        self._header = max(self._header, header, key=len)
-        self._places.append((place, len(header), len(lines)))
-
-    def texts(self) -> Iterator[str]:
-        """The header and all rows as CSV; rows of narrower blocks end with empty cells."""
-        yield header_line(self._header) + "\n"
-        for place, width, _ in self._places:
-            self._file.seek(place)
-            end = "," * (len(self._header) - width) + "\n"
-            yield end.join([*pickle.load(self._file), ""])
-
-
-class Proofs:
-    """Certificates of all blocks, of which only the worst ones are remembered."""
-
-    def __init__(self) -> None:
-        self._open, self._all, self._worst = 0, 0, -math.inf
-
-    def add(self, proof: Certificate) -> None:
-        """Count those of a stack that do not hold."""
-        left = console.unproved(proof)
-        self._open, self._all = self._open + left.size, self._all + proof.primal_residual.size
-        self._worst = float(np.max(left, initial=self._worst))
-
-    def require(self) -> None:
-        """Raise `NotConverged` if one did not hold."""
-        if self._open:
-            raise console.without_proof(f"{self._open} of {self._all} certificates do", self._worst)
+Solver = Callable[[Rows], tuple[Answers, Certificate | None]]
+"""Returns the answers of a block and, if it is to hold in every row, their certificate."""
+Unsolved = (console.Refusal, ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged)
+"""What a solver raises where a row of a block has no answer."""
 
 
 def run(
-    path: Path, out: str, blocks: Iterator[Rows], solve: Callable[[Rows], tuple[Answers, Certificate | None]]
+    path: Path,
+    out: str,
+    blocks: Iterator[Rows],
+    solve: Solver,
+    as_json: bool = False,
+    shared: Collection[str] = (),
+    settings: object = None,
 ) -> None:
     """Solve blocks of problems, and write all their rows with the answers.
 
@@ -102,51 +49,129 @@ def run(
     path : Path
         The file that ``blocks`` reads.
     out : str
-        The file to write, or ``-`` for standard output. Nothing is written if a row is at fault.
+        The file to write, or ``-`` for standard output. Nothing is written if no row has an answer.
     blocks : iterator of Rows
         What `pontryagin.io.rows.blocks` returned.
     solve : function of Rows
-        Returns the answers and, if it is to hold in every row, their certificate.
+        See `Solver`. Where it raises for a block of several rows, it is called for each half.
+    as_json : bool
+        Whether a JSON object is written for each row, in place of CSV.
+    shared : collection of str
+        Options whose values are those of all rows: an error about one of them is not that of a row.
+    settings : object
+        All that the answers depend on beside the rows; its `repr` tells it from other settings.
 
     Raises
     ------
     typer.Exit
         With the code 130 after Ctrl-C, when the rows done are written.
+    typer.TyperException
+        When rows are without answer: with the first reason, and the number of its line.
     """
-    spool, proofs = Spool(out), Proofs()
-    stopped = _solved(path, blocks, solve, spool, proofs)
-    if spool.rows:
-        _write(out, spool.texts())
+    spool = Spool(out, f"{solve.__module__} {settings!r}", as_json)
+    try:
+        stopped = _solved(path, blocks, partial(_parts, solve, frozenset(shared)), spool, as_json, out)
+        if spool.answered:
+            _write(out, spool.texts())
+    except BaseException:
+        if not spool.answered:
+            spool.remove()
+        raise
+    if stopped and spool.answered:
+        further = "; the same command goes on from there" if spool.lasting else ""
+        raise console.interrupted(f"the first {spool.rows} rows are done and written{further}")
+    spool.remove()
     if stopped:
-        raise console.interrupted(
-            f"the first {spool.rows} rows are done and written" if spool.rows else "no row is done"
-        )
-    proofs.require()
+        raise console.interrupted("no row is done")
+    if spool.first:
+        line, error, status = spool.first
+        some = f"{spool.errors} of {spool.rows} rows, the first of them in " if spool.answered else ""
+        failure = typer.TyperException(f"--batch: {path}, {some}line {line}: {error}")
+        failure.exit_code = 1 if spool.answered else status
+        raise failure
 
 
 def _solved(
     path: Path,
     blocks: Iterator[Rows],
-    solve: Callable[[Rows], tuple[Answers, Certificate | None]],
+    parts: Callable[[Rows], Iterator[tuple[Rows, Answers | None, dict[int, str], int]]],
     spool: Spool,
-    proofs: Proofs,
+    as_json: bool,
+    out: str,
 ) -> bool:
     """Put aside the answers of all blocks, or of those before an interruption; whether there was one."""
     try:
         with _pressed() as pressed, bar.shown():
             total = _lines(path) if sys.stderr.isatty() else None
             for block in _read(path, blocks):
-                with _placed(block, spool.rows):
-                    answers, proof = solve(block)
-                spool.add(block, answers)
-                if proof is not None:
-                    proofs.add(proof)
+                with console.writable("--out", Path(out)):
+                    known = spool.recall(block)
+                if not known:
+                    _tell(spool)
+                    solved = list(parts(block))
+                    with console.reading("--batch", path):
+                        pieces = [rows_done(*part, as_json) for part in solved]
+                    with console.writable("--out", Path(out)):
+                        spool.keep(block, pieces)
                 report("rows done", block.lines[-1], total)
                 if pressed():
                     return True
     except KeyboardInterrupt:
         return True
     return False
+
+
+def _tell(spool: Spool) -> None:
+    """Say once that rows of an earlier process are taken."""
+    if spool.earlier:
+        typer.echo(f"Goes on after {spool.earlier} rows that were done before", err=True)
+        spool.earlier = 0
+
+
+def _read(path: Path, blocks: Iterator[Rows]) -> Iterator[Rows]:
+    with console.reading("--batch", path):
+        yield from blocks
+
+
+def _parts(
+    solve: Solver, shared: frozenset[str], block: Rows
+) -> Iterator[tuple[Rows, Answers | None, dict[int, str], int]]:
+    """A block in parts that are solved whole, and the rows that are not: answers, errors and the exit code.
+
+    An error in a stack of problems does not tell which of them it is about: it is halved until one is left.
+    """
+    reason: Exception | None = None
+    if not block.faults:
+        try:
+            answers, proof = solve(block)
+        except Unsolved as raised:
+            if _about(raised) in shared:
+                raise
+            reason = raised
+        else:
+            yield block, answers, {} if proof is None else console.unproved(proof), 1
+            return
+    count = len(block.rows)
+    if count > 1:
+        yield from _parts(solve, shared, block.part(0, count // 2))
+        yield from _parts(solve, shared, block.part(count // 2, count))
+    elif reason is None:
+        yield block, None, dict(block.faults), 2
+    else:
+        yield block, None, {0: _of_row(reason)}, 1 if isinstance(reason, Infeasible | NotConverged) else 2
+
+
+def _about(reason: Exception) -> str:
+    """The option that an error is about, as far as it tells."""
+    return reason.option if isinstance(reason, console.Refusal) else f"--{str(reason).partition(' ')[0]}"
+
+
+def _of_row(reason: Exception) -> str:
+    """What an error about a stack of one problem says about that problem."""
+    text = reason.message if isinstance(reason, console.Refusal) else str(reason)
+    text = re.sub(r"^--(batch: *)?", "", text)
+    text = re.sub(r" at index [\[(]0,?[\])]", "", text)
+    return re.sub(r"(at index [\[(])0, ", r"\1", text)
 
 
 @contextmanager
@@ -169,32 +194,6 @@ def _pressed() -> Iterator[Callable[[], bool]]:
         yield lambda: bool(signals)
     finally:
         signal.signal(signal.SIGINT, before)
-
-
-def _read(path: Path, blocks: Iterator[Rows]) -> Iterator[Rows]:
-    with console.reading("--batch", path):
-        yield from blocks
-
-
-@contextmanager
-def _placed(block: Rows, before: int) -> Iterator[None]:
-    """Errors that name a row by its index in the block name its index in the file, and its line."""
-
-    def in_file(found: re.Match[str]) -> str:
-        index = int(found["row"])
-        return f"{found[1]}{before + index}{found[3]}, line {block.lines[index]}"
-
-    def placed(message: str) -> str:
-        return re.sub(r"(at index [\[(])(?P<row>\d+)([^\])]*[\])])", in_file, message)
-
-    try:
-        yield
-    except console.Refusal as refused:
-        refused.message = placed(refused.message)
-        raise
-    except (Infeasible, NotConverged) as reason:
-        reason.args = (placed(reason.args[0]), *reason.args[1:])
-        raise
 
 
 def _write(out: str, texts: Iterator[str]) -> None:

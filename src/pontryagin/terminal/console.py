@@ -4,6 +4,7 @@ Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in
 """
 
 import csv
+import io
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -13,7 +14,6 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from pontryagin.arrays import Array
 from pontryagin.certificate import ACCEPTED, Certificate
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged
 from pontryagin.io import files, json_io
@@ -23,19 +23,22 @@ from pontryagin.io.json_io import Report
 Text = str | None
 File = Path | None
 """Types of options that may be left out."""
-Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Json = Annotated[
+    bool, typer.Option("--json", help="JSON instead of a table; with --batch an object in each line.")
+]
 Out = Annotated[
     str,
     typer.Option(
         metavar="FILE",
-        help="With --batch: where the results go, all at the end; - prints them. After an error there are "
-        "none, after Ctrl-C those of the rows done.",
+        help="With --batch: where the results go, all at the end; - prints them. A row without an answer has "
+        "the reason in its column error. After Ctrl-C the rows done are there.",
     ),
 ]
 """Options that are the same in several commands."""
 
 FIGURES = (".svg", ".pdf", ".png")
 RECORDINGS = (".rrd",)
+UNPROVED = f"the certificate does not hold to {ACCEPTED:g}: rounding errors are too large"
 
 
 class Refusal(typer.TyperException):
@@ -44,6 +47,7 @@ class Refusal(typer.TyperException):
     exit_code = 2
 
     def __init__(self, option: str, message: str) -> None:
+        self.option = option
         super().__init__(f"{option}{'' if message.startswith(':') else ' '}{message}")
 
 
@@ -162,7 +166,7 @@ def reading(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot read {path}: {_cause(reason)}") from reason
+        raise Refusal(option, f"cannot read {path}: {cause(reason)}") from reason
     except (ValueError, csv.Error) as reason:
         raise Refusal(option, f": {path}, {reason}") from reason
 
@@ -173,7 +177,7 @@ def writable(option: str, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as reason:
-        raise Refusal(option, f"cannot write {path}: {_cause(reason)}") from reason
+        raise Refusal(option, f"cannot write {path}: {cause(reason)}") from reason
 
 
 @contextmanager
@@ -184,7 +188,14 @@ def writing(option: str, path: Path) -> Iterator[None]:
     typer.echo(f"wrote {path}", err=True)
 
 
-def _cause(reason: OSError) -> str:
+def cause(reason: OSError) -> str:
+    """What the system says about a file that cannot be used.
+
+    Examples
+    --------
+    >>> cause(OSError(28, "No space left on device"))
+    'no space left on device'
+    """
     return (reason.strerror or str(reason)).lower()
 
 
@@ -201,12 +212,14 @@ def save_figure(option: str, path: Path, figure: Any) -> None:
     """Write a Matplotlib figure as SVG, PDF or PNG, as the file's ending says."""
     from pontryagin.display.plotting import svg_of
 
+    ending = path.suffix.lower()
+    drawn = io.BytesIO()
+    if ending == ".svg":
+        drawn.write(svg_of(figure).encode())
+    else:
+        figure.savefig(drawn, format=ending.removeprefix("."), dpi=200)
     with writing(option, path):
-        if path.suffix.lower() == ".svg":
-            files.write(path, svg_of(figure))
-            return
-        with files.replacing(path) as draft:
-            figure.savefig(draft, dpi=200)
+        files.write(path, drawn.getvalue())
 
 
 def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> None:
@@ -220,21 +233,19 @@ def save_recording(option: str, path: Path, save: Callable[[Path], object]) -> N
 
 def require_proof(proof: Certificate) -> None:
     """Raise `NotConverged` where a certificate does not hold to `ACCEPTED`."""
-    left = unproved(proof)
-    if left.size:
-        raise without_proof("the certificate does", float(left[0]))
+    for i in unproved(proof):
+        with np.errstate(all="ignore"):
+            raise NotConverged(UNPROVED, float(np.atleast_1d(proof.residual)[i]))
 
 
-def unproved(proof: Certificate) -> Array:
-    """The residuals of the certificates of a stack, or of one, that do not hold to `ACCEPTED`."""
+def unproved(proof: Certificate) -> dict[int, str]:
+    """What is to be said of each certificate of a stack, or of one, that does not hold to `ACCEPTED`."""
     with np.errstate(all="ignore"):
-        left = np.atleast_1d(proof.residual)
-    return left[~(left <= ACCEPTED)]
-
-
-def without_proof(which: str, residual: float) -> NotConverged:
-    """The error about certificates that do not hold."""
-    return NotConverged(f"{which} not hold to {ACCEPTED:g}: rounding errors are too large", residual)
+        residuals = np.atleast_1d(proof.residual)
+    return {
+        i: str(NotConverged(UNPROVED, float(residuals[i])))
+        for i in np.flatnonzero(~(residuals <= ACCEPTED)).tolist()
+    }
 
 
 def as_text(value: Any) -> str:

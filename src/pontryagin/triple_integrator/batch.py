@@ -19,26 +19,27 @@ UNSTACKED = ("q", "breakpoints", "multipliers")
 def blocks(path: Path, least_time: bool, whole: bool = False) -> Iterator[rows.Rows]:
     """Read ``x10, x20, x30, x1f, x2f, x3f``; for a given duration also ``tf``, and ``t0`` if there is one.
 
-    All rows are one block if ``whole``.
+    All rows are one block if ``whole``. A row that ends before it starts is at fault.
 
     Raises
     ------
     ValueError
-        With the number of the line, if a column is missing or a row does not hold a problem.
+        With the number of the line, if a column is missing or there is no row.
     OSError
         If the file cannot be read.
     """
+    size = None if whole else 0
     if least_time:
-        yield from rows.blocks(path, [*START, *END], whole=whole)
+        yield from rows.blocks(path, [*START, *END], size=size)
         return
-    for block in rows.blocks(path, [*START, *END, "tf"], ["t0"], whole=whole):
+    for block in rows.blocks(path, [*START, *END, "tf"], ["t0"], size=size):
         tf = block.columns["tf"]
         t0 = block.columns.get("t0", np.zeros_like(tf))
-        for i in np.flatnonzero(~(tf > t0)).tolist():
-            raise ValueError(
-                f"line {block.lines[i]}: tf must be later than t0, got t0 = {t0[i]} and tf = {tf[i]}"
-            )
-        yield block
+        late = {
+            i: f"tf must be later than t0, got t0 = {t0[i]} and tf = {tf[i]}"
+            for i in np.flatnonzero(tf <= t0).tolist()
+        }
+        yield block._replace(faults={**block.faults, **late}) if late else block
 
 
 def answers(solution: Any) -> dict[str, Any]:

@@ -57,7 +57,9 @@ def solve(
     record: Annotated[File, typer.Option(metavar="FILE", help="Record the motion: .rrd for rerun.")] = None,
     batch: Annotated[
         File,
-        typer.Option(metavar="FILE", help="CSV file with one problem in each row, instead of --x0 and --xf."),
+        typer.Option(
+            metavar="FILE", help="CSV file, or -, with one problem in each row, instead of --x0 and --xf."
+        ),
     ] = None,
     out: Out = "-",
 ) -> None:
@@ -81,9 +83,9 @@ def solve(
     goal = _goal(norm, peak, times)
     force = _force(disturbance, goal)
     if batch is not None:
-        single = {"--x0": x0, "--xf": xf, "--json": json, "--plot": plot, "--record": record}
+        single = {"--x0": x0, "--xf": xf, "--samples": samples, "--plot": plot, "--record": record}
         console.excluded("--batch", times | single)
-        _solve_batch(goal, batch, out, force)
+        _solve_batch(goal, batch, out, force, json)
         return
     console.required({"--x0": x0, "--xf": xf} | ({} if goal.least_time else {"--duration": duration}))
     console.together({"--samples": samples}, "--json", json)
@@ -179,7 +181,7 @@ def _print(solution: Any, json: bool, samples: int) -> None:
 
 
 @without_warnings
-def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
+def _solve_batch(goal: Goal, path: Path, out: str, force: Any, json: bool) -> None:
     from pontryagin.terminal import batches
     from pontryagin.triple_integrator import batch
 
@@ -191,4 +193,5 @@ def _solve_batch(goal: Goal, path: Path, out: str, force: Any) -> None:
 
     # A formula is integrated over the times of all rows at once, from the first start to the last end.
     whole = isinstance(force, Formula)
-    batches.run(path, out, batch.blocks(path, goal.least_time, whole), solved)
+    shared = ("--norm", "--peak", "--disturbance")
+    batches.run(path, out, batch.blocks(path, goal.least_time, whole), solved, json, shared, (goal, force))

@@ -55,3 +55,27 @@ def test_the_rotor_takes_symbols_by_name_and_numbers_as_they_are():
     other = rotor(2.0, 3.0, mass=2.0, potential=-sp.cos(X), force=-V / 9, peak=1.0)
     assert float(one.cost) == pytest.approx(float(other.cost), rel=1e-14)
     assert np.isfinite(float(one.cost))
+
+
+@pytest.mark.parametrize(
+    "kinked",
+    [
+        sp.Abs(sp.sin(X)),
+        sp.Max(sp.sin(X), 0),
+        sp.sign(sp.sin(X)),
+        sp.Heaviside(sp.sin(X)),
+        sp.Piecewise((1, sp.sin(X) > 0), (0, True)),
+    ],
+    ids=str,
+)
+def test_masses_and_potentials_with_kinks_have_the_least_time_of_their_means(kinked):
+    """With u = 1 the energy grows by the angle: the time of a1 - a0 is its mean period over 2 pi."""
+    heavier = rotor(2.0, 4.0, mass=2 + kinked, peak=1.0)
+    half = (np.arange(4000) + 0.5) * np.pi / 4000
+    at = sp.lambdify(X, kinked, modules="numpy")
+    values = np.concatenate([at(half), at(half + np.pi)])
+    expected = np.mean(np.sqrt(2 + values)) * (np.sqrt(8) - 2)
+    np.testing.assert_allclose(float(heavier.duration), expected, rtol=1e-7)
+    deeper = rotor(2.0, 4.0, potential=kinked, peak=1.0)
+    expected = np.mean(np.sqrt(8 - 2 * values) - np.sqrt(4 - 2 * values))
+    np.testing.assert_allclose(float(deeper.duration), expected, rtol=1e-7)

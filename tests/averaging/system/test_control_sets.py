@@ -6,7 +6,16 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pontryagin.averaging import Ball, BoundedQuadratic, Box, Custom, Ellipsoid, PhaseSystem, Quadratic
+from pontryagin.averaging import (
+    Ball,
+    BoundedQuadratic,
+    Box,
+    Custom,
+    Ellipsoid,
+    PhaseSystem,
+    Quadratic,
+    solve_averaged,
+)
 
 S = sp.symbols("s_1:4", real=True)
 R = sp.Matrix([[2, 1, 0], [1, 3, 0], [0, 0, 1]])
@@ -126,3 +135,29 @@ def test_a_stack_of_sets_is_judged_by_its_worst_member():
     system(Ball(HALF), numbers={HALF: [1.0, 2.0]})
     with pytest.raises(ValueError, match="got -2"):
         system(Ball(HALF), numbers={HALF: [1.0, -2.0]})
+
+
+@pytest.mark.parametrize(
+    "support",
+    [
+        lambda s: sp.Max(s[0], -s[0]),
+        lambda s: -sp.Min(s[0], -s[0]),
+        lambda s: s[0] * sp.sign(s[0]),
+        lambda s: s[0] * (2 * sp.Heaviside(s[0]) - 1),
+        lambda s: sp.Piecewise((s[0], s[0] > 0), (-s[0], True)),
+    ],
+)
+def test_a_support_function_may_have_its_kink_written_in_any_way(support):
+    a, x, u = sp.symbols("a x u", real=True)
+    system = PhaseSystem(
+        f=[u * sp.cos(x)],
+        omega=1,
+        control_set=Custom(support),
+        slow=[a],
+        control=[u],
+        phase=x,
+        target=[a - 2],
+    )
+    solution = solve_averaged(system, start=[1.0])
+    assert float(solution.cost) == pytest.approx(np.pi / 2, rel=1e-12)
+    assert solution.exact(0.1)[0].cost == pytest.approx(np.pi / 2, rel=1e-9)

@@ -53,7 +53,8 @@ def energy(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
 def speed(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:
     """x', the rate of the anomaly, in terms of a and x; positive while the rotor turns."""
     square = sp.Symbol("w", positive=True)
-    return sp.sqrt(sp.solve(energy(mass, potential).subs(v, sp.sqrt(square)) - a, square)[0])
+    general = sp.solve(energy().subs(v, sp.sqrt(square)) - a, square)[0]
+    return sp.sqrt(_inserted(general, mass, potential, FORCE))
 
 
 def energy_rate(
@@ -68,8 +69,18 @@ def energy_rate(
 def slow_rate(
     mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL, force: sp.Expr = FORCE, control: sp.Expr = u
 ) -> sp.Expr:
-    """a' per epsilon in terms of a, x and the control: the f of (1.1)."""
-    return (energy_rate(mass, potential, force, control) / epsilon).subs(v, speed(mass, potential))
+    """a' per epsilon in terms of a, x and the control: the f of (1.1).
+
+    It is derived for every mass, potential and force first, where it holds no derivative of theirs: they may
+    have kinks.
+    """
+    general = energy_rate(control=control) / epsilon
+    return _inserted(general, mass, potential, force).subs(v, speed(mass, potential))
+
+
+def _inserted(general: sp.Expr, mass: sp.Expr, potential: sp.Expr, force: sp.Expr) -> sp.Expr:
+    """An expression in a general mass, potential and force for these ones."""
+    return general.subs(FORCE, force).subs({MASS: mass, POTENTIAL: potential})
 
 
 def frequency(mass: sp.Expr = MASS, potential: sp.Expr = POTENTIAL) -> sp.Expr:

@@ -98,7 +98,8 @@ def _of(name: str, value: Any, letters: str) -> "sp.Expr":
     """An expression in the derivation's own x and v."""
 
     from pontryagin.averaging.derivation import rotor as derivation
-    from pontryagin.averaging.system.checks import real_expression, require_periodic
+    from pontryagin.averaging.system.checks import require_periodic
+    from pontryagin.averaging.system.expressions import real_expression
 
     expression = real_expression(name, value)
     known = {letter: getattr(derivation, letter) for letter in letters}

@@ -8,6 +8,7 @@ import sympy as sp
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.system.control_checks import Numbers, listed
+from pontryagin.averaging.system.expressions import real_expression
 from pontryagin.averaging.system.standard_form import StandardForm
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
@@ -77,7 +78,11 @@ def checked(system: StandardForm) -> dict[str, object]:
 
 
 def _sequence(name: str, value: Any) -> list[Any]:
-    if isinstance(value, str) or not hasattr(value, "__iter__"):
+    if (
+        isinstance(value, str | bytes)
+        or not hasattr(value, "__iter__")
+        or getattr(value, "shape", None) == ()
+    ):
         raise ArgumentTypeError(f"{name} must be a sequence such as a list, got {value!r}", name)
     return list(value)
 
@@ -115,31 +120,6 @@ def _numbers(values: object, taken: set[sp.Symbol]) -> dict[sp.Symbol, Array]:
     return numbers
 
 
-def real_expression(name: str, value: object) -> sp.Expr:
-    """A number or SymPy expression as a finite, real expression; other things are refused.
-
-    Raises
-    ------
-    TypeError, ValueError
-        About the argument `name`, without the index in brackets that may follow it.
-    """
-    argument = name.partition("[")[0]
-    try:
-        expression = None if isinstance(value, str) else sp.sympify(value)
-    except sp.SympifyError:
-        expression = None
-    if not isinstance(expression, sp.Expr):
-        given = "the text " if isinstance(value, str) else ""
-        raise ArgumentTypeError(
-            f"{name} must be a SymPy expression or a number, got {given}{value!r}", argument
-        )
-    if expression.has(sp.nan, sp.oo, sp.zoo):
-        raise ArgumentValueError(f"{name} must be finite, got {expression}", argument)
-    if expression.has(sp.I):
-        raise ArgumentValueError(f"{name} must be real, got {expression}", argument)
-    return expression
-
-
 def _expression(name: str, value: object, known: set[sp.Symbol]) -> sp.Expr:
     expression = real_expression(name, value)
     unknown = expression.free_symbols - known
@@ -159,7 +139,7 @@ def _frequencies(
         got = "neither" if system.omega is None else "both"
         raise ArgumentValueError(f"exactly one of omega and anomaly_rate must be given, got {got}", "omega")
     if system.omega is None:
-        if sp.sympify(system.weight) != 1:
+        if real_expression("weight", system.weight) != 1:
             raise ArgumentValueError(
                 f"weight must not be given where anomaly_rate is, which determines it, got {system.weight}",
                 "weight",

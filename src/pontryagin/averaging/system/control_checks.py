@@ -6,6 +6,7 @@ import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.system.expressions import expression
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics import compile as compiler
 
@@ -35,8 +36,8 @@ def require_positive(
 
 def numeric(name: str, values: Sequence[object], numbers: Numbers) -> tuple[Array, ...]:
     """The values as arrays of the shape that the numbers in them broadcast to."""
-    expressions = [sp.sympify(value) for value in values]
-    used = set().union(*(expression.free_symbols for expression in expressions))
+    expressions = [expression(name, value, "control_set") for value in values]
+    used = set().union(*(each.free_symbols for each in expressions))
     unknown = used - set(numbers)
     if unknown:
         raise refusal(

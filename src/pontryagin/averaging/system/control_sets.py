@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 import sympy as sp
 
 from pontryagin.averaging.system.control_checks import Numbers, numeric, refusal, require_positive
+from pontryagin.averaging.system.expressions import expression, matrix, vector
+from pontryagin.errors import ArgumentTypeError
 from pontryagin.value import value_class
 
 Number: TypeAlias = "float | sp.Expr"
@@ -49,26 +51,28 @@ class Quadratic:
     weight: object = 1
 
     def __post_init__(self) -> None:
-        if hasattr(self.weight, "__len__") or hasattr(self.weight, "shape"):
-            object.__setattr__(self, "weight", sp.ImmutableMatrix(self.weight))
+        if isinstance(self.weight, list | tuple) or getattr(self.weight, "shape", None):
+            object.__setattr__(self, "weight", matrix("Quadratic: weight", self.weight, "weight"))
+        else:
+            expression("Quadratic: weight", self.weight, "weight")
 
     def _matrix(self, dimension: int) -> sp.Matrix:
         if isinstance(self.weight, sp.ImmutableMatrix):
             return self.weight
-        return sp.ImmutableMatrix(sp.sympify(self.weight) * sp.eye(dimension))
+        return sp.ImmutableMatrix(expression("weight", self.weight) * sp.eye(dimension))
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """s' R^-1 s / 4."""
-        row = sp.Matrix([*s])
+        row = sp.Matrix(vector("s", s))
         return sp.expand((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """R^-1 s / 2."""
-        return self._matrix(len(s)).inv() * sp.Matrix([*s]) / 2
+        return self._matrix(len(s)).inv() * sp.Matrix(vector("s", s)) / 2
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """u'Ru."""
-        row = sp.Matrix([*u])
+        row = sp.Matrix(vector("u", u))
         return sp.expand((row.T * self._matrix(len(u)) * row)[0])
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
@@ -109,13 +113,16 @@ class Ball(Bounded):
 
     radius: Number = 1
 
+    def __post_init__(self) -> None:
+        expression("Ball: radius", self.radius, "radius")
+
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """Radius times |s|."""
-        return sp.sympify(self.radius) * _norm(s)
+        return expression("radius", self.radius) * _norm(s)
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """Radius times s / |s|."""
-        return sp.sympify(self.radius) * _unit(s)
+        return expression("radius", self.radius) * _unit(s)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The radius must be positive."""
@@ -142,7 +149,7 @@ class Ellipsoid(Bounded):
     semiaxes: Sequence[Number]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "semiaxes", tuple(self.semiaxes))
+        object.__setattr__(self, "semiaxes", _entries("Ellipsoid: semiaxes", self.semiaxes))
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sqrt(sum of l_i^2 s_i^2)."""
@@ -151,10 +158,13 @@ class Ellipsoid(Bounded):
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """l_i^2 s_i / support."""
         unit = _unit(self._scaled(s))
-        return sp.Matrix([sp.sympify(l) * part for l, part in zip(self.semiaxes, unit, strict=True)])
+        return sp.Matrix([l * part for l, part in zip(self._lengths(), unit, strict=True)])
+
+    def _lengths(self) -> list[sp.Expr]:
+        return vector("semiaxes", self.semiaxes)
 
     def _scaled(self, s: Sequence[sp.Expr]) -> list[sp.Expr]:
-        return [sp.sympify(l) * part for l, part in zip(self.semiaxes, s, strict=True)]
+        return [l * part for l, part in zip(self._lengths(), vector("s", s), strict=True)]
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The semiaxes must be positive, one for each control."""
@@ -181,7 +191,7 @@ class Box(Bounded):
     bounds: Sequence[Number]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "bounds", tuple(self.bounds))
+        object.__setattr__(self, "bounds", _entries("Box: bounds", self.bounds))
 
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """sum of l_i |s_i|."""
@@ -192,7 +202,10 @@ class Box(Bounded):
         return sp.Matrix(self._each(sp.sign, s))
 
     def _each(self, function: type[sp.Function], s: Sequence[sp.Expr]) -> list[sp.Expr]:
-        return [sp.sympify(l) * _of_one(function, part) for l, part in zip(self.bounds, s, strict=True)]
+        return [
+            l * _of_one(function, part)
+            for l, part in zip(vector("bounds", self.bounds), vector("s", s), strict=True)
+        ]
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """The bounds must be positive, one for each control."""
@@ -214,10 +227,14 @@ class BoundedQuadratic:
     radius: Number = 1
     weight: Number = 1
 
+    def __post_init__(self) -> None:
+        for name, value in (("radius", self.radius), ("weight", self.weight)):
+            expression(f"BoundedQuadratic: {name}", value, name)
+
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """|s|^2 / (4 weight) if the unbounded maximum is in the ball, else radius |s| - weight radius^2."""
-        radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
-        squares = sp.Add(*(part**2 for part in s))
+        radius, weight, norm = *self._numbers(), _norm(s)
+        squares = sp.Add(*(part**2 for part in vector("s", s)))
         return sp.Piecewise(
             (squares / (4 * weight), norm <= 2 * weight * radius),
             (radius * norm - weight * radius**2, True),
@@ -225,18 +242,21 @@ class BoundedQuadratic:
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """s / (2 weight), shortened to the radius where it is longer."""
-        radius, weight, norm = sp.sympify(self.radius), sp.sympify(self.weight), _norm(s)
+        radius, weight, norm = *self._numbers(), _norm(s)
         inside = norm <= 2 * weight * radius
         return sp.Matrix(
             [
                 sp.Piecewise((part / (2 * weight), inside), (radius * unit, True))
-                for part, unit in zip(s, _unit(s), strict=True)
+                for part, unit in zip(vector("s", s), _unit(s), strict=True)
             ]
         )
 
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """Weight times |u|^2."""
-        return sp.sympify(self.weight) * sp.Add(*(part**2 for part in u))
+        return expression("weight", self.weight) * sp.Add(*(part**2 for part in vector("u", u)))
+
+    def _numbers(self) -> tuple[sp.Expr, sp.Expr]:
+        return expression("radius", self.radius), expression("weight", self.weight)
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Radius and weight must be positive."""
@@ -244,16 +264,32 @@ class BoundedQuadratic:
         require_positive("BoundedQuadratic: weight", [self.weight], numbers)
 
 
+def _entries(name: str, values: Any) -> tuple[Number, ...]:
+    """The numbers and expressions of a sequence, as they are given but checked."""
+    argument = name.partition(": ")[2]
+    try:
+        entries = None if isinstance(values, str | bytes) else tuple(values)
+    except TypeError:
+        entries = None
+    if entries is None:
+        raise ArgumentTypeError(f"{name} must be a sequence such as a list, got {values!r}", argument)
+    for i, value in enumerate(entries):
+        expression(f"{name}[{i}]", value, argument)
+    return entries
+
+
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:
-    return _of_one(sp.Abs, s[0]) if len(s) == 1 else sp.sqrt(sp.Add(*(part**2 for part in s)))
+    parts = vector("s", s)
+    return _of_one(sp.Abs, parts[0]) if len(parts) == 1 else sp.sqrt(sp.Add(*(part**2 for part in parts)))
 
 
 def _unit(s: Sequence[sp.Expr]) -> sp.Matrix:
-    return sp.Matrix([_of_one(sp.sign, s[0])]) if len(s) == 1 else sp.Matrix([*s]) / _norm(s)
+    parts = vector("s", s)
+    return sp.Matrix([_of_one(sp.sign, parts[0])]) if len(parts) == 1 else sp.Matrix(parts) / _norm(parts)
 
 
 def _of_one(function: type[sp.Function], value: sp.Expr) -> sp.Expr:
     """Abs or sign of a real expression, without simplifying the roots of positive quantities in it."""
     roots = {power: sp.Dummy(positive=True) for power in value.atoms(sp.Pow) if not power.exp.is_integer}
     back = {positive: power for power, positive in roots.items()}
-    return function(sp.sympify(value).xreplace(roots)).xreplace(back)
+    return function(value.xreplace(roots)).xreplace(back)

@@ -8,6 +8,9 @@ import sympy as sp
 
 from pontryagin.averaging.system.control_checks import Numbers, listed, refusal
 from pontryagin.averaging.system.control_sets import Bounded
+from pontryagin.averaging.system.expressions import expression, vector
+from pontryagin.averaging.system.jets import restored, with_constant_signs
+from pontryagin.errors import ArgumentTypeError
 from pontryagin.numerics import compile as compiler
 from pontryagin.value import value_class
 
@@ -35,16 +38,21 @@ class Custom(Bounded):
 
     of: Callable[[Sequence[sp.Expr]], sp.Expr]
 
+    def __post_init__(self) -> None:
+        if not callable(self.of):
+            raise ArgumentTypeError(f"Custom: of must be a function of expressions, got {self.of!r}", "of")
+
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
-        """The given support function."""
-        return sp.sympify(self.of([*s]))
+        """The given support function, with its Max and Min written with Abs."""
+        value = expression("Custom: the support function's value", self.of(vector("s", s)), "of")
+        return value.rewrite((sp.Max, sp.Min), sp.Abs)
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """The gradient of the support function, by the envelope theorem."""
         free = [sp.Dummy(f"s{i}", real=True) for i in range(len(s))]
-        value = self.support(free)
-        at = dict(zip(free, s, strict=True))
-        return sp.Matrix([sp.diff(value, part).xreplace(at) for part in free])
+        value, signs = with_constant_signs(self.support(free))
+        at = dict(zip(free, vector("s", s), strict=True))
+        return sp.Matrix([restored(value.diff(part), signs).xreplace(at) for part in free])
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """Sigma must be homogeneous and subadditive, hence convex; tested in random directions."""

@@ -70,7 +70,10 @@ def expressions(function: "sp.Expr", variables: Sequence["sp.Symbol"]) -> list["
 
 
 def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr", "sp.Dummy"]]:
-    """Replace every sign(g) by a constant and |g| by g times it; returns the function and constants by g."""
+    """Replace every sign(g) by a constant and |g| by g times it; returns the function and constants by g.
+
+    Max and Min are written with moduli before.
+    """
     import sympy as sp
 
     signs: dict[sp.Expr, sp.Dummy] = {}
@@ -78,7 +81,8 @@ def with_constant_signs(function: "sp.Expr") -> tuple["sp.Expr", dict["sp.Expr",
     def constant(g: sp.Expr) -> sp.Dummy:
         return signs.setdefault(g, sp.Dummy("sign", real=True))
 
-    function = sp.sympify(function).replace(sp.Abs, lambda g: g * constant(g))
+    function = sp.sympify(function).rewrite((sp.Max, sp.Min), sp.Abs)
+    function = function.replace(sp.Abs, lambda g: g * constant(g))
     return function.replace(sp.sign, constant), signs
 
 

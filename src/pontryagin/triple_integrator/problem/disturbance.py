@@ -78,9 +78,14 @@ def _constant(value: Array) -> Integrals:
 def _symbolic(expression: Any, low: float, high: float) -> Integrals:
     """Antiderivatives by SymPy, where it finds them and they agree with quadrature; else quadrature."""
     import sympy as sp
+    from sympy.core.function import AppliedUndef
 
     from pontryagin.numerics import compile as compiler
 
+    if expression.atoms(AppliedUndef):  # The name of such a function would be run as code.
+        raise ArgumentValueError(
+            f"disturbance must be an expression that NumPy evaluates, got {expression}", "disturbance"
+        )
     if not isinstance(expression, sp.Expr) or expression.is_real is False:
         raise ArgumentTypeError(
             f"disturbance must be a real expression in t, got {expression}", "disturbance"
