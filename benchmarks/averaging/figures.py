@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from benchmarks.averaging.flows import OURS, TAYLOR, TOGETHER
+from benchmarks.averaging.flows import LANES, OURS, TAYLOR, TOGETHER
 from benchmarks.figures import Table, where
 from pontryagin.averaging.exact.extremal import Extremals
 from pontryagin.display.plotting import (
@@ -27,6 +27,7 @@ TIMES = {
 }
 INTEGRATORS = {
     OURS: ("D", GREEN),
+    LANES: ("X", GREEN),
     TAYLOR: ("o", BLUE),
     TOGETHER: ("P", BLUE),
     "DOP853, solve_ivp": ("s", RED),

@@ -19,14 +19,15 @@ from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from benchmarks.clock import one_call, take_turns
 from benchmarks.table import by_heading
+from benchmarks.taylor import VectorMode, has_heyoka, heyoka_system, large
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.canonical import (
     Canonical,
     y,
 )
 from pontryagin.numerics import compile as compiler
-from pontryagin.numerics.lanes import ends
-from pontryagin.numerics.vector_mode import has_heyoka, heyoka_system, large
+from pontryagin.numerics.lanes import compiled_lanes, stacked
+from pontryagin.numerics.symbolic import Symbolic
 
 TOLERANCE = 1e-12
 EPSILON = 0.01
@@ -34,8 +35,10 @@ MANY = 64
 """Number of trajectories that are integrated together."""
 STEPS = 1_000_000
 
-OURS = "native code"
+OURS, LANES = "native code, one trajectory", f"native code, of {MANY} trajectories"
 TAYLOR, TOGETHER = "heyoka, one trajectory", f"heyoka, of {MANY} trajectories"
+COUNTS = {OURS: 1, LANES: MANY, TAYLOR: 1, TOGETHER: MANY}
+"""How many equal trajectories are integrated together; the time is that of one."""
 
 
 @dataclass(frozen=True)
@@ -121,13 +124,22 @@ def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
     return odeint(rates, start, grid, rtol=TOLERANCE, atol=TOLERANCE, tfirst=True, mxstep=STEPS)[-1]
 
 
-def by_ends(path: Trajectory, sensitivities: bool, count: int, taylor: bool) -> Array:
-    """The end by `pontryagin.numerics.lanes.ends`, of the first of `count` equal trajectories."""
+def together(path: Trajectory, sensitivities: bool, method: str) -> Callable[[], Array]:
+    """A run that gives the first of the equal ends of the trajectories that a method integrates together."""
     e = path.equations
-    wrt = path.wrt if sensitivities else ()
-    carry = ends(e.states, e.rates, e.parameters, e.anomaly, wrt, taylor, TOLERANCE)
-    states, slopes = carry(np.tile(path.start, (count, 1)), path.begin, path.end, path.parameters)
-    return np.concatenate([states[0], slopes[0].ravel()])
+    equations = Symbolic(e.states, tuple(e.rates), e.parameters, e.anomaly, path.wrt if sensitivities else ())
+    starts = np.tile(path.start, (COUNTS[method], 1))
+    given = stacked(starts, path.begin, path.end, path.parameters, len(path.parameters))
+    if method in (OURS, LANES):
+        run = partial(compiled_lanes(equations).run, *given, TOLERANCE)
+    else:
+        run = partial(VectorMode(equations, TOLERANCE), *given)
+
+    def end() -> Array:
+        states, slopes = run()
+        return np.concatenate([states[0], slopes[0].ravel()])
+
+    return end
 
 
 def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
@@ -158,11 +170,8 @@ def contestants(path: Trajectory, sensitivities: bool) -> tuple[dict[str, Callab
     """One run of each integrator, by name, and the reference end."""
     rates = scalar_rates(path, sensitivities)
     start = path.with_sensitivities() if sensitivities else path.start
-    counts = {OURS: 1} | ({TAYLOR: 1, TOGETHER: MANY} if has_heyoka() else {})
-    found: dict[str, Callable[[], Array]] = {
-        method: partial(by_ends, path, sensitivities, count, method != OURS)
-        for method, count in counts.items()
-    }
+    methods = (OURS, LANES, TAYLOR, TOGETHER) if has_heyoka() else (OURS, LANES)
+    found = {method: together(path, sensitivities, method) for method in methods}
     for method in ("DOP853", "LSODA"):
         found[f"{method}, solve_ivp"] = partial(by_solve_ivp, path, rates, start, method)
     found["LSODA, odeint"] = partial(by_odeint, path, rates, start)
@@ -178,11 +187,9 @@ def table(quick: bool) -> dict[str, list]:
         for sensitivities in (False, True):
             runs, exact = contestants(path, sensitivities)
             errors = {method: error(run(), exact) for method, run in runs.items()}
-            counted = {
-                method: one_call(run, MANY if method == TOGETHER else 1) for method, run in runs.items()
-            }
+            counted = {method: one_call(run, COUNTS.get(method, 1)) for method, run in runs.items()}
             timings = take_turns(counted, 1 if quick else 3)
-            ours = timings[OURS].typical
+            ours = timings[LANES].typical
             rows += [
                 {
                     "example": name,
@@ -190,7 +197,7 @@ def table(quick: bool) -> dict[str, list]:
                     "turns": turns,
                     "integrator": method,
                     "ms": 1e3 * timing.typical,
-                    "times native code": timing.typical / ours,
+                    "times native code together": timing.typical / ours,
                     "error": errors[method],
                 }
                 for method, timing in timings.items()

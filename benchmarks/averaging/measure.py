@@ -17,7 +17,8 @@ NOTES = (
     "least exact cost.",
     "Integrators follow the best extremal at epsilon 0.01 with the anomaly as the clock, at the tolerance",
     "1e-12; SciPy's call the same expressions compiled by Numba. Errors are against a long-double reference.",
-    "heyoka carries eight trajectories at a time, so that one alone costs as much as eight.",
+    "Native code and heyoka carry eight trajectories at a time; times are for each of them. heyoka carries",
+    "eight for one alone too, native code then follows that one.",
     "solve_bvp gets the exact problem with the Jacobian of its right-hand side, the averaged solution as its",
     "guess at 24 points a turn, the tolerance 1e-6 and up to 20000 nodes; it finds one extremal, ours all.",
 )

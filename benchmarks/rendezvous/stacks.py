@@ -12,7 +12,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight, fly
-from pontryagin.rendezvous.reduced.lanes import fly_all
+from pontryagin.rendezvous.reduced.flights import fly_all
 from pontryagin.rendezvous.reduced.multistart import (
     NEAR,
     newton_from_all,

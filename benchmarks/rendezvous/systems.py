@@ -1,4 +1,4 @@
-"""Four forms of one system, compiled by heyoka in the same way, and their residuals at a meeting.
+"""Four forms of one system, compiled to native code in the same way, and their residuals at a meeting.
 
 The costates at t0 are rho, s1, e, nu in every form: with lambda = 1 at t0, mu equals nu, and nu0 = 0. In the
 form with eight costates, Phi* and mu0 are free as well.
@@ -7,16 +7,16 @@ form with eight costates, Phi* and mu0 are free as well.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from pontryagin.arrays import Array
-from pontryagin.numerics import complex_step
-from pontryagin.numerics.flow import TOLERANCE
+from pontryagin.numerics import complex_step, trajectory
+from pontryagin.numerics.flow import NO_TIMES, TOLERANCE
 from pontryagin.numerics.rotation import conjugate, product
-from pontryagin.numerics.vector_mode import heyoka_system
+from pontryagin.numerics.symbolic import Symbolic
+from pontryagin.numerics.trajectory import ArcEnd, Compiled
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.derivation import forms, principle, repair
 from pontryagin.rendezvous.derivation.forms import Form
@@ -69,21 +69,11 @@ def expressions(size: str, mode: Mode) -> tuple[Form, tuple[sp.Expr, ...]]:
 
 
 @cache
-def compiled(size: str, mode: Mode, derivatives: bool, wrt: Symbols = ()) -> Any:
-    """heyoka's Taylor integrator of a form, with derivatives by the initial values ``wrt``."""
-    import heyoka as hy
-
+def compiled(size: str, mode: Mode, derivatives: bool, wrt: Symbols = ()) -> Compiled:
+    """The native code of a form, with derivatives by the initial values ``wrt``."""
     form = SYSTEMS[size](mode)
-    system, table = heyoka_system(form.states, form.rates, form.parameters, None)
-    if derivatives:
-        system = hy.var_ode_sys(system, [table[x] for x in wrt or costates_of(size)], order=1)
-    return hy.taylor_adaptive(
-        system,
-        np.ones(len(form.states)),
-        tol=TOLERANCE,
-        pars=[1.0] * len(form.parameters),
-        compact_mode=True,
-    )
+    chosen = (wrt or costates_of(size)) if derivatives else ()
+    return trajectory.compiled(Symbolic(form.states, tuple(form.rates), form.parameters, wrt=tuple(chosen)))
 
 
 def initial_state(size: str, scaled: Scaled, costates: Array) -> Array:
@@ -103,20 +93,16 @@ def fly(
     """The end of a flight of a form, its derivatives and the number of steps; None if it stops early."""
     state = np.concatenate([start, identity(size, wrt).ravel()])
     pars = parameters(size, scaled, scale, start)
-    outcome, steps, state = carried(compiled(size, mode, True, wrt), state, pars, duration)
+    reached = carried(compiled(size, mode, True, wrt), state, pars, duration)
     n = len(start)
-    if "time_limit" not in str(outcome) or not np.isfinite(state).all():
+    if reached.code or not np.isfinite(reached.whole).all():
         return None
-    return state[:n], state[n:].reshape(n, -1), steps
+    return reached.whole[:n], reached.whole[n:].reshape(n, -1), reached.steps
 
 
-def carried(integrator: Any, state: Array, pars: Sequence[float], duration: float) -> tuple[Any, int, Array]:
-    """The outcome that heyoka reports, the number of steps and the end of a flight."""
-    integrator.time = 0.0
-    integrator.state[:] = state
-    integrator.pars[:] = pars
-    outcome, _, _, steps, *_ = integrator.propagate_until(duration, max_steps=STEPS)
-    return outcome, steps, integrator.state.copy()
+def carried(native: Compiled, state: Array, pars: Sequence[float], duration: float) -> ArcEnd:
+    """How a flight ended."""
+    return native.follow(state, 0.0, duration, np.array(pars), TOLERANCE, np.inf, STEPS, NO_TIMES)
 
 
 def parameters(size: str, scaled: Scaled, scale: float, start: Array) -> list[float]:

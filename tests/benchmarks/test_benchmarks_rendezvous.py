@@ -18,6 +18,7 @@ from benchmarks.rendezvous import (
 )
 from benchmarks.rendezvous.collocation import collocate, cost
 from benchmarks.rendezvous.systems import EIGHT, PROBLEMS, REDUCED
+from benchmarks.taylor import has_heyoka
 from matplotlib.container import BarContainer
 
 from pontryagin.rendezvous import solve
@@ -85,6 +86,7 @@ def test_fewer_equations_take_fewer_operations():
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(not has_heyoka(), reason="heyoka, a peer, is not installed: make bench")
 def test_the_integrators_give_the_same_derivatives():
     table = integrators.table(quick=True)
     assert table["ours against heyoka"][0] < 1e-11 and table["SciPy against heyoka"][0] < 1e-9

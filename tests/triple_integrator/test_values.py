@@ -8,6 +8,7 @@ import threading
 from dataclasses import fields
 from types import FunctionType
 
+import cloudpickle
 import numpy as np
 import pytest
 import sympy as sp
@@ -132,7 +133,7 @@ def by_value(value):
 
 
 def by_cloudpickle(value):
-    return pytest.importorskip("cloudpickle").dumps(value)
+    return cloudpickle.dumps(value)
 
 
 @pytest.mark.parametrize("dumps", [by_value, by_cloudpickle])

@@ -2,8 +2,7 @@
 
 This module integrates one trajectory at a time; `pontryagin.numerics.lanes` integrates many. `integrator`
 follows any `pontryagin.numerics.equations.Equations` up to an event, `flow` samples the trajectories of SymPy
-equations. On flights with derivatives this is 3 to 8 times faster than heyoka's Taylor integrator, as exact
-to the last digits, and ready in a millisecond once the machine has made the code.
+equations. The code is ready in a millisecond once the machine has made it.
 """
 
 import functools

@@ -7,16 +7,18 @@ than a millisecond, without Numba.
 
 import ctypes
 import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import accumulate, pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics import arc_loop, assembly, dop853, object_code, runge_kutta
-from pontryagin.numerics.closure import closure_of
+from pontryagin.numerics.closure import Closure, closure_of
 from pontryagin.numerics.equations import Equations
 from pontryagin.numerics.native import compiled_text
 from pontryagin.numerics.object_code import Opened
@@ -128,7 +130,7 @@ class Compiled:
             at[8],
             at[1],
             at[2],
-            _TABLE_AT,
+            TABLE_AT,
             *at[3:7],
         )
         reached = np.concatenate([y[:n], table.ravel()]) if moved else y.copy()
@@ -157,14 +159,20 @@ def compiled(equations: Equations) -> Compiled:
     width, events = row_width(m), equations.events
     symbols = ["rates", *(["directions"] if m else []), *(["guards"] if events else [])]
     text, parameters = right_hand_sides(equations)
+    opened = native_text(text, symbols)
+    at = dict(zip(symbols, opened.addresses, strict=True))
+    addresses = (at["rates"], at.get("directions", 0), at.get("guards", 0))
+    return Compiled(*addresses, n, m, width, events, parameters, opened)
+
+
+def native_text(text: str, symbols: Sequence[str]) -> Opened:
+    """The functions of LLVM's text in native code that is opened or made."""
     path = object_code.kept_path(text, object_code.instructions())
     with _LOCK:
         opened = object_code.kept(path, symbols)
         if opened is None:
             opened = object_code.store(object_code.object_code([text], symbols, vectors=True), path, symbols)
-    at = dict(zip(symbols, opened.addresses, strict=True))
-    addresses = (at["rates"], at.get("directions", 0), at.get("guards", 0))
-    return Compiled(*addresses, n, m, width, events, parameters, opened)
+    return opened
 
 
 def right_hand_sides(equations: Equations) -> tuple[str, int]:
@@ -195,47 +203,73 @@ def table() -> Array:
     return np.concatenate([dop853.NODES, rows.ravel()])
 
 
-_TABLE = table()
-_TABLE_AT = _TABLE.ctypes.data
-
-
-@dataclass(frozen=True)
-class _Loop:
-    """`arc_loop.follow` in native code."""
-
-    follow: Any
-    code: object
+TABLE = table()
+TABLE_AT = TABLE.ctypes.data
 
 
 @cache
-def _loop() -> _Loop:
-    """The loop, opened or made."""
-    closure = closure_of(arc_loop.follow)
-    path = object_code.kept_path(closure.identity, object_code.instructions())
-    with _LOCK:
-        opened = object_code.kept(path, ["follow"]) or _made_loop(closure, path)
-    whole, real, place = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
-    kinds: dict[str, Any] = {"i64": whole, "double": real, "ptr": place}
-    kind = ctypes.CFUNCTYPE(whole, *(kinds[name] for name in ARGUMENTS))
-    return _Loop(kind(opened.addresses[0]), opened)
+def _loop() -> "Loop":
+    """`arc_loop.follow` in native code."""
+    return native_loop(arc_loop.follow, ARGUMENTS, {"evaluate": _by_address})
 
 
 ARGUMENTS = (*["i64"] * 6, *["ptr"] * 2, *["double"] * 3, "i64", "ptr", *["i64"] * 2, *["ptr"] * 8)
 """The types of the arguments of `arc_loop.follow`; functions are given by their addresses."""
 
 
-def _made_loop(closure: Any, path: Any) -> Opened:
+@dataclass(frozen=True)
+class Loop:
+    """A loop over steps in native code.
+
+    Attributes
+    ----------
+    follow : function
+        The loop; functions are given to it by their addresses.
+    code : object
+        What keeps the code in memory.
+    """
+
+    follow: Any
+    code: object
+
+
+def native_loop(
+    loop: Callable[..., int], arguments: Sequence[str], replaced: Mapping[str, Callable[[], Any]]
+) -> Loop:
+    """A loop over steps, given by its plain source, in native code that is opened or made.
+
+    Parameters
+    ----------
+    loop : function
+        The plain source.
+    arguments : sequence of str
+        The types of its arguments: i64, double or ptr.
+    replaced : mapping of str to function
+        What Numba takes for a function of that name.
+    """
+    closure = closure_of(loop)
+    path = object_code.kept_path(closure.identity, object_code.instructions())
+    with _LOCK:
+        opened = object_code.kept(path, ["follow"]) or _made_loop(closure, path, arguments, replaced)
+    kinds: dict[str, Any] = {"i64": ctypes.c_int64, "double": ctypes.c_double, "ptr": ctypes.c_void_p}
+    kind = ctypes.CFUNCTYPE(ctypes.c_int64, *(kinds[name] for name in arguments))
+    return Loop(kind(opened.addresses[0]), opened)
+
+
+def _made_loop(
+    closure: Closure, path: Path, arguments: Sequence[str], replaced: Mapping[str, Callable[[], Any]]
+) -> Opened:
     """The loop, compiled by Numba."""
     from numba import types
 
     pointer: Any = types.CPointer
     numbers = pointer(types.float64)
     kinds = {"i64": types.int64, "double": types.float64, "ptr": numbers}
-    signature = types.int64(*(kinds[name] for name in ARGUMENTS))
-    name, text = compiled_text(closure, signature, {"evaluate": _by_address()})
-    taken = ", ".join(f"{kind} %a{i}" for i, kind in enumerate(ARGUMENTS))
+    signature = types.int64(*(kinds[name] for name in arguments))
+    name, text = compiled_text(closure, signature, {of: made() for of, made in replaced.items()})
+    taken = ", ".join(f"{kind} %a{i}" for i, kind in enumerate(arguments))
     around = (
-        f"declare i32 @{name}(ptr, ptr, {', '.join(ARGUMENTS)})\n"
+        f"declare i32 @{name}(ptr, ptr, {', '.join(arguments)})\n"
         f"define i64 @follow({taken}) {{\n"
         "  %result = alloca i64\n"
         "  %exception = alloca ptr\n"

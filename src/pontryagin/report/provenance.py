@@ -20,7 +20,6 @@ PACKAGES = (
     "scipy",
     "sympy",
     "numba",
-    "heyoka",
     "matplotlib",
     "rerun-sdk",
     "pypandoc-binary",

@@ -1,8 +1,8 @@
 """The certificate of an exact extremal, which is propagated again in slow time.
 
-The search integrates over the anomaly, by Taylor series in the last steps if nothing switches and heyoka
-is installed. Here the independent variable, the equations and the steps are different, the integrator is the
-Runge-Kutta method, and h* comes from the support function and not from the control that attains it.
+The search integrates over the anomaly, several extremals side by side if nothing switches. Here the
+independent variable is slow time, so that the equations and the steps are others, each extremal is followed
+alone, and h* comes from the support function and not from the control that attains it.
 """
 
 from collections.abc import Callable

@@ -13,6 +13,8 @@ from pontryagin.numerics.newton_stack import Evaluated, LinearisedStack, newton_
 
 CLOSE = 1e-7
 """Largest residual of a member; extremals are polished further."""
+TOLERANCE = 1e-11
+"""Relative error allowed in a step; over hundreds of turns the errors add up to less than `CLOSE`."""
 ITERATIONS, FEW_ITERATIONS = 20, 6
 """Largest numbers of Newton steps from a rough guess, and from a close one."""
 CHORDS = 6
@@ -128,7 +130,7 @@ def nearby_extremal(problem: Shooting, theta: float, unknowns: Array) -> tuple[f
     """
 
     def missing(z: Array) -> Array:
-        shot = problem.shoot(z[:, -1], z[:, :-1], together=False)
+        shot = problem.shoot(z[:, -1], z[:, :-1], TOLERANCE)
         return np.column_stack([shot.residual, shot.hamiltonian / problem.price])
 
     def jacobians(z: Array, _: NDArray[np.intp]) -> Array:
@@ -160,7 +162,7 @@ def _residuals(evaluate: Callable[[], Array], shape: tuple[int, ...]) -> Array:
 
 
 def _shoot(problem: Shooting, theta: Array, w: Array) -> Shot:
-    return problem.shoot(theta, w, together=len(theta) > 1)
+    return problem.shoot(theta, w, TOLERANCE)
 
 
 def _largest(_: NDArray[np.intp], __: Array, residuals: Array) -> Array:

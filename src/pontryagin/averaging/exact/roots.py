@@ -1,7 +1,7 @@
 """All extremals of the unaveraged problem: the roots of y1 over the family, bracketed and polished."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 
 import numpy as np
@@ -13,9 +13,10 @@ from pontryagin.averaging.exact.arrivals import arrivals, fixed_ending
 from pontryagin.averaging.exact.certificate import certificate
 from pontryagin.averaging.exact.extremal import Extremal, Extremals
 from pontryagin.averaging.exact.family import Family, family
-from pontryagin.averaging.exact.members import nearby_extremal, updated
+from pontryagin.averaging.exact.members import CLOSE, nearby_extremal, updated
+from pontryagin.averaging.exact.members import TOLERANCE as CLOSE_TOLERANCE
 from pontryagin.averaging.exact.refinement import crossings, turns_resolved, with_members
-from pontryagin.averaging.exact.shooting import Shooting, Shot, along, shooting
+from pontryagin.averaging.exact.shooting import TOLERANCE, Shooting, Shot, along, shooting
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton_stack import solved
 from pontryagin.progress import report
@@ -127,12 +128,12 @@ def roots(problem: Shooting, traced: Family) -> tuple[Family, Roots]:
         if len(at) == 0:
             return current, _sorted(found)
         low, high = current.theta[at], current.theta[at + 1]
-        theta, unknowns, derivatives = crossings(current, at)
-        reached, good = _polished(problem, theta, unknowns, derivatives, low, high, current.y)
+        guess = _Guess(*crossings(current, at), low - SLACK, high + SLACK)
+        reached, good = _polished(problem, guess, float(np.ptp(current.y)))
         found.append(reached)
         solved = np.append(solved, low[good])
         if not good.all():
-            current = with_members(problem, current, theta[~good])
+            current = with_members(problem, current, guess.theta[~good])
     raise NotConverged(
         "an extremal between two solutions of the family was not found", float(np.abs(current.y[at]).max())
     )
@@ -144,43 +145,79 @@ def _sign_changes(current: Family) -> NDArray[np.intp]:
     return np.asarray(np.nonzero(positive[:-1] != positive[1:])[0], dtype=np.intp)
 
 
-def _polished(
-    problem: Shooting, theta: Array, w: Array, derivatives: Array, low: Array, high: Array, y: Array
-) -> tuple[Roots, NDArray[np.bool_]]:
-    """Newton's method for w and theta together from k guesses, each Jacobian used while it serves.
+@dataclass(frozen=True)
+class _Guess:
+    """Guesses of k extremals.
 
-    Returns the roots found, and which of the guesses (k,) converged.
+    Attributes
+    ----------
+    theta, unknowns : (k,), (k, n + r) array
+        Anomaly at the end, (p0, alpha).
+    derivatives : (k, n + r + 1, n + r + 1) array
+        Those of `Slopes`.
+    low, high : (k,) array
+        Bounds of theta.
     """
-    n, size = w.shape[1], float(np.ptp(y))
-    theta, w = theta.copy(), w.copy()
-    good, slope, open_ = np.zeros(len(theta), bool), np.zeros(len(theta)), np.ones(len(theta), bool)
-    shots = problem.shoot(theta, w)
+
+    theta: Array
+    unknowns: Array
+    derivatives: Array
+    low: Array
+    high: Array
+
+    def __getitem__(self, rows: NDArray[np.bool_]) -> "_Guess":
+        return _Guess(*(getattr(self, f.name)[rows] for f in fields(self)))
+
+
+def _polished(problem: Shooting, guess: _Guess, size: float) -> tuple[Roots, NDArray[np.bool_]]:
+    """The roots near k guesses, by flights that are as exact as those of members, then by exact ones.
+
+    y has the given size. Returns the roots found, and which of the guesses (k,) converged.
+    """
+    shots, derivatives, near = _newton(problem, guess, size, CLOSE_TOLERANCE, CLOSE)
+    close = _Guess(shots.theta, shots.unknowns, derivatives, guess.low, guess.high)[near]
+    shots, derivatives, exact = _newton(problem, close, size, TOLERANCE, POLISHED)
+    found = near.copy()
+    found[near] = exact
+    return Roots(shots[exact], along(derivatives[exact])[1]), found
+
+
+def _newton(
+    problem: Shooting, guess: _Guess, size: float, tolerance: float, goal: float
+) -> tuple[Shot, Array, NDArray[np.bool_]]:
+    """Newton's method for w and theta together, each Jacobian used while it serves.
+
+    Returns the last shots, the last derivatives and which of the shots have residuals within the goal.
+    """
+    theta, w, derivatives = guess.theta.copy(), guess.unknowns.copy(), guess.derivatives.copy()
+    n = w.shape[1]
+    shots = problem.shoot(theta, w, tolerance)
+    good = np.abs(_conditions(shots, size)).max(axis=1) <= goal
     for attempt in range(6):
-        i = np.nonzero(open_)[0]
+        i = np.flatnonzero(~good)
         if len(i) == 0:
             break
-        matrix = problem.slopes(theta[i], w[i]).matrix if attempt else derivatives
-        slope[i] = along(matrix)[1]
-        shot, jacobians = shots[i], matrix / np.append(np.ones(n), size)[:, None]
-        residual = _conditions(shot, size)
+        if attempt:
+            derivatives[i] = problem.slopes(theta[i], w[i]).matrix
+        jacobians = derivatives[i] / np.append(np.ones(n), size)[:, None]
+        residual = _conditions(shots[i], size)
         for _ in range(4):
             step = solved(jacobians, -residual)
             aimed = theta[i] + step[:, n]
             w[i] += step[:, :n]
-            theta[i] = np.clip(aimed, low[i] - SLACK, high[i] + SLACK)
-            shot = problem.shoot(theta[i], w[i])
+            theta[i] = np.clip(aimed, guess.low[i], guess.high[i])
+            shot = problem.shoot(theta[i], w[i], tolerance)
             before, residual = residual, _conditions(shot, size)
             error = np.abs(residual).max(axis=1)
             shots.put(i, shot)
-            done = error <= POLISHED
-            good[i[done]], open_[i[done]] = True, False
+            good[i] = error <= goal
             free = aimed == theta[i]
             jacobians[free] = updated(jacobians[free], step[free], residual[free])
-            keep = ~done & (error <= 0.2 * np.abs(before).max(axis=1))
+            keep = ~good[i] & (error <= 0.2 * np.abs(before).max(axis=1))
             i, jacobians, residual = i[keep], jacobians[keep], residual[keep]
             if len(i) == 0:
                 break
-    return Roots(shots[good], slope[good]), good
+    return shots, derivatives, good
 
 
 def _conditions(shot: Shot, size: float) -> Array:

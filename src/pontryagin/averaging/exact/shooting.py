@@ -140,14 +140,13 @@ class Shooting:
     scale_m: Array
     price: float
 
-    def shoot(self, theta: Array, w: Array, together: bool = True) -> Shot:
+    def shoot(self, theta: Array, w: Array, tolerance: float = TOLERANCE) -> Shot:
         """Follow the extremals with the initial costates p0 to the anomalies theta.
 
-        Those that are not followed together are followed by the integrator for single trajectories, which is
-        the faster one for one or two.
+        The tolerance is the relative error allowed in a step; arcs between switches are always exact.
         """
         starts = self.starts(w)
-        reached, _ = _carry(self.equations, together)(starts, self.anomaly, theta, self.parameters)
+        reached, _ = _carry(self.equations, tolerance)(starts, self.anomaly, theta, self.parameters)
         return self._shot(theta, w, starts, reached)
 
     def slopes(self, theta: Array, w: Array) -> Slopes:
@@ -194,7 +193,7 @@ class Shooting:
 
     def carry(self, starts: Array, begin: float, end: float) -> Array:
         """States (k, 2n + 3) carried from one anomaly to another, forwards or backwards."""
-        return _carry(self.equations)(starts, begin, end, self.parameters)[0]
+        return _carry(self.equations, TOLERANCE)(starts, begin, end, self.parameters)[0]
 
     def boundary(self, reached: Array, w: Array) -> tuple[Array, ...]:
         """M (k, r, 1), g' + alpha M' (k, n, 1), M' (k, r, n) and the second derivatives (k, n, n)."""
@@ -247,23 +246,23 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
 
 
 @lru_cache(maxsize=32)
-def _carry(equations: Canonical, together: bool = True) -> Ends:
-    return _ends(equations, (), TOLERANCE, None if together else False)
+def _carry(equations: Canonical, tolerance: float) -> Ends:
+    return _ends(equations, (), tolerance)
 
 
 @lru_cache(maxsize=32)
 def _derived(equations: Canonical) -> Ends:
     """(a, p, y) with derivatives, without tau and J, which enter no condition."""
-    return _ends(equations, (*equations.costates, y), ROUGH, False)
+    return _ends(equations, (*equations.costates, y), ROUGH)
 
 
-def _ends(equations: Canonical, wrt: tuple[sp.Symbol, ...], tolerance: float, taylor: bool | None) -> Ends:
+def _ends(equations: Canonical, wrt: tuple[sp.Symbol, ...], tolerance: float) -> Ends:
     count = -2 if wrt else None
     states, rates = equations.states[:count], equations.rates[:count]
     arguments = (states, rates, equations.parameters, equations.anomaly, wrt)
     if equations.modes:
         return switched_ends(equations.modes, *arguments)
-    return ends(*arguments, taylor=taylor, tolerance=tolerance)
+    return ends(*arguments, tolerance=tolerance)
 
 
 @lru_cache(maxsize=32)

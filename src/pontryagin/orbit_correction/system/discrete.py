@@ -67,16 +67,14 @@ class DiscreteSystem:
 
     def step(self, k: int) -> tuple[Array, Array]:
         """A(k) and the factor L(k) of the ellipsoid, L L' = H(k)^-1, both (n, n)."""
-        self._check(k + 1)
-        return self._steps[k]
+        return self._checked(k + 1)[k]
 
     def factors(self, steps: int) -> Array:
         """G_k = (A(k) ... A(0))^-1 L(k) for k < steps, (steps, n, n).
 
         The set X(N, 0) of (2) is the sum of the G_k B, Lemma 1, which are ellipsoids by Lemma 8.
         """
-        self._check(steps)
-        dynamics, ellipsoids = (np.array(rows) for rows in zip(*self._steps[:steps], strict=True))
+        dynamics, ellipsoids = (np.array(rows) for rows in zip(*self._checked(steps)[:steps], strict=True))
         with np.errstate(all="ignore"):
             result = np.array([*accumulate(np.linalg.inv(dynamics), np.dot)]) @ ellipsoids
         within = np.isfinite(result).all(axis=(1, 2))
@@ -88,23 +86,28 @@ class DiscreteSystem:
             )
         return np.asarray(result)
 
-    def _check(self, count: int) -> None:
-        """Evaluate and check the first steps, as far as that was not done; all new ones together."""
-        start = len(self._steps)
+    def _checked(self, count: int) -> list[tuple[Array, Array]]:
+        """The first steps or more, evaluated and checked as far as that was not done; all new ones together.
+
+        Threads that check the same steps put the same results in the same places.
+        """
+        steps = self._steps
+        start = len(steps)
         if count <= start:
-            return
+            return steps
         called = [(name, given) for name, given in (("A", self.A), ("H", self.H)) if callable(given)]
         values: dict[str, list[Array]] = {name: [] for name, _ in called}
         for k in range(start, count):
             for name, given in called:
                 values[name].append(finite(f"{name}({k})", given(k), "an (n, n) matrix"))
-        first = self._steps[0][0].shape if self._steps else None
+        first = steps[0][0].shape if steps else None
         dynamics = _stack("A", values.get("A", self.A), start, count, first)
         shapes = _stack("H", values.get("H", self.H), start, count, dynamics.shape[1:])
         _require_nonsingular(dynamics, start)
         stacks = (dynamics, _ellipsoid_factors(shapes, start))
         rows = (np.broadcast_to(stack, (count - start, *stack.shape[1:])) for stack in stacks)
-        self._steps.extend(zip(*rows, strict=True))
+        steps[start:count] = zip(*rows, strict=True)
+        return steps
 
 
 def _stack(

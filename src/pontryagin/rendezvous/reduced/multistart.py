@@ -15,7 +15,7 @@ from pontryagin.rendezvous.estimate import require_rendezvous
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.conditions import SEEN, Setting
-from pontryagin.rendezvous.reduced.lanes import (
+from pontryagin.rendezvous.reduced.flights import (
     Flights,
     fly_all,
 )

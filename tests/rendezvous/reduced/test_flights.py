@@ -9,7 +9,7 @@ from pontryagin.errors import NotConverged
 from pontryagin.rendezvous.reduced.flight import (
     fly,
 )
-from pontryagin.rendezvous.reduced.lanes import fly_all
+from pontryagin.rendezvous.reduced.flights import fly_all
 from rendezvous_problems import FALLING, in_units, starts
 
 KINDS = [(math.inf, False), (0.05, False), (0.05, True)]

@@ -1,11 +1,7 @@
-"""Many trajectories side by side in the vector mode of heyoka's Taylor integrator, where heyoka is installed.
-
-Each trajectory has its own start, and as many are integrated together as the processor has lanes.
-"""
+"""heyoka's Taylor integrator, a peer: SymPy equations in its expressions, and its vector mode."""
 
 import functools
 import importlib.util
-import threading
 from collections.abc import Hashable, Sequence
 from typing import Any
 
@@ -35,35 +31,29 @@ def has_heyoka() -> bool:
 
 
 class VectorMode:
-    """heyoka's integrator of some equations, compiled once in each thread that uses it.
+    """heyoka's integrator of some equations, compiled once.
 
     A group of trajectories is finished as a whole before the next one begins.
     """
 
     def __init__(self, equations: Symbolic, tolerance: float) -> None:
-        self.equations, self._tolerance = equations, tolerance
-        self._own = threading.local()  # heyoka's object holds the trajectories that are being followed
-
-    def _taylor(self) -> Any:
         import heyoka as hy
 
-        if not hasattr(self._own, "integrator"):
-            e = self.equations
-            system, table = heyoka_system(e.states, e.expressions, e.parameters, e.clock)
-            wrt = [table[symbol] for symbol in e.wrt]
-            self._own.integrator = hy.taylor_adaptive_batch(
-                hy.var_ode_sys(system, wrt, order=1) if wrt else system,
-                np.zeros((len(system), hy.recommended_simd_size())),
-                tol=self._tolerance,
-                compact_mode=bool(wrt) or large(e.expressions),
-            )
-        return self._own.integrator
+        self.equations = e = equations
+        system, table = heyoka_system(e.states, e.expressions, e.parameters, e.clock)
+        wrt = [table[symbol] for symbol in e.wrt]
+        self._taylor = hy.taylor_adaptive_batch(
+            hy.var_ode_sys(system, wrt, order=1) if wrt else system,
+            np.zeros((len(system), hy.recommended_simd_size())),
+            tol=tolerance,
+            compact_mode=bool(wrt) or large(e.expressions),
+        )
 
     def __call__(self, start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
         """The ends and the derivatives of trajectories; see `pontryagin.numerics.lanes.ends`."""
         import heyoka as hy
 
-        taylor, identity = self._taylor(), self.equations.identity
+        taylor, identity = self._taylor, self.equations.identity
         (n, m), count = identity.shape, len(start)
         lanes, held = taylor.state.shape[1], len(taylor.pars)
         states, slopes = np.empty((count, n)), np.empty((count, n, m))
