@@ -10,7 +10,6 @@ unit quaternions, scalar part first, that rotate body axes into the axes of the 
         recording.event("events", 0.5, "impulse 3.2")
 """
 
-import errno
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -31,9 +30,6 @@ from pontryagin.display.views import Scene as Scene
 from pontryagin.display.views import View as View
 from pontryagin.errors import ArgumentValueError
 from pontryagin.io import files
-
-FOOTER = b"RRF2FOOT"
-"""What a recording of rerun that was written whole has among its last bytes."""
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -211,31 +207,14 @@ def record(
     """
     rr = _rerun()
     with files.replacing(Path(path)) as draft:
-        Path(draft).touch()  # raises OSError where nothing can be written, which rerun does not
-        try:
-            with rr.RecordingStream("pontryagin", recording_id=name) as stream:
-                stream.save(str(draft), default_blueprint=blueprint(columns, speed, shares))
-                yield Recording(stream)
-            stream.disconnect()
-        except RuntimeError:
-            _require_room(draft)
-            raise
-        if not _is_whole(draft):  # rerun does not tell where the disk becomes full.
-            _require_room(draft)
-            raise OSError(errno.EIO, "the recording is incomplete", str(path))
-
-
-def _is_whole(draft: Path) -> bool:
-    with draft.open("rb") as file:
-        file.seek(max(0, file.seek(0, os.SEEK_END) - 2 * len(FOOTER)))
-        return FOOTER in file.read()
-
-
-def _require_room(draft: Path) -> None:
-    """Raise what the system says where a file cannot be made longer."""
-    with draft.open("ab", buffering=0) as file:
-        for _ in range(64):
-            file.write(bytes(4096))
+        draft.touch()  # Where nothing can be written, this is known before the recording is made.
+        # rerun's own writer neither tells where the disk becomes full, nor always ends then.
+        with rr.RecordingStream("pontryagin", recording_id=name) as stream:
+            memory = stream.memory_recording()
+            stream.send_blueprint(blueprint(columns, speed, shares), make_active=False)
+            yield Recording(stream)
+            draft.write_bytes(memory.drain_as_bytes())
+        stream.disconnect()
 
 
 def read_back(path: Path) -> dict[str, dict[str, NDArray[Any]]]:
