@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.collocation import Problem, Trajectories, scales
-from pontryagin.averaging.system.checks import PERIODIC
+from pontryagin.averaging.system.model import PERIODIC
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.collocation import derivative, evaluate

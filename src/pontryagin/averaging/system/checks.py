@@ -9,13 +9,12 @@ import sympy as sp
 from pontryagin.arrays import Array
 from pontryagin.averaging.system.control_checks import Numbers, listed
 from pontryagin.averaging.system.expressions import real_expression
+from pontryagin.averaging.system.model import PERIODIC
 from pontryagin.averaging.system.standard_form import StandardForm
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import common_shape, finite
 
-PERIODIC = 1e-9
-"""Largest change of a periodic expression over a turn, relative to 1 + its size; rounding stays below it."""
 SAMPLES = 48
 """Number of random points at which an expression and its value a turn later are compared."""
 MOST = 4_000_000

@@ -16,6 +16,9 @@ from pontryagin.numerics.quadrature import Density
 BESIDE = 1e-9
 """Distance from a switch at which one-sided derivatives are taken; they enter Newton's matrix only."""
 
+PERIODIC = 1e-9
+"""Largest change of a periodic expression over a turn, relative to 1 + its size; rounding stays below it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Model:
