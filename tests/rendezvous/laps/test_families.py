@@ -34,8 +34,9 @@ def posed(name):
 )
 def test_least_energy_on_each_lap_is_an_exact_extremal_s(name, laps, cost):
     scaled, setting = posed(name)
-    path = least_energy(Lap.of(scaled, laps), scaled.duration)
-    found = meet(setting, reduced_costates(scaled, path.nodes[:, 0]))
+    lap = Lap.of(scaled, laps)
+    path = least_energy(lap, scaled.duration)
+    found = meet(setting, reduced_costates(scaled, lap.axes, path.nodes[:, 0]))
     assert energy(found.flight) == pytest.approx(cost, abs=1e-6)
 
 
@@ -43,7 +44,7 @@ def test_bounded_thrust_is_at_its_bound_in_the_middle():
     scaled, setting = posed("energy-bounded")
     lap, cost = Lap.of(scaled, 0), RunningCost(0.0, 1.0, scaled.peak)
     path = bounded(lap, least_energy(lap, scaled.duration), cost, scaled.duration)
-    found = meet(setting, reduced_costates(scaled, path.nodes[:, 0]))
+    found = meet(setting, reduced_costates(scaled, lap.axes, path.nodes[:, 0]))
     assert path.switching().max() > 2 * scaled.peak
     assert [piece.mode for piece in found.flight.pieces].count("saturated") > 0
 
@@ -64,7 +65,7 @@ def test_least_time_on_each_lap_leads_to_an_exact_extremal(name, laps, duration)
     lap = Lap.of(scaled, laps)
     start = duration_of_thrust(guesses_on(lap, math.inf, lambda _: math.inf), 0.9 * scaled.peak)
     path = least_time(lap, least_energy(lap, start), scaled.peak)
-    found = meet(setting, np.append(reduced_costates(scaled, path.nodes[:, 0]), path.duration))
+    found = meet(setting, np.append(reduced_costates(scaled, lap.axes, path.nodes[:, 0]), path.duration))
     assert found.flight.duration == pytest.approx(duration, abs=1e-6)
     assert path.duration == pytest.approx(duration, rel=0.02)
     assert scaled.peak * path.switching()[-1] == pytest.approx(1, abs=0.05)

@@ -29,7 +29,7 @@ def on_lap(laps, peak):
 
 
 def flown(path, peak):
-    start = np.append(reduced_costates(SCALED, path.nodes[:, 0]), path.duration)
+    start = np.append(reduced_costates(SCALED, Lap.of(SCALED, 0).axes, path.nodes[:, 0]), path.duration)
     return meet(Setting(SCALED, SCALED.ratio, peak), start).flight
 
 

@@ -89,7 +89,7 @@ def test_costates_approach_those_of_the_exact_extremal_quadratically():
     errors = []
     for per_lap in (48, 96, 192):
         path = extremal(LAP, cost, DURATION, guess(per_lap=per_lap))
-        start = reduced_costates(SCALED, path.nodes[:, 0])
+        start = reduced_costates(SCALED, LAP.axes, path.nodes[:, 0])
         errors.append(np.abs(start - meet(setting, start).unknowns).max())
     ratios = np.array(errors[:-1]) / errors[1:]
     assert ratios == pytest.approx([4, 4], rel=0.2) and errors[0] < 0.01

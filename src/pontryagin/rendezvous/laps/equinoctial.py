@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
-from pontryagin.errors import NotConverged
 from pontryagin.numerics import kepler
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
@@ -16,26 +15,15 @@ from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepl
 
 TAU = 2 * math.pi
 OPPOSITE = 1e-12
-"""1 + cos(i) below which the inclination counts as 180 degrees."""
+"""Size of the sum of two normals below which these count as opposite."""
 
 
 def elements_of(state: Array) -> Array:
-    """p, f, g, h, k, L (6,) of R and V (6,), fM = 1.
-
-    Raises
-    ------
-    NotConverged
-        If the inclination is 180 degrees.
-    """
+    """p, f, g, h, k, L (6,) of R and V (6,), fM = 1, for inclinations below 180 degrees."""
     position, velocity = state[:3], state[3:]
     momentum = np.cross(position, velocity)
     parameter = momentum @ momentum
     normal = momentum / math.sqrt(parameter)
-    if 1 + normal[2] < OPPOSITE:
-        raise NotConverged(
-            "craft and target move in opposite senses in one plane, where equinoctial elements are singular",
-            math.inf,
-        )
     h, k = -normal[1] / (1 + normal[2]), normal[0] / (1 + normal[2])
     size = 1 + h**2 + k**2
     first = np.array([1 + h**2 - k**2, 2 * h * k, -2 * k]) / size
@@ -45,6 +33,30 @@ def elements_of(state: Array) -> Array:
     return np.array([parameter, apsis @ first, apsis @ second, h, k, longitude])
 
 
+def axes_between(craft: Array, target: Array) -> Array:
+    """Axes (3, 3), as rows, between the planes of two states (6,): neither is inclined by more than 90 degrees.
+
+    The first axis is such that the craft's longitude is 0.
+    """
+    normals = [np.cross(state[:3], state[3:]) for state in (craft, target)]
+    first, second = (normal / np.linalg.norm(normal) for normal in normals)
+    between = first + second
+    if np.linalg.norm(between) < OPPOSITE:
+        between = craft[:3]
+    third = between / np.linalg.norm(between)
+    along = np.cross(np.eye(3)[np.argmin(np.abs(third))], third)
+    along /= np.linalg.norm(along)
+    axes = np.array([along, np.cross(third, along), third])
+    longitude = elements_of(seen(axes, craft))[5]
+    c, s = math.cos(longitude), math.sin(longitude)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ axes
+
+
+def seen(axes: Array, state: Array) -> Array:
+    """Two vectors side by side (6,) in other axes (3, 3)."""
+    return np.asarray((state.reshape(2, 3) @ axes.T).ravel())
+
+
 @dataclass(frozen=True, eq=False)
 class Lap:
     """The ends of a transfer that makes a given number of laps, in the units of `Scaled`.
@@ -52,9 +64,11 @@ class Lap:
     Attributes
     ----------
     start : (6,) array
-        Elements of the craft at t0, in the axes eta of t0, so that h, k and L are 0.
+        Elements of the craft at t0, in axes in which L is 0.
     goal : (5,) array
         p, f, g, h and k of the target.
+    axes : (3, 3) array
+        These axes, as rows, in the axes eta of t0.
     begin : float
         The target's longitude at t0.
     anomaly, eccentricity : float
@@ -67,6 +81,7 @@ class Lap:
 
     start: Array
     goal: Array
+    axes: Array
     begin: float
     anomaly: float
     eccentricity: float
@@ -76,9 +91,12 @@ class Lap:
     @classmethod
     def of(cls, scaled: Scaled, laps: int) -> "Lap":
         """The transfer of a problem on a lap."""
-        start = elements_of(cartesian_of(scaled.start, np.array([1.0, 0, 0, 0])))
-        target = elements_of(target_by_kepler(scaled, 0.0))
-        return cls(start, target[:5], float(target[5]), scaled.anomaly, scaled.eccentricity, laps)
+        craft = cartesian_of(scaled.start, np.array([1.0, 0, 0, 0]))
+        met = target_by_kepler(scaled, 0.0)
+        axes = axes_between(craft, met)
+        start, target = (elements_of(seen(axes, state)) for state in (craft, met))
+        start[5] = 0.0
+        return cls(start, target[:5], axes, float(target[5]), scaled.anomaly, scaled.eccentricity, laps)
 
     def longitude(self, time: ArrayLike) -> tuple[Array, Array]:
         """The longitude of the meeting at given times, and its rate."""
@@ -89,9 +107,9 @@ class Lap:
         return longitude, (1 + self.eccentricity * np.cos(anomaly)) ** 2
 
 
-def reduced_costates(scaled: Scaled, node: Array) -> Array:
-    """rho, s1, e, nu1, nu2, nu3 (6,) at t0 of the elements and their costates there, (12,)."""
+def reduced_costates(scaled: Scaled, axes: Array, node: Array) -> Array:
+    """rho, s1, e, nu1, nu2, nu3 (6,) at t0 of the elements and their costates there, (12,), in some axes."""
     _, slopes = jacobian(lambda x: kernels.equinoctial_place(*x), node[:6])
-    in_space = np.linalg.solve(slopes.T, node[6:])
+    in_space = seen(axes.T, np.linalg.solve(slopes.T, node[6:]))
     columns = np.array([kernels.primer(*scaled.start, *axis) for axis in np.eye(6)]).T
     return np.asarray(np.linalg.solve(columns, in_space))

@@ -151,7 +151,7 @@ def on_lap(
     log.durations.extend(duration for duration in durations if duration not in log.durations)
     for path in _transcribed(setting, lap, durations, log, most):
         try:
-            costates = reduced_costates(setting.scaled, path.nodes[:, 0])
+            costates = reduced_costates(setting.scaled, lap.axes, path.nodes[:, 0])
             root = meet(setting, np.append(costates, path.duration) if setting.free else costates)
         except (NotConverged, Infeasible) as reason:
             log.given_up.append(f"lap {lap.laps}: {reason}")
