@@ -408,3 +408,14 @@ def test_a_bad_kappa_or_system_is_refused():
         solve_averaged(CARRIAGES["free"], np.zeros((2, 2)) + 0.5, kappa=[0, 0.1, 0.2])
     with pytest.raises(TypeError, match="system must be a PhaseSystem"):
         solve_averaged("pendulum", [1.0])
+
+
+def test_a_start_between_two_targets_reaches_one_of_them():
+    """a' = epsilon u at the cost 1 + u^2 takes 2 per unit of distance; the target's slope is zero at 2.5."""
+    a, x, u = sp.symbols("a x u", real=True)
+    system = PhaseSystem(
+        f=[u], omega=1, control_set=Quadratic(), slow=[a], control=[u], phase=x, target=[(a - 2) * (a - 3)]
+    )
+    for start in (2.5, 2.4, 2.7):
+        found = solve_averaged(system, [start])
+        assert float(found.cost) == pytest.approx(2 * min(start - 2, 3 - start), rel=1e-12)

@@ -6,7 +6,15 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pontryagin.averaging import Box, PhaseSystem, Quadratic, kepler, smooth_example, spin_down
+from pontryagin.averaging import (
+    Box,
+    PhaseSystem,
+    Quadratic,
+    kepler,
+    smooth_example,
+    solve_averaged,
+    spin_down,
+)
 
 a, b, x, u, v, k = sp.symbols("a b x u v k", real=True)
 GOOD = {
@@ -168,3 +176,22 @@ def test_rates_frequency_and_controls_may_be_given_in_order():
 def test_a_control_set_is_asked_for(value):
     with pytest.raises(TypeError, match="control_set must be a set of controls"):
         PhaseSystem(**GOOD | {"control_set": value})
+
+
+def test_an_expression_is_compared_over_a_turn_where_it_is_defined():
+    """Roots are defined for negative energies alone; the second one in a small interval far from zero."""
+    c = sp.Symbol("c", real=True)
+    for root, end in ((sp.sqrt(-2 * c), -0.25), (sp.sqrt((c - 200) * (202 - c)), 201.5)):
+        given = {"omega": 1, "control_set": Quadratic(), "slow": [c], "control": [u], "phase": x}
+        once = PhaseSystem(f=[u * (2 + root * sp.cos(x))], target=[c - end], **given)
+        assert solve_averaged(once, [end - 0.25]).certificate.holds(1e-10)
+        with pytest.raises(ValueError, match="2 pi-periodic"):
+            twice = PhaseSystem(f=[u * (2 + root * sp.cos(x / 2))], target=[c - end], **given)
+            solve_averaged(twice, [end - 0.25])
+
+
+def test_every_member_of_a_stack_is_compared_over_a_turn():
+    changed = {"f": [u * (2 + sp.cos(k * x)), u], "numbers": {k: [1.0, 1.0, 1.5]}}
+    with pytest.raises(ValueError, match=r"f\[0\] must be 2 pi-periodic"):
+        PhaseSystem(**GOOD | changed)
+    PhaseSystem(**GOOD | changed | {"numbers": {k: [1.0, 2.0, 3.0]}})

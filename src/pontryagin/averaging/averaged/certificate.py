@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.collocation import Problem, Trajectories, scales
+from pontryagin.averaging.system.model import PERIODIC
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.collocation import derivative, evaluate
@@ -40,6 +41,7 @@ def certify(
     kappa = np.repeat(problem.kappa, count)
     h, omega = model.averaged(flat, numbers, CHECKING)
     _require_turning(omega.value.reshape(-1, count), z[..., :n], names, members)
+    _require_periodic(model.change_in_a_turn(flat, numbers, _anomalies(len(flat))), flat[:, :n], names)
     rate, cost = model.controlled(flat, numbers, CHECKING)
     size = scales(z)
     price = np.abs(cost).reshape(-1, count).max(axis=1)
@@ -77,6 +79,23 @@ def _at_rest(problem: Problem, path: Trajectories) -> MaximumPrinciple:
     none = np.zeros(len(start))
     away = np.abs(target.value - problem.level).max(axis=1)
     return MaximumPrinciple(np.maximum(away, np.abs(start - problem.start).max(axis=1)), none, none, none)
+
+
+def _anomalies(count: int) -> Array:
+    """Three random anomalies for each of so many points."""
+    return np.random.default_rng(1977).uniform(0, 2 * np.pi, (count, 3))
+
+
+def _require_periodic(change: Array, slow: Array, names: Sequence[str]) -> None:
+    """Raise if the rates differ a turn later: `PhaseSystem` compares them where it finds them defined."""
+    worst = int(np.argmax(change))
+    if change[worst] > PERIODIC:
+        at = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, slow[worst], strict=True))
+        raise ArgumentValueError(
+            "f, running_cost and the rate of the phase must be 2 pi-periodic in the anomaly, got a change "
+            f"by {change[worst]:.3g} over a turn at {at}",
+            "f",
+        )
 
 
 def _require_turning(omega: Array, slow: Array, names: Sequence[str], members: NDArray[np.intp]) -> None:

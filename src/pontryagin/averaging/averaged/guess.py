@@ -18,6 +18,8 @@ STEPS = 96
 """Number of Runge-Kutta steps from the start to the target."""
 IDLE = 1e-9
 """Factor that makes a costate negligibly small; at a zero costate h* may have no derivatives."""
+BESIDE = 1e-3
+"""Distance of a point beside the start, relative to 1 + the size of its variables."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +131,14 @@ def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
 
 
 def _nearest(problem: Problem) -> tuple[Array, Array]:
-    """A point of the target (s, n) near the start, and the covector (s, n) that points towards it."""
+    """A point of the target (s, n) near the start, and the covector (s, n) that points towards it.
+
+    Where a condition is stationary at the start, as between two roots, the search begins beside it.
+    """
     end, direction = problem.start, None
+    target, _ = problem.model.ends(end, problem.numbers)
+    flat = ((target.gradient == 0).all(axis=-1) & (target.value != problem.level)).any(axis=1)
+    end = np.where(flat[:, None], end + BESIDE * (1 + np.abs(end)), end)
     for _ in range(50):
         target, _ = problem.model.ends(end, problem.numbers)
         short = problem.level - target.value

@@ -9,10 +9,16 @@ import sympy as sp
 from pontryagin.arrays import Array
 from pontryagin.averaging.system.control_checks import Numbers, listed
 from pontryagin.averaging.system.expressions import real_expression
+from pontryagin.averaging.system.model import PERIODIC
 from pontryagin.averaging.system.standard_form import StandardForm
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.validation import common_shape, finite
+
+SAMPLES = 48
+"""Number of random points at which an expression and its value a turn later are compared."""
+MOST = 4_000_000
+"""Largest number of points in all members of a stack; each member has four at least."""
 
 
 def checked(system: StandardForm) -> dict[str, object]:
@@ -166,17 +172,30 @@ def _require_affine(name: str, expression: sp.Expr, control: Sequence[sp.Symbol]
 def require_periodic(name: str, expression: sp.Expr, phase: sp.Symbol, numbers: Numbers) -> None:
     """Raise ValueError unless an expression is 2 pi-periodic in the anomaly `phase`.
 
-    SymPy decides by the expression's form where it can; otherwise values at random points are compared.
+    SymPy decides by the expression's form where it can; otherwise values at random points where the
+    expression is defined are compared, for every member of a stack.
     """
     change = expression.subs(phase, phase + 2 * sp.pi) - expression
     if change == 0:
         return
     symbols = sorted(expression.free_symbols - set(numbers), key=str)
     parameters = sorted(expression.free_symbols & set(numbers), key=str)
-    draws = np.random.default_rng(1977).uniform(0.5, 1.5, (len(symbols), 16))
-    constants = [np.ravel(numbers[symbol])[0] for symbol in parameters]
+    constants = np.broadcast_arrays(*(numbers[symbol] for symbol in parameters))
+    members = [np.ravel(constant)[:, None] for constant in constants]
     evaluate = compiler.function("change", [*symbols, *parameters], {"change": change, "value": expression})
-    difference, value = evaluate(*draws, *constants)
-    if (np.abs(difference) > 1e-9 * (1 + np.abs(value))).any():
+    with np.errstate(all="ignore"):
+        fewer = max(4, MOST // max((member.size for member in members), default=1))
+        difference, value = evaluate(*_points(len(symbols))[:, :fewer], *members)
+        wrong = np.abs(difference) > PERIODIC * (1 + np.abs(value))
+    if (wrong & np.isfinite(difference)).any():
         message = f"{name} must be 2 pi-periodic in {phase}, got {expression}"
         raise ArgumentValueError(message, name.partition("[")[0])
+
+
+def _points(count: int) -> Array:
+    """Random values of so many variables, (count, k): of both signs, of sizes about 0.1, 1 and 10."""
+    rng = np.random.default_rng(1977)
+    shape = (count, SAMPLES)
+    signs, sizes = rng.choice([-1.0, 1.0], shape), 10.0 ** rng.uniform(-1.5, 1.5, shape)
+    near_one = rng.uniform(0.5, 1.5, (count, SAMPLES // 4))
+    return np.concatenate([near_one, signs * sizes], axis=1)

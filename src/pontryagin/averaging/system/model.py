@@ -16,6 +16,9 @@ from pontryagin.numerics.quadrature import Density
 BESIDE = 1e-9
 """Distance from a switch at which one-sided derivatives are taken; they enter Newton's matrix only."""
 
+PERIODIC = 1e-9
+"""Largest change of a periodic expression over a turn, relative to 1 + its size; rounding stays below it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Model:
@@ -110,6 +113,25 @@ class Model:
         means = mean(density, self.switches(z, numbers), rule)
         means = means[:, :-1] / means[:, -1:]
         return means[:, :-1], means[:, -1]
+
+    def change_in_a_turn(self, z: Array, numbers: tuple[Array, ...], x: Array) -> Array:
+        """Change of f, the running cost and 1 / r from x (points, k) to a turn later, against 1 + their size.
+
+        The control is u* at x, and the points are z (points, 2n); the largest change at each, (points).
+        """
+        columns, values = z.T[..., None], [number[:, None] for number in numbers]
+        u = np.moveaxis(evaluate(self.control, *columns, x, *values), -1, 0)
+
+        def at(anomaly: Array) -> Array:
+            slow = columns[: self.slow]
+            parts = (
+                evaluate(self.rates, *slow, anomaly, *u, *values),
+                evaluate(self.pace, *slow, anomaly, *values),
+            )
+            return np.concatenate(parts, axis=-1)
+
+        here, later = at(x), at(x + 2 * np.pi)
+        return np.asarray((np.abs(later - here) / (1 + np.abs(here))).max(axis=(1, 2)))
 
     def switches(self, z: Array, numbers: tuple[Array, ...]) -> Array:
         """Anomalies where h* is not smooth at the points z (points, 2n), (points, s), padded with nan."""
