@@ -2,12 +2,16 @@
 
 from math import isfinite
 from operator import index
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+
+BARE = frozenset({float, int, bool, str, type(None), np.float64, np.float32, np.int64})
+"""Types without a unit and a mask, which need no closer look."""
 
 FEW = 16
 """Up to so many numbers are checked faster one by one than by NumPy."""
@@ -19,15 +23,16 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
     Raises
     ------
     TypeError
-        If `value` does not hold real numbers.
+        If `value` does not hold real numbers, or carries a unit.
     ValueError
-        If `value` holds nan or infinity, or is ragged.
+        If `value` holds nan or infinity, has masked entries, or is ragged.
 
     Examples
     --------
     >>> finite("x0", [0, 1, 2], "three numbers")
     array([0., 1., 2.])
     """
+    require_bare(name, value, takes)
     try:
         array = np.array(value)
     except ValueError:
@@ -49,6 +54,43 @@ def finite(name: str, value: ArrayLike, takes: str) -> Array:
         )
         raise ArgumentValueError(f"{name} must be {takes} and finite, got {bad}{where}", name)
     return array
+
+
+def require_bare(name: str, value: object, takes: str) -> None:
+    """Refuse what NumPy would strip in silence: a unit of measurement, and the mask of an array.
+
+    Raises
+    ------
+    TypeError
+        If `value`, or an entry of it, carries a unit, as quantities of astropy and pint do.
+    ValueError
+        If `value`, or an entry of it, is masked.
+
+    Examples
+    --------
+    >>> require_bare("tf", 2.0, "a number")
+    >>> try:
+    ...     require_bare("tf", np.ma.array([1.0, 2.0], mask=[False, True]), "an array")
+    ... except ValueError as error:
+    ...     print(error)
+    tf must be an array, got masked entries
+    """
+    kind: Any = type(value)
+    if kind in BARE:
+        return
+    if kind is list or kind is tuple:
+        if not BARE.issuperset(map(type, value)):  # type: ignore[call-overload]
+            for entry in value:  # type: ignore[attr-defined]
+                require_bare(name, entry, takes)
+    elif np.ma.isMaskedArray(value):
+        if np.ma.getmaskarray(value).any():
+            raise ArgumentValueError(f"{name} must be {takes}, got masked entries", name)
+    elif any(hasattr(value, mark) for mark in ("unit", "units")) and not hasattr(value, "free_symbols"):
+        unit = getattr(value, "unit", None) or getattr(value, "units", None)
+        message = f"{name} must be {takes} without a unit, got {kind.__name__} in {str(unit) or 'units of 1'}"
+        raise ArgumentTypeError(message, name)
+    elif isinstance(value, np.ndarray) and value.dtype.kind == "O":
+        require_bare(name, value.ravel().tolist(), takes)
 
 
 def _from_objects(name: str, array: NDArray[np.object_], takes: str) -> Array:
@@ -82,9 +124,12 @@ def integer(name: str, value: object) -> int:
         If `value` is not an integer.
     """
     try:
+        require_bare(name, value, "a whole number")
         if isinstance(value, (bool, np.bool_)):
             raise TypeError
         return index(value)  # type: ignore[arg-type]
+    except ArgumentTypeError:
+        raise
     except TypeError:
         raise ArgumentTypeError(f"{name} must be a whole number, got {value!r}", name) from None
 

@@ -183,3 +183,12 @@ def test_the_check_of_docstrings_can_fail():
     doc = "Sum.\n\nParameters\n----------\na, b : float\n    Terms.\nc : int\n\nReturns\n-------\nfloat\n"
     assert section(doc, "Parameters") == {"a", "b", "c"}
     assert section(doc, "Attributes") == set()
+
+
+@pytest.mark.parametrize("name", ["energy", "peak", "impulse", "norm", "entropy"])
+@pytest.mark.parametrize("given", [[1, 2, 3], None])
+def test_what_is_no_manoeuvre_is_refused_by_name(name, given):
+    solve = getattr(triple_integrator, "maximum_entropy" if name == "entropy" else f"minimum_{name}")
+    with pytest.raises(TypeError, match=r"^maneuver must be a Maneuver, got") as caught:
+        solve(given, *[3.0] * (name == "norm"))
+    assert caught.value.argument == "maneuver"

@@ -5,6 +5,9 @@ import ctypes
 TYPE = object.__basicsize__ - ctypes.sizeof(ctypes.c_void_p)
 """Where CPython keeps the type of an object: in the last word of its head."""
 
+NAME = object.__basicsize__ + ctypes.sizeof(ctypes.c_ssize_t)
+"""Where CPython keeps the name of a type: next to the head of an object of variable size."""
+
 VALUES = ("PyFloat_Type", "PyLong_Type", "PyList_Type", "PyTuple_Type", "PyBytes_Type", "_Py_NoneStruct")
 """The objects of CPython that the wrapper compares with or returns."""
 
@@ -31,6 +34,7 @@ READERS = """
 declare i32 @strcmp(ptr, ptr)
 declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)
 @doubles = private constant [2 x i8] c"d\\00"
+@plain = private constant [14 x i8] c"numpy.ndarray\\00"
 
 ; A float, an instance of a subclass such as numpy.float64, or an integer that fits.
 define internal i1 @number(ptr %object, ptr %target) {
@@ -64,9 +68,20 @@ no:
   ret i1 false
 }
 
-; An object with a buffer of doubles: of no axis, or of one axis of the given length.
+; A plain array of doubles, of no axis or of one axis of the given length. Arrays of other types, which may
+; carry a mask or a unit, are left to Python.
 define internal i1 @array(ptr %object, i32 %axes, i64 %size, ptr %target) {
   %view = alloca [10 x i64], align 8
+  %place = getelementptr i8, ptr %object, i64 TYPE
+  %type = load ptr, ptr %place
+  %name_at = getelementptr i8, ptr %type, i64 NAME
+  %name = load ptr, ptr %name_at
+  %differs = call i32 @strcmp(ptr %name, ptr @plain)
+  %is_plain = icmp eq i32 %differs, 0
+  br i1 %is_plain, label %opened, label %other
+other:
+  ret i1 false
+opened:
   %failed = call i32 @PyObject_GetBuffer(ptr %object, ptr %view, i32 28)
   %has_none = icmp ne i32 %failed, 0
   br i1 %has_none, label %refused, label %held
@@ -203,7 +218,7 @@ bytes:
 no:
   ret ptr null
 }
-""".replace("TYPE", str(TYPE))
+""".replace("TYPE", str(TYPE)).replace("NAME", str(NAME))
 """Functions (object, size, target) that store the numbers of an object; false if it does not hold them. And
 `table`, which gives the address of a table, or null."""
 

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import positive, vectors
+from pontryagin.validation import positive, require_bare, vectors
 
 
 def state(z0: ArrayLike) -> Array:
@@ -27,6 +27,7 @@ def positive_number(name: str, value: ArrayLike) -> float:
 
 def count(name: str, value: object, least: int = 1) -> int:
     """A whole number of steps, states or impulses, at least `least`."""
+    require_bare(name, value, "a whole number")
     try:
         number = -1 if isinstance(value, bool) else index(value)  # type: ignore[arg-type]
     except TypeError:

@@ -92,7 +92,7 @@ def conclusion(plan: Plan) -> str:
     least = (
         f"with one {unit} fewer it would need at least {float(plan.shorter_gauge):.12g} of the peak"
         if np.isfinite(plan.shorter_gauge)
-        else f"fewer {unit}s do not span the space of states"
+        else f"no peak suffices with fewer {unit}s"
     )
     return f"With {counted} the plan needs {float(plan.gauge):.12g} of the peak; {least}."
 
@@ -103,6 +103,6 @@ def answers(plan: Plan) -> dict[str, Any]:
     columns |= {f"psi_{i + 1}": plan.initial_costate[:, i] for i in range(3)}
     columns |= {name: getattr(plan.certificate, name) for name in PROOF}
     for j in range(plan.impulses.shape[-2]):
-        fired = np.where((j < plan.impulse_count)[:, None], plan.impulses[:, j], np.nan)
+        fired = np.where((j < plan.instants)[:, None], plan.impulses[:, j], np.nan)
         columns |= {f"w1_{j}": fired[:, 0], f"w2_{j}": fired[:, 1]}
     return columns

@@ -157,3 +157,35 @@ def test_a_large_stack_is_bounded_in_pieces(monkeypatch):
 def test_bad_arguments_are_refused_by_name(arguments, error, message):
     with pytest.raises(error, match=message):
         correct(**({"z0": Z0} | arguments))
+
+
+@pytest.mark.parametrize("thrust", ["disc", "box"])
+def test_a_deviation_of_the_speed_alone_takes_one_impulse(thrust):
+    plan = correct([0, 0, 0.001], thrust=thrust)
+    assert int(plan.steps) == int(plan.impulse_count) == len(plan.impulses) == 1
+    assert_allclose(plan.impulses, [[0.0, -0.001]], atol=1e-18)
+    assert_allclose(plan.gauge, 0.001 / 0.0035, rtol=1e-14)
+    assert plan.certificate.holds(1e-14)
+
+
+def test_the_proof_that_one_impulse_is_too_few_is_finite_where_only_the_speed_deviates():
+    plan = correct([0, 0.004343, 0], interval=np.pi / 2, thrust="box")
+    assert_allclose(plan.shorter_gauge, 0.004343 / 0.0035, rtol=1e-14)
+    assert int(plan.steps) == 2
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+def test_a_stack_with_states_of_one_impulse_has_the_plans_of_its_members(thrust):
+    states = np.array([[0, 0, 0], [0, 0, 0.001], [0.01, 0.02, 0.01], [0, 0.001, 0.002], [0, 0.004, 0]])
+    stack = correct(states, thrust=thrust)
+    for i, state in enumerate(states):
+        alone = correct(state, thrust=thrust)
+        assert (stack.steps[i], stack.impulse_count[i]) == (alone.steps, alone.impulse_count)
+        assert_allclose(stack.impulses[i, : len(alone.impulses)], alone.impulses, atol=1e-15)
+        assert_allclose(stack.shorter_gauge[i], alone.shorter_gauge, rtol=1e-12)
+
+
+def test_impulses_hold_every_instant_and_the_count_those_that_fire():
+    plan = correct([0.0, 0.004, 0.0], thrust="ball")
+    assert len(plan.impulses) == int(plan.instants)
+    assert int(plan.impulse_count) == np.count_nonzero(plan.impulses.any(axis=1))

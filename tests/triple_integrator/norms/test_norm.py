@@ -337,3 +337,10 @@ def test_integrals_of_powers_of_a_polynomial_over_part_of_the_interval():
         primitives = [np.polynomial.Polynomial(h).integ(j, lbnd=1) for j in (3, 2, 1)]
         exact = np.stack([(-1) ** j * p(s) for j, p in zip((3, 2, 1), primitives, strict=True)], axis=-1)
         assert_allclose(found[i], exact, atol=1e-14)
+
+
+@pytest.mark.parametrize("times", [[0.5], []])
+def test_an_empty_stack_has_empty_states(times):
+    solution = minimum_norm(Maneuver(np.zeros((0, 3)), np.zeros((0, 3)), 1.0), 3.0)
+    assert solution.state(times).shape == (0, len(times), 3)
+    assert solution.control(times).shape == (0, len(times))

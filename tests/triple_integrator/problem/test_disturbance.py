@@ -165,3 +165,21 @@ def test_what_cannot_be_integrated_says_so(force):
 def test_an_error_inside_the_users_function_is_not_hidden():
     with pytest.raises(ZeroDivisionError):
         Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=lambda s: 1 / 0)
+
+
+def test_a_feature_of_one_percent_is_seen_wherever_it_is():
+    m = Maneuver([0, 0, 0], [0, 0, 0], 2.0, disturbance=lambda s: np.where(abs(s - 1.0628) < 0.05, 1.0, 0.0))
+    assert_allclose(m.moments[1], -0.1, rtol=1e-12)
+    for at in np.random.default_rng(5).uniform(0.01, 0.99, 60):
+        _, g2 = integrals(
+            lambda s, at=at: np.where(abs(s - at) < 0.005, 1.0, 0.0), np.array(0.0), np.array(1.0)
+        )(1.0, 0.0)
+        assert_allclose(g2, 0.01, rtol=1e-10)
+
+
+def test_an_integral_of_sympy_is_done_or_refused():
+    x = sp.Symbol("x")
+    force = sp.Integral(sp.sin(x), (x, 0, t))
+    assert_allclose(integrals(force, START, END)(END, START)[1], 2.5 - np.sin(2) - np.sin(0.5), rtol=1e-12)
+    with pytest.raises(ValueError, match=r"^disturbance must be an expression that NumPy evaluates"):
+        Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=sp.Integral(sp.exp(-(x**2) / (1 + x**4)), (x, 0, t)))

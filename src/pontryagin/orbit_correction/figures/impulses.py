@@ -32,7 +32,7 @@ def plan_figure(plan: Plan) -> Figure:
     ValueError
         If the plan is that of a stack, or of no impulse.
     """
-    count = int(single(plan).impulse_count)
+    count = len(single(plan).impulses)
     if count == 0:
         raise ArgumentValueError("plan must have an impulse, got a plan without any", "plan")
     figure, (above, below) = subplots(2, height=4.6, sharex=True, height_ratios=(1.5, 1))

@@ -36,7 +36,7 @@ class Plan:
         N_min: for "ball" the paper's steps of three impulse components, else steps of one impulse.
     shorter_gauge : (...) array
         Lower bound on alpha(N_min - 1), above 1: the proof that the state lies outside X(N_min - 1, 0), as
-        (5) says. Infinite where fewer impulses do not span the space.
+        (5) says. Infinite where fewer impulses do not bring the state back at any peak.
     initial_costate : (..., 3) array
         psi_0 of Lemma 9, unit; zeros for the zero state.
     step_controls : (..., N, components) array
@@ -62,12 +62,17 @@ class Plan:
 
     @property
     def impulse_count(self) -> NDArray[np.int64]:
-        """The number of impulses of the plan, (...); a step of the ball holds one and a half."""
+        """How many instants of the plan fire an impulse, (...): the rows of `impulses` that are not zero."""
+        return np.asarray(self.impulses.any(axis=-1).sum(axis=-1))
+
+    @property
+    def instants(self) -> NDArray[np.int64]:
+        """How many instants the plan has, fired or not, (...); two steps of the ball have three."""
         return -(-3 * self.steps // 2) if self.thrust.name == "ball" else self.steps
 
     @cached_property
     def impulses(self) -> Array:
-        """Radial and transverse impulse at the start of each interval, (..., M, 2)."""
+        """Radial and transverse impulse at the start of each interval, zero rows included, (..., M, 2)."""
         count = self.step_controls.shape[-2] * self.step_controls.shape[-1]
         components = self.step_controls.reshape(*self.steps.shape, count)
         padded = np.concatenate([components, np.zeros((*components.shape[:-1], count % 2))], axis=-1)
@@ -185,7 +190,11 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
     moving = rows.any(axis=1)
     too_few = np.where(moving, thrust.fewest - 1, 0)
     enough = np.where(moving, MOST_STEPS + 1, 0)
-    proof, reaching = np.full(len(rows), np.inf), np.full(len(rows), np.nan)
+    reaching, proof = np.full(len(rows), np.nan), np.full(len(rows), np.inf)
+    if thrust.fewest > 1:
+        proof = np.where(moving, thrust.first_impulse(rows).lower, np.inf)
+        enough = np.where(moving & (proof <= 1 + ROUNDING), 1, enough)
+        too_few, proof = np.where(enough == 1, 0, too_few), np.where(enough == 1, np.inf, proof)
     guess, following, tries = too_few + 1, too_few.astype(float), 0
     while (open_rows := np.flatnonzero(enough - too_few > 1)).size:
         count = guess[open_rows]

@@ -7,7 +7,6 @@ box     each component within the peak: two engines, the constraint that the pap
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import fabs
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,15 +18,13 @@ from pontryagin.orbit_correction import arguments
 from pontryagin.orbit_correction.gauges.ellipsoids import gauge_of
 from pontryagin.orbit_correction.gauges.kinks import flat_gauge
 from pontryagin.orbit_correction.gauges.zonotope import zonotope_gauge
+from pontryagin.orbit_correction.plan.misses import MISS_SIGNATURE, misses_of
 from pontryagin.orbit_correction.system import satellite
 
 THRUSTS = ("ball", "disc", "box")
 SIGNATURE = (
     "void(int64,float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],"
     "float64[:,::1],float64[:,:,::1],float64[:,::1])"
-)
-MISS_SIGNATURE = (
-    "void(float64[:,:,::1],float64[:,:,::1],int64[::1],float64[:,::1],float64[:,:,::1],float64[::1])"
 )
 COMPILE_FROM = 60
 """The compiled kernels are loaded when the number of states times that of steps exceeds this."""
@@ -74,39 +71,6 @@ def gauges_of(
             for k in range(n):
                 controls[row, k] = flat[2 * k : 2 * k + 2]
         results[row, 0], results[row, 1] = found
-
-
-def misses_of(
-    transitions: Array,
-    inputs: Array,
-    counts: NDArray[np.int64],
-    states: Array,
-    controls: Array,
-    results: Array,
-) -> None:
-    """What remains of each state (rows, 3) after its steps, flown one by one, relative to the initial state.
-
-    ``transitions`` and ``inputs`` hold the matrices of an even and an odd step.
-    """
-    current, following = np.empty(3), np.empty(3)
-    for row in range(states.shape[0]):
-        size = 0.0
-        for i in range(3):
-            current[i] = states[row, i]
-            size = max(size, fabs(current[i]))
-        for k in range(counts[row]):
-            parity = k % 2
-            for i in range(3):
-                following[i] = 0.0
-                for j in range(3):
-                    following[i] += transitions[parity, i, j] * current[j]
-                for j in range(inputs.shape[2]):
-                    following[i] += inputs[parity, i, j] * controls[row, k, j]
-            current[:] = following
-        left = 0.0
-        for i in range(3):
-            left = max(left, fabs(current[i]))
-        results[row] = left / size if size > 0.0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -234,10 +198,34 @@ class Thrust:
         with np.errstate(all="ignore"):
             if self.whole_revolutions:
                 return self._gauges_of_speeds(z0, counts)
+            alone = counts < self.fewest
+            if self.fewest > 1 and alone.any():
+                return self._with_first_impulses(z0, counts, alone)
             most = max(int(counts.max(initial=0)), SPANNING)
             if most > KEPT:
                 return self._gauges(z0, counts, scaled(self.unit_factors(most), self.fewest))
             return self._gauges(z0, counts, _kept(self, max(16, 1 << (most - 1).bit_length())).up_to(most))
+
+    def first_impulse(self, z0: Array) -> Gauges:
+        """Gauges of the states (rows, 3) for disc and box and the impulse at the start alone.
+
+        It leaves the radius as it is. Where that deviates, the gauge is infinite, which the costate (1, 0, 0)
+        proves.
+        """
+        found = self._speeds_by_share(z0, np.ones(len(z0), dtype=np.int64), most=SPANNING)
+        beyond = z0[:, 0] != 0
+        alpha = np.where(beyond, np.inf, found.lower)
+        outward = np.sign(z0[:, :1]) * [-1.0, 0.0, 0.0]
+        return Gauges(alpha, alpha, np.where(beyond[:, None], outward, found.costates), found.controls)
+
+    def _with_first_impulses(self, z0: Array, counts: NDArray[np.int64], alone: NDArray[np.bool_]) -> Gauges:
+        """The gauges, those of at most one impulse in closed form."""
+        first = self.first_impulse(np.where((counts == 1)[:, None], z0, 0.0))
+        rest = self.gauges(np.where(alone[:, None], 0.0, z0), np.where(alone, SPANNING, counts))
+        lower, upper = np.where(alone, [first.lower, first.upper], [rest.lower, rest.upper])
+        controls = np.where(alone[:, None, None], 0.0, rest.controls)
+        controls[alone, :1] = first.controls[alone, :1]
+        return Gauges(lower, upper, np.where(alone[:, None], first.costates, rest.costates), controls)
 
     def _gauges(self, z0: Array, counts: NDArray[np.int64], steps: "Scaled") -> Gauges:
         """The gauges, computed in units of the state and of the impulses' reach, since both may be tiny."""
@@ -269,7 +257,11 @@ class Thrust:
             found = self._gauges(speeds, counts, scaled(self.unit_factors(most)[:, 1:], self.fewest))
             costates = np.pad(found.costates, ((0, 0), (1, 0)))
             return Gauges(found.lower, found.upper, costates, found.controls)
-        share = -speeds / self.peak / np.maximum(counts, 1)[:, None]
+        return self._speeds_by_share(z0, counts, most)
+
+    def _speeds_by_share(self, z0: Array, counts: NDArray[np.int64], most: int) -> Gauges:
+        """Gauges of the speeds, for disc and box, where each impulse takes an equal share of them."""
+        share = -z0[:, 1:] / self.peak / np.maximum(counts, 1)[:, None]
         acting = np.arange(most) < counts[:, None]
         if self.name == "disc":
             alpha, costates = np.hypot(*share.T), share

@@ -14,7 +14,13 @@ from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import energy_control, energy_multipliers, gramian_form
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import Programme, normalise, over_stack, response
+from pontryagin.triple_integrator.problem.programme import (
+    Programme,
+    normalise,
+    numbers_of,
+    over_stack,
+    response,
+)
 from pontryagin.value import Packed, value_class
 
 
@@ -119,7 +125,7 @@ def minimum_energy(maneuver: Maneuver) -> EnergySolution:
     >>> s.control([0, 0.5, 1]).round(12).tolist(), s.certificate.holds(1e-12)
     ([60.0, -30.0, 60.0], True)
     """
-    numbers = solve_stack.call(maneuver._numbers)
+    numbers = solve_stack.call(numbers_of(maneuver))
     if numbers is not None:
         solution = EnergySolution.from_numbers(numbers)
         solution.__dict__["maneuver"] = maneuver

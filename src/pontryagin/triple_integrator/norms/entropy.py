@@ -26,7 +26,7 @@ from pontryagin.triple_integrator.norms.quadrature import (
     second_moments,
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import normalise
+from pontryagin.triple_integrator.problem.programme import normalise, numbers_of
 from pontryagin.value import value_class
 
 CONVERGED = 1e-10
@@ -118,6 +118,7 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     >>> s.control([0.0, 1.0]).round(9).tolist(), round(float(s.norm), 12)
     ([6.0, 6.0], 6.0)
     """
+    numbers_of(maneuver)
     c1, c2, c3 = (part.reshape(-1) for part in np.moveaxis(maneuver.moments, -1, 0))
     T = maneuver.duration.reshape(-1)
     moving = (c1 != 0) | (c2 != 0) | (c3 != 0)

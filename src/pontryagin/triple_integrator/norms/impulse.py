@@ -22,6 +22,7 @@ from pontryagin.triple_integrator.problem.programme import (
     Programme,
     breakpoints,
     normalise,
+    numbers_of,
     over_stack,
     response,
 )
@@ -234,7 +235,7 @@ def minimum_impulse(maneuver: Maneuver) -> ImpulseSolution:
     >>> float(s.norm), s.impulses.tolist(), s.impulse_times.tolist(), s.regime
     (4.0, [1.0, -2.0, 1.0], [0.0, 1.0, 2.0], 'chebyshev')
     """
-    numbers = solve_stack.call(maneuver._numbers)
+    numbers = solve_stack.call(numbers_of(maneuver))
     if numbers is not None:
         solution = ImpulseSolution.from_numbers(numbers)
         solution.__dict__["maneuver"] = maneuver

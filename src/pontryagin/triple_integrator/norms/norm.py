@@ -22,7 +22,8 @@ from pontryagin.triple_integrator.norms.power_rules import table
 from pontryagin.triple_integrator.norms.quadratic_programme import BLOCK, Profile, QuadraticProgramme
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import breakpoints, over_stack
+from pontryagin.triple_integrator.problem.programme import breakpoints, numbers_of, over_stack
+from pontryagin.validation import vectors
 from pontryagin.value import Packed, value_class
 
 solve_stack = batched(solve_norm, outputs=11, groups=(4,), packed=True, tables=1)
@@ -110,7 +111,7 @@ def minimum_norm(maneuver: Maneuver, q: float) -> NormSolution:
     """
     q = exponent(q)
     rules = table(q)
-    numbers = solve_stack.call(maneuver._numbers, rules)
+    numbers = solve_stack.call(numbers_of(maneuver), rules)
     if numbers is not None:
         solution = NormSolution.from_numbers(numbers)
         solution.__dict__.update(maneuver=maneuver, q=q)
@@ -176,8 +177,9 @@ def dual_bound(maneuver: Maneuver, q: float, multipliers: ArrayLike) -> Array:
     >>> bool(dual_bound(m, 3.0, [1.0, 0.0, 0.0]) < minimum_norm(m, 3.0).norm)
     True
     """
+    numbers_of(maneuver)
     T, p = maneuver.duration, conjugate(q)
-    l = np.broadcast_to(np.asarray(multipliers, dtype=float), (*maneuver.shape, 3))
+    l = np.broadcast_to(vectors("multipliers", multipliers, 3), (*maneuver.shape, 3))
     h = np.stack([l[..., 2], l[..., 1] * T, l[..., 0] * T * T / 2], axis=-1).reshape(-1, 3)
     norm = np.empty(len(h))
     for start in range(0, len(h), BLOCK):

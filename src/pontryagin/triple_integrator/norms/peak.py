@@ -21,7 +21,7 @@ from pontryagin.triple_integrator.kernels import (
 )
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import over_stack
+from pontryagin.triple_integrator.problem.programme import numbers_of, over_stack
 from pontryagin.value import Packed, value_class
 
 EDGE = 1e-14
@@ -187,7 +187,7 @@ def minimum_peak(maneuver: Maneuver) -> PeakSolution:
     >>> float(s.norm.round(12)), s.switch_times.round(12).tolist(), s.certificate.holds(1e-12)
     (4.0, [0.5, 1.5], True)
     """
-    numbers = solve_stack.call(maneuver._numbers)
+    numbers = solve_stack.call(numbers_of(maneuver))
     if numbers is not None:
         solution = PeakSolution.from_numbers(numbers)
         solution.__dict__["maneuver"] = maneuver

@@ -233,7 +233,7 @@ def moments_beyond(h: Quadratic, s: Array, function: Integrand, block: int = 409
     """
     rule = logistic_rule()
     flat = h.reshape(-1)
-    places = s.reshape(len(flat.discriminant), -1)
+    places = s.reshape(len(flat.discriminant), s.shape[-1])
     owner = np.repeat(np.arange(places.shape[0]), places.shape[1])
     piece, share, remaining = (part.ravel() for part in flat.locate(places))
     positions, forms, whole = flat.cuts[0], flat.bernstein, _whole_pieces(flat, function)

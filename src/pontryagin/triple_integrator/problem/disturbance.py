@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
+from math import ceil
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +17,13 @@ from pontryagin.validation import finite
 
 DEGREE = 24
 """Degree of the Chebyshev series on each panel."""
+
+COARSEST = 9
+"""An interval is cut into at least so many panels, whose nodes lie less than 0.8 % of it apart. An odd number
+keeps a node in the middle of the interval, where users like to put poles."""
+
+LOOSER = 1e3
+"""By how much more than its last coefficients a series may miss the function at the ends of a panel."""
 
 PANELS = 4096
 """Largest number of panels into which an interval is cut."""
@@ -99,9 +107,10 @@ def _symbolic(expression: Any, low: float, high: float) -> Integrals:
     t = sp.Symbol("t", real=True)
     expression = expression.subs(dict.fromkeys(expression.free_symbols, t))
     try:
+        expression = expression.doit()  # Integrals and derivatives that are left to be done.
         value = compiler.function("disturbance", [t], {"f": expression})
         value((low + high) / 2)
-    except (NameError, KeyError):
+    except (NameError, KeyError, NotImplementedError):
         raise ArgumentValueError(
             f"disturbance must be an expression that NumPy evaluates, got {expression}", "disturbance"
         ) from None
@@ -209,10 +218,29 @@ class Panels:
         return float(value)
 
     def _start(self) -> list[tuple[float, float]]:
-        """The initial panels, in reverse order, cut at the ``edges`` of the function if it has any."""
+        """The initial panels, in reverse order, cut at the ``edges`` of the function if it has any.
+
+        Their nodes lie so close that no feature of 1 % of the interval falls between them.
+        """
         inner = [t for t in getattr(self.function, "edges", ()) if self.low < t < self.high]
         edges = [self.low, *sorted(map(float, inner)), self.high]
-        return list(pairwise(edges))[::-1]
+        whole, cuts = self.high - self.low, [self.low]
+        for start, end in pairwise(edges):
+            parts = max(1, ceil(COARSEST * ((end - start) / whole)))
+            cuts += [start + (end - start) * (i / parts) for i in range(1, parts)] + [end]
+        return list(pairwise(cuts))[::-1]
+
+    def _meets_its_ends(self, low: float, high: float, coefficients: Array, allowed: float) -> bool:
+        """Whether a panel's series takes the function's values at the cuts that halving made.
+
+        Otherwise a step lies so near to a cut that no node is beyond it.
+        """
+        known = {self.low, self.high, *map(float, getattr(self.function, "edges", ()))}
+        ends = [(t, x) for t, x in ((low, -1.0), (high, 1.0)) if t not in known]
+        if not ends:
+            return True
+        t, x = np.array(ends).T
+        return bool((np.abs(self.values(t) - chebyshev.chebval(x, coefficients)) <= LOOSER * allowed).all())
 
     @cached_property
     def series(self) -> tuple[Array, Array, Array]:
@@ -227,7 +255,8 @@ class Panels:
             area = max(area, float((np.abs(sample) * ((high - low) / len(sample))).sum()))
             coefficients = invert @ sample
             tail = float(np.abs(coefficients[-3:]).max())
-            if largest < 1e300 and (tail <= 1e-14 * largest or (high - low) * tail <= 1e-15 * area):
+            allowed = max(1e-14 * largest, 1e-15 * area / (high - low))
+            if largest < 1e300 and tail <= allowed and self._meets_its_ends(low, high, coefficients, allowed):
                 done.append((low, high, coefficients))
             elif len(pending) + len(done) > PANELS or not low < middle < high or largest >= 1e300:
                 raise NotConverged(

@@ -51,7 +51,9 @@ class Maneuver(Packed):
     tf, t0 : (...) array_like
         Time of the end and of the start, ``tf > t0``.
     disturbance : None, number or (...) array, callable f(t), or SymPy expression in ``t``
-        Acceleration f in addition to the control acceleration. A callable is integrated to 1e-13.
+        Acceleration f in addition to the control acceleration. A callable is integrated to 1e-13:
+        what it does within less than 1 % of the interval may go unseen, unless its attribute ``edges``, a
+        sequence of times, says where.
 
     Raises
     ------

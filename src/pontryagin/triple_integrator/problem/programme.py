@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import ArgumentValueError
+from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
@@ -107,6 +107,21 @@ def response(t: Array, knots: Array, amplitudes: Array, order: int) -> Array:
     weights = amplitudes[..., :, None]
     parts = [(truncated_power(t, knots, order + i) @ weights)[..., 0] for i in (2, 1, 0)]
     return np.stack(parts, axis=-1)
+
+
+def numbers_of(maneuver: Maneuver) -> bytes | None:
+    """The packed numbers of one manoeuvre; None for a stack.
+
+    Raises
+    ------
+    TypeError
+        If `maneuver` is not a Maneuver.
+    """
+    try:
+        return maneuver._numbers
+    except AttributeError:
+        message = f"maneuver must be a Maneuver, got {maneuver!r} of type {type(maneuver).__name__}"
+        raise ArgumentTypeError(message, "maneuver") from None
 
 
 def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
