@@ -34,7 +34,7 @@ def elements_of(state: Array) -> Array:
 
 
 def axes_between(craft: Array, target: Array) -> Array:
-    """Axes (3, 3), as rows, between the planes of two states (6,): neither is inclined by more than 90 degrees.
+    """Axes (3, 3), as rows, between the planes of two states (6,), which are inclined by at most 90 degrees.
 
     The first axis is such that the craft's longitude is 0.
     """
@@ -49,7 +49,7 @@ def axes_between(craft: Array, target: Array) -> Array:
     axes = np.array([along, np.cross(third, along), third])
     longitude = elements_of(seen(axes, craft))[5]
     c, s = math.cos(longitude), math.sin(longitude)
-    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ axes
+    return np.asarray(np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ axes)
 
 
 def seen(axes: Array, state: Array) -> Array:
@@ -110,6 +110,6 @@ class Lap:
 def reduced_costates(scaled: Scaled, axes: Array, node: Array) -> Array:
     """rho, s1, e, nu1, nu2, nu3 (6,) at t0 of the elements and their costates there, (12,), in some axes."""
     _, slopes = jacobian(lambda x: kernels.equinoctial_place(*x), node[:6])
-    in_space = seen(axes.T, np.linalg.solve(slopes.T, node[6:]))
+    in_space = seen(axes.T, np.asarray(np.linalg.solve(slopes.T, node[6:]), dtype=float))
     columns = np.array([kernels.primer(*scaled.start, *axis) for axis in np.eye(6)]).T
     return np.asarray(np.linalg.solve(columns, in_space))
