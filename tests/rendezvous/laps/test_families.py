@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 
 from pontryagin import NotConverged
+from pontryagin.rendezvous import Chaser, Orbit, Rendezvous
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
-from pontryagin.rendezvous.laps.families import bounded, least_energy, least_time
+from pontryagin.rendezvous.laps.families import (
+    bounded,
+    least_energy,
+    least_energy_by_way_of,
+    least_time,
+    tilted,
+)
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import duration_of_thrust, guesses_on
 from pontryagin.rendezvous.laps.ladder import energy as energy_of
@@ -85,3 +92,27 @@ def test_a_lap_that_ends_before_the_start_is_refused():
     with pytest.raises(NotConverged, match="ahead of the craft") as error:
         least_energy(Lap.of(scaled, -3), scaled.duration)
     assert error.value.residual == math.inf
+
+
+@pytest.mark.parametrize("share", [0.2, 0.7, 1.0])
+def test_a_tilted_lap_has_a_share_of_the_angle_and_the_same_ellipses(share):
+    scaled, _ = posed("inclined-60")
+    lap = Lap.of(scaled, 1)
+    assert lap.inclination == pytest.approx(math.radians(60), rel=1e-12)
+    lower = tilted(lap, share)
+    assert lower.inclination == pytest.approx(share * lap.inclination, rel=1e-12)
+    assert lower.start[[0, 1, 2, 5]].tolist() == lap.start[[0, 1, 2, 5]].tolist()
+    assert lower.goal[:3].tolist() == lap.goal[:3].tolist()
+
+
+def test_another_family_of_a_duration_is_reached_from_a_shorter_one():
+    half = math.radians(30)
+    target = Orbit(1.2, 0.05, [math.cos(half), math.sin(half), 0, 0], 0.5)
+    craft = Chaser(1, 0, 1, [1, 0, 0, 0])
+    leap = Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=10)
+    lap, duration = Lap.of(leap.scaled, 0), leap.scaled.duration
+    setting = Setting(leap.scaled, leap.scaled.ratio, math.inf, duration=duration)
+    paths = least_energy(lap, duration), least_energy_by_way_of(lap, duration, duration / 2)
+    starts = [reduced_costates(leap.scaled, lap.axes, path.nodes[:, 0]) for path in paths]
+    flights = [meet(setting, start).flight for start in starts]
+    assert [energy(flight) for flight in flights] == pytest.approx([0.30228, 0.26445], abs=1e-5)

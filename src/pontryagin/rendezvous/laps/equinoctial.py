@@ -98,6 +98,11 @@ class Lap:
         start[5] = 0.0
         return cls(start, target[:5], axes, float(target[5]), scaled.anomaly, scaled.eccentricity, laps)
 
+    @property
+    def inclination(self) -> float:
+        """The angle between the two planes, which are inclined by half of it against the axes."""
+        return 4 * math.atan(float(np.hypot(*self.start[3:5])))
+
     def longitude(self, time: ArrayLike) -> tuple[Array, Array]:
         """The longitude of the meeting at given times, and its rate."""
         if self.end is not None:

@@ -18,7 +18,7 @@ from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
 from pontryagin.rendezvous.laps.power import PowerCost
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal
+from pontryagin.rendezvous.laps.transcription import NODES_PER_LAP, ROUGH, Path, extremal
 
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
 SHARES = (1.0, 0.5, 0.2, 0.05)
@@ -119,6 +119,39 @@ def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
             except NotConverged as failure:
                 reason = failure
     raise reason
+
+
+def least_energy_by_way_of(
+    lap: Lap, duration: float, other: float, share: float = 1.0, per_lap: int = NODES_PER_LAP
+) -> Path:
+    """The extremal of least energy, without a bound, of a fixed duration, continued from another duration.
+
+    It begins with planes that are inclined by a share of their angle. Extremals that climb to turn their
+    plane there are reached in this way from those of lesser inclinations.
+
+    Raises
+    ------
+    NotConverged
+        If none of the other duration is reached from a guess, or a continuation ends before.
+    """
+    lower = tilted(lap, share)
+    guesses = least_energy_guesses(lower, np.array([other]), per_lap=per_lap)
+    if not guesses.durations.size:
+        raise NotConverged("the meeting is not ahead of the craft", math.inf)
+    path = extremal(lower, LEAST_ENERGY, other, guesses.path(0), ROUGH)
+    ends = math.log(other), math.log(duration)
+    path = continued(lambda x, _: (lower, LEAST_ENERGY, math.exp(x)), path, *ends)
+    if share == 1.0:
+        return path
+    return continued(lambda x, _: (tilted(lap, x), LEAST_ENERGY, duration), path, share, 1.0)
+
+
+def tilted(lap: Lap, share: float) -> Lap:
+    """The lap with its two planes inclined by a share of their angle, both alike."""
+    size = float(np.hypot(*lap.start[3:5]))
+    factor = math.tan(share * math.atan(size)) / size if size else 1.0
+    scale = np.array([1.0, 1.0, 1.0, factor, factor, 1.0])
+    return replace(lap, start=scale * lap.start, goal=scale[:5] * lap.goal)
 
 
 def _coasting_time(lap: Lap, end: float) -> float:

@@ -7,6 +7,7 @@ lap that guesses of the least cost show to be dearer than `WORSE` times the best
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -35,14 +36,22 @@ MEAN_THRUSTS = (1.0, 0.7, 0.9, 0.8, 0.6)
 """Root mean square of the thrust, in units of p_max, of transfers from which least time is sought."""
 LONGER = 2.0
 """Factor by which the duration of such a transfer may exceed the longest duration of interest."""
+DETOURS, STEEP_DETOURS = (0.5, 2.0), (0.5, 0.7, 2.0)
+"""Durations from which further extremals of a fixed duration are continued, in units of that duration, and
+the same where they begin at the inclination `INCLINED`."""
+INCLINED, STEEP = math.radians(60), 1.1
+"""An inclination at which extremals that climb begin, and the factor from which on it is a lesser one."""
+CLIMBING = 96
+"""Nodes for each lap of extremals that may climb, where they move slowly and their longitude hardly."""
 SHORT = 0.3
 """The shortest duration of a guess, in units of that in which the thrust closes the gap without gravity."""
 MARGIN = 1.2
 """Factor by which the energy of a guess may exceed the largest possible energy under the bound."""
 COASTING = np.array([0, 0, 0, 0, 0, 1e-6])
 """Costates of a craft that coasts; nu is slightly off zero, so that it has a direction."""
-ALIKE, SAME = 1e-2, 1e-7
-"""Largest differences of one extremal: in the duration, relative, as transcribed; in an unknown, as flown."""
+ALIKE, SIMILAR, SAME = 1e-2, 5e-2, 1e-7
+"""Largest differences of one extremal: as transcribed, in the duration and in the costates at t0, both
+relative; in an unknown, as flown."""
 
 
 def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
@@ -170,16 +179,45 @@ def _transcribed(
         yield from _of_least_time(lap, setting.peak, durations, log, most)
         return
     cost = RunningCost(setting.ratio if setting.free else 0.0, 1.0, setting.peak)
+    if setting.duration is not None:
+        yield from _of_fixed_duration(lap, cost, setting.duration, log)
+        return
+    reasons: list[str] = []
     try:
-        if setting.duration is None:
-            reasons: list[str] = []
-            yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
-            log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
-        else:
-            path = families.least_energy(lap, setting.duration, families.FINEST)
-            yield families.bounded(lap, path, cost, setting.duration)
+        yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
+        log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")
+
+
+def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: SearchLog) -> Iterator[Path]:
+    """Transcribed extremals of a fixed duration, also those that are continued from other durations.
+
+    Along a family of extremals the duration may turn, so that several lie on one lap.
+    """
+    ways = [partial(families.least_energy, lap, duration, families.FINEST)]
+    by_way_of = partial(families.least_energy_by_way_of, lap, duration)
+    ways += [partial(by_way_of, share * duration) for share in DETOURS]
+    if lap.inclination > STEEP * INCLINED:
+        share = INCLINED / lap.inclination
+        ways += [partial(by_way_of, factor * duration, share, CLIMBING) for factor in STEEP_DETOURS]
+    known: list[Path] = []
+    for way in ways:
+        try:
+            path = way()
+            if any(_similar(path, other) for other in known):
+                continue
+            known.append(path)
+            yield families.bounded(lap, path, cost, duration)
+        except NotConverged as reason:
+            if not known:
+                log.given_up.append(f"lap {lap.laps}: {reason}")
+
+
+def _similar(one: Path, other: Path) -> bool:
+    """Whether two transcribed paths of one duration, perhaps on different nodes, seem to be one extremal."""
+    first, second = one.nodes[6:, 0], other.nodes[6:, 0]
+    return float(np.abs(first - second).max()) < SIMILAR * float(np.abs(first).max())
 
 
 def _of_least_time(
