@@ -84,7 +84,7 @@ def test_a_bound_that_no_lap_can_keep_is_infeasible():
     [(0, 0.00175), (60, 0.16766), (90, 0.28541), (120, 0.38095), (135, 0.41445), (150, 0.857), (179, 1.0415)],
 )
 def test_planes_of_any_inclination_but_opposite_ones_are_met(degrees, cost):
-    """From 60 to 135 degrees the best known extremal climbs to turn its plane there, which saves up to 45 %."""
+    """From 60 to 135 degrees the best known extremal climbs to turn its plane there, and saves up to 45 %."""
     half = math.radians(degrees) / 2
     target = Orbit(1.2, 0.05, [math.cos(half), math.sin(half), 0, 0], 0.5)
     craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
