@@ -5,22 +5,24 @@ from benchmarks.averaging.examples import SEED
 from benchmarks.papers import Measured
 
 NOTES = (
-    "Averaged solves include input checks and certificate. Exact extremals are all those around the averaged",
-    "optimum, each polished to a residual of 1e-11 in the problem's own units; certificates, which a second",
-    "integrator makes in slow time, are made when asked for, and timed for the best extremal. When all turns",
-    "were solved and each flight was integrated alone, all extremals at epsilon 0.002 took, in processor time",
-    "of one machine, 18.8 s for the Kepler transfer (now 0.81 s), 30.5 s for the rigid body (3.8 s), 3.8 s for",
-    "the paid rotor (0.79 s) and 0.78 s for the rippled example (0.39 s); the first certificate took 3 to 15 s,",
-    "since it made all of them, and takes 5 to 17 ms. One exact",
-    "shot carries one guess to the end. Equations are compiled once and not timed, except in the table of",
-    "first calls, which is of fresh processes. Errors of J0 and J0 + epsilon J1 are relative, against the",
-    "least exact cost.",
+    "Averaged solves include input checks and certificate. Exact extremals are all those around the",
+    "averaged optimum, each polished to a residual of 1e-11 in the problem's own units; certificates, which",
+    "a second integrator makes in slow time, are made when asked for, and timed for the best extremal. When",
+    "all turns were solved and each flight was integrated alone, all extremals at epsilon 0.002 took, in",
+    "processor time of one machine, 18.8 s for the Kepler transfer (now 0.81 s), 30.5 s for the rigid body",
+    "(3.8 s), 3.8 s for the paid rotor (0.79 s) and 0.78 s for the rippled example (0.39 s); the first",
+    "certificate took 3 to 15 s, since it made all of them, and takes 5 to 17 ms. One exact shot carries",
+    "one guess to the end. Equations are compiled once and not timed, except in the table of first calls,",
+    "which is of fresh processes. Errors of J0 and J0 + epsilon J1 are relative, against the least exact",
+    "cost.",
     "Integrators follow the best extremal at epsilon 0.01 with the anomaly as the clock, at the tolerance",
-    "1e-12; SciPy's call the same expressions compiled by Numba. Errors are against a long-double reference.",
+    "1e-12; SciPy's call the same expressions compiled by Numba. Errors are against a long-double",
+    "reference.",
     "Native code and heyoka carry eight trajectories at a time; times are for each of them. heyoka carries",
     "eight for one alone too, native code then follows that one.",
-    "solve_bvp gets the exact problem with the Jacobian of its right-hand side, the averaged solution as its",
-    "guess at 24 points a turn, the tolerance 1e-6 and up to 20000 nodes; it finds one extremal, ours all.",
+    "solve_bvp gets the exact problem with the Jacobian of its right-hand side, the averaged solution as",
+    "its guess at 24 points a turn, the tolerance 1e-6 and up to 20000 nodes; it finds one extremal, ours",
+    "all.",
 )
 
 
