@@ -18,8 +18,8 @@ from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.compile import function
 from pontryagin.numerics.rotation import between, cross, quaternion, rotation_vector
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
-from pontryagin.triple_integrator.problem.disturbance import Panels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.panels import Panels
 from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import vectors
 from pontryagin.value import value_class
@@ -231,6 +231,6 @@ def disturbance_of(maneuver: Maneuver) -> Callable[[float], float]:
         compiled = function("disturbance", symbols, {"f": given})
         return lambda t: float(compiled(*[t] * len(symbols))[0])
     if callable(given):
-        panels = Panels(given, float(maneuver.t0), float(maneuver.tf))
+        panels = Panels(given, np.ravel(maneuver.t0), np.ravel(maneuver.tf))
         return lambda t: float(panels.values(np.array([t]))[0])
     return lambda t: float(given)
