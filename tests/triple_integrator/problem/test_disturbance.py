@@ -210,3 +210,11 @@ def one_drift(many, i):
     """The drift of a member of a stack, alone, half a unit of time after its start."""
     one = Maneuver(many.x0[i], many.xf[i], many.tf[i], many.t0[i], disturbance=many.disturbance)
     return one.drift(many.t0[i] + np.array([0.5]))
+
+
+def test_a_feature_of_one_percent_of_a_member_is_seen_beside_longer_members():
+    def pulse(s):
+        return np.where(np.abs(s - 0.5137) < 0.005, 1.0, 0.0)
+
+    together = Maneuver([0, 0, 0], [0, 0, 0], [1.0, 100.0], disturbance=pulse)
+    assert_allclose(together.moments[0], [-0.01 * (1 - 0.5137), -0.01, 0], rtol=1e-9)
