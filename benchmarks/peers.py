@@ -2,7 +2,7 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
-PEERS = ("scipy", "ruckig", "clarabel", "casadi", "cvxpy", "highspy")
+PEERS = ("heyoka", "scipy", "ruckig", "clarabel", "casadi", "cvxpy", "highspy")
 
 
 def installed(package: str) -> str | None:

@@ -48,7 +48,7 @@ def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 def machine() -> dict[str, str]:
     """The processor, interpreter and package versions that the numbers depend on."""
-    packages = ("numpy", "numba", "heyoka", *PEERS)
+    packages = ("numpy", "numba", *PEERS)
     return {
         "processor": f"{_processor()}, {platform.system()} {platform.machine()}",
         "threads": "1",

@@ -1,4 +1,4 @@
-"""heyoka's Taylor integrator, a peer: SymPy equations in its expressions, and its vector mode."""
+"""heyoka's Taylor integrators, a peer: SymPy equations in its expressions, one trajectory, vector mode."""
 
 import functools
 import importlib.util
@@ -30,8 +30,40 @@ def has_heyoka() -> bool:
     return True
 
 
+class Single:
+    """heyoka's integrator of one trajectory of some equations, compiled once, in one kind of numbers."""
+
+    def __init__(self, equations: Symbolic, tolerance: float, kind: type = float) -> None:
+        import heyoka as hy
+
+        self.equations, self.kind = equations, kind
+        system, compact = with_derivatives(equations)
+        start = np.zeros(len(equations.states), kind)
+        self._taylor = hy.taylor_adaptive(
+            system, start, tol=kind(tolerance), fp_type=kind, compact_mode=compact
+        )
+
+    def __call__(self, start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
+        """The ends and the derivatives of trajectories, one after the other."""
+        import heyoka as hy
+
+        taylor, identity = self._taylor, self.equations.identity
+        (n, m), count = identity.shape, len(start)
+        found = np.empty((count, n * (1 + m)))
+        for i in range(count):
+            taylor.time = self.kind(begin[i])
+            taylor.state[:n], taylor.state[n:] = start[i], identity.ravel()
+            taylor.pars[:] = values[i, : len(taylor.pars)]
+            outcome, *_ = taylor.propagate_until(self.kind(end[i]), max_steps=STEPS)
+            if outcome != hy.taylor_outcome.time_limit:
+                left = float(abs(end[i] - taylor.time))
+                raise NotConverged("the Taylor integrator stopped before the end", left)
+            found[i] = taylor.state
+        return found[:, :n], found[:, n:].reshape(count, n, m)
+
+
 class VectorMode:
-    """heyoka's integrator of some equations, compiled once.
+    """heyoka's integrator of several trajectories of some equations, compiled once.
 
     A group of trajectories is finished as a whole before the next one begins.
     """
@@ -39,15 +71,10 @@ class VectorMode:
     def __init__(self, equations: Symbolic, tolerance: float) -> None:
         import heyoka as hy
 
-        self.equations = e = equations
-        system, table = heyoka_system(e.states, e.expressions, e.parameters, e.clock)
-        wrt = [table[symbol] for symbol in e.wrt]
-        self._taylor = hy.taylor_adaptive_batch(
-            hy.var_ode_sys(system, wrt, order=1) if wrt else system,
-            np.zeros((len(system), hy.recommended_simd_size())),
-            tol=tolerance,
-            compact_mode=bool(wrt) or large(e.expressions),
-        )
+        self.equations = equations
+        system, compact = with_derivatives(equations)
+        start = np.zeros((len(equations.states), hy.recommended_simd_size()))
+        self._taylor = hy.taylor_adaptive_batch(system, start, tol=tolerance, compact_mode=compact)
 
     def __call__(self, start: Array, begin: Array, end: Array, values: Array) -> tuple[Array, Array]:
         """The ends and the derivatives of trajectories; see `pontryagin.numerics.lanes.ends`."""
@@ -70,6 +97,16 @@ class VectorMode:
             states[part] = taylor.state[:n, :filled].T
             slopes[part] = taylor.state[n:, :filled].reshape(n, m, filled).transpose(2, 0, 1)
         return states, slopes
+
+
+def with_derivatives(equations: Symbolic) -> tuple[Any, bool]:
+    """The system with its variational equations, if any, and whether its code is to be compact."""
+    import heyoka as hy
+
+    e = equations
+    system, table = heyoka_system(e.states, e.expressions, e.parameters, e.clock)
+    wrt = [table[symbol] for symbol in e.wrt]
+    return (hy.var_ode_sys(system, wrt, order=1), True) if wrt else (system, large(e.expressions))
 
 
 def heyoka_system(

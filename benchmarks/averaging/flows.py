@@ -19,7 +19,7 @@ from benchmarks.averaging.enumeration import shot
 from benchmarks.averaging.examples import BODY, EXAMPLES, KEPLER, PAID, SMOOTH
 from benchmarks.clock import one_call, take_turns
 from benchmarks.table import by_heading
-from benchmarks.taylor import VectorMode, has_heyoka, heyoka_system, large
+from benchmarks.taylor import Single, VectorMode, has_heyoka
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.canonical import (
     Canonical,
@@ -124,22 +124,17 @@ def by_odeint(path: Trajectory, rates: Callable, start: Array) -> Array:
     return odeint(rates, start, grid, rtol=TOLERANCE, atol=TOLERANCE, tfirst=True, mxstep=STEPS)[-1]
 
 
-def together(path: Trajectory, sensitivities: bool, method: str) -> Callable[[], Array]:
-    """A run that gives the first of the equal ends of the trajectories that a method integrates together."""
+def symbolic(path: Trajectory, sensitivities: bool) -> Symbolic:
+    """The equations of a trajectory, to be differentiated in the costates at the start or not at all."""
     e = path.equations
-    equations = Symbolic(e.states, tuple(e.rates), e.parameters, e.anomaly, path.wrt if sensitivities else ())
-    starts = np.tile(path.start, (COUNTS[method], 1))
-    given = stacked(starts, path.begin, path.end, path.parameters, len(path.parameters))
-    if method in (OURS, LANES):
-        run = partial(compiled_lanes(equations).run, *given, TOLERANCE)
-    else:
-        run = partial(VectorMode(equations, TOLERANCE), *given)
+    return Symbolic(e.states, tuple(e.rates), e.parameters, e.anomaly, path.wrt if sensitivities else ())
 
-    def end() -> Array:
-        states, slopes = run()
-        return np.concatenate([states[0], slopes[0].ravel()])
 
-    return end
+def together(path: Trajectory, count: int, integrate: Callable[..., tuple[Array, Array]]) -> Array:
+    """The first of the ends of equal trajectories, which an integrator follows in one call."""
+    starts = np.tile(path.start, (count, 1))
+    states, slopes = integrate(*stacked(starts, path.begin, path.end, path.parameters, len(path.parameters)))
+    return np.concatenate([states[0], slopes[0].ravel()])
 
 
 def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
@@ -147,31 +142,22 @@ def reference(path: Trajectory, rates: Callable, sensitivities: bool) -> Array:
     start = path.with_sensitivities() if sensitivities else path.start
     if not has_heyoka() or np.finfo(np.longdouble).eps >= np.finfo(float).eps:
         return by_solve_ivp(path, rates, start, "DOP853", 3e-14)
-    import heyoka as hy
-
-    e, long = path.equations, np.longdouble
-    system, table = heyoka_system(e.states, e.rates, e.parameters, e.anomaly)
-    if sensitivities:
-        system = hy.var_ode_sys(system, [table[symbol] for symbol in path.wrt], order=1)
-    integrator = hy.taylor_adaptive(
-        system,
-        path.start.astype(long),
-        tol=long(1e-18),
-        pars=path.parameters.astype(long),
-        time=long(path.begin),
-        fp_type=long,
-        compact_mode=sensitivities or large(e.rates),
-    )
-    integrator.propagate_until(long(path.end))
-    return np.array(integrator.state, dtype=float)
+    return together(path, 1, Single(symbolic(path, sensitivities), 1e-18, np.longdouble))
 
 
 def contestants(path: Trajectory, sensitivities: bool) -> tuple[dict[str, Callable[[], Array]], Array]:
     """One run of each integrator, by name, and the reference end."""
     rates = scalar_rates(path, sensitivities)
     start = path.with_sensitivities() if sensitivities else path.start
-    methods = (OURS, LANES, TAYLOR, TOGETHER) if has_heyoka() else (OURS, LANES)
-    found = {method: together(path, sensitivities, method) for method in methods}
+    equations = symbolic(path, sensitivities)
+    ours = partial(compiled_lanes(equations).run, tolerance=TOLERANCE)
+    integrators = {OURS: ours, LANES: ours}
+    if has_heyoka():
+        integrators |= {TAYLOR: Single(equations, TOLERANCE), TOGETHER: VectorMode(equations, TOLERANCE)}
+    found = {
+        method: partial(together, path, COUNTS[method], integrate)
+        for method, integrate in integrators.items()
+    }
     for method in ("DOP853", "LSODA"):
         found[f"{method}, solve_ivp"] = partial(by_solve_ivp, path, rates, start, method)
     found["LSODA, odeint"] = partial(by_odeint, path, rates, start)

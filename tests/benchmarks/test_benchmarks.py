@@ -1,5 +1,8 @@
 """Timing, tables and plots of the benchmarks, and the agreement of each peer with our optima."""
 
+import re
+import tomllib
+
 import numpy as np
 import pytest
 from benchmarks.clock import take_turns
@@ -97,6 +100,12 @@ def test_an_absent_peer_is_named_in_one_line():
     assert line is not None
     assert "\n" not in line
     assert line.startswith("no-such-solver is not installed")
+
+
+def test_every_package_of_the_extra_bench_is_a_peer_whose_absence_is_told():
+    written = tomllib.loads((files.repository() / "pyproject.toml").read_text())
+    extra = written["project"]["optional-dependencies"]["bench"]
+    assert {re.match("[a-z]+", line)[0] for line in extra} <= set(peers.PEERS) <= set(table.machine())
 
 
 @pytest.fixture(scope="module")

@@ -93,6 +93,19 @@ def test_the_integrators_give_the_same_derivatives():
     assert table["SciPy, times ours"][0] > 1
 
 
+def test_without_heyoka_its_columns_are_empty_and_the_others_are_filled(extremal, monkeypatch):
+    monkeypatch.setattr(problems, "solved", lambda name: extremal)
+    monkeypatch.setattr(integrators, "has_heyoka", lambda: False)
+    table = integrators.table(quick=True)
+    assert {heading for heading, column in table.items() if "heyoka" in heading and column == [None]} == {
+        "heyoka, ms",
+        "heyoka, times ours",
+        "ours against heyoka",
+        "SciPy against heyoka",
+    }
+    assert table["ours, ms"][0] > 0 and table["SciPy, times ours"][0] > 1
+
+
 def test_solve_bvp_finds_our_costs(extremal):
     later = replace(extremal.problem, duration=6.1)
     ours = solve(later, extremal)
@@ -134,7 +147,7 @@ def test_warm_solves_have_a_row_for_every_method(extremal, monkeypatch):
 
 
 @pytest.mark.slow
-def test_flights_in_vector_mode_end_where_single_ones_do(extremal, monkeypatch):
+def test_flights_in_one_call_end_where_single_ones_do(extremal, monkeypatch):
     monkeypatch.setattr(problems, "solved_leap", lambda degrees: extremal)
     table = stacks.flights(quick=True)
     assert table["flights"] == list(stacks.ARCS)
