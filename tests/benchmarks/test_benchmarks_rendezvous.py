@@ -93,6 +93,7 @@ def test_the_integrators_give_the_same_derivatives():
     assert table["SciPy, times ours"][0] > 1
 
 
+@pytest.mark.slow
 def test_without_heyoka_its_columns_are_empty_and_the_others_are_filled(extremal, monkeypatch):
     monkeypatch.setattr(problems, "solved", lambda name: extremal)
     monkeypatch.setattr(integrators, "has_heyoka", lambda: False)

@@ -177,6 +177,7 @@ def test_a_feature_of_one_percent_is_seen_wherever_it_is():
         assert_allclose(g2, 0.01, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_an_integral_of_sympy_is_done_or_refused():
     x = sp.Symbol("x")
     force = sp.Integral(sp.sin(x), (x, 0, t))
