@@ -143,7 +143,8 @@ class Shooting:
     def shoot(self, theta: Array, w: Array, tolerance: float = TOLERANCE) -> Shot:
         """Follow the extremals with the initial costates p0 to the anomalies theta.
 
-        The tolerance is the relative error allowed in a step; arcs between switches are always exact.
+        The tolerance is the relative error allowed in a step, of extremals whose control does not switch; the
+        others are followed as exactly in every case.
         """
         starts = self.starts(w)
         reached, _ = _carry(self.equations, tolerance)(starts, self.anomaly, theta, self.parameters)
