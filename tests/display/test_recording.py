@@ -169,3 +169,13 @@ def test_without_rerun_the_message_says_what_to_install(target, monkeypatch):
     with pytest.raises(RuntimeError, match="rerun-sdk"), record(target, "turn", LAYOUT):
         pass
     assert not target.exists()
+
+
+def test_a_layout_is_active_since_the_viewer_meets_the_recording_first(tmp_path):
+    with record(tmp_path / "a.rrd", "a", [[Plot("x", "x")]]) as recording:
+        recording.curve("x/y", [0.0, 1.0], [0.0, 1.0], "y", "#0072B2")
+    program = Path(sys.executable).with_name("rerun")
+    told = subprocess.run(
+        [program, "rrd", "print", tmp_path / "a.rrd"], capture_output=True, text=True
+    ).stdout
+    assert "make_active: true" in told

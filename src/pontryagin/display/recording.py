@@ -211,7 +211,8 @@ def record(
         # rerun's own writer neither tells where the disk becomes full, nor always ends then.
         with rr.RecordingStream("pontryagin", recording_id=name) as stream:
             memory = stream.memory_recording()
-            stream.send_blueprint(blueprint(columns, speed, shares), make_active=False)
+            # The viewer meets the recording first, and would keep the layout that it made up by then.
+            stream.send_blueprint(blueprint(columns, speed, shares), make_active=True)
             yield Recording(stream)
             draft.write_bytes(memory.drain_as_bytes())
         stream.disconnect()
