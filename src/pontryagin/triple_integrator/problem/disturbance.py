@@ -66,7 +66,7 @@ def _constant(value: Array) -> Integrals:
     def call(t: Array, t0: Array) -> Array:
         elapsed = np.asarray(t - t0)
         level = value[(..., *[None] * (elapsed.ndim - value.ndim))] if value.ndim else value
-        return np.stack([level * elapsed**2 / 2, level * elapsed], axis=-1)
+        return np.stack([level * elapsed * elapsed / 2, level * elapsed], axis=-1)
 
     return call
 
