@@ -1,5 +1,8 @@
 """The integrals of every kind of disturbance against closed forms and SciPy's quadrature."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -229,3 +232,97 @@ def test_a_feature_of_one_percent_of_a_member_is_seen_beside_longer_members():
 
     together = Maneuver([0, 0, 0], [0, 0, 0], [1.0, 100.0], disturbance=pulse)
     assert_allclose(together.moments[0], [-0.01 * (1 - 0.5137), -0.01, 0], rtol=1e-9)
+
+
+def rectangle(low, high):
+    """A pulse of area 1 between two times."""
+    return lambda s: np.where((s >= low) & (s < high), 1 / (high - low), 0.0)
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("kind", ["rectangle", "bump"])
+def test_a_pulse_that_is_told_is_integrated_wherever_it_is(width, kind):
+    rng = np.random.default_rng(6)
+    for T in (1e-3, 1.0, 2e5):
+        for at in rng.uniform(0, 1 - width, 6) * T:
+            low, high = at, at + width * T
+            middle, half = (low + high) / 2, (high - low) / 2
+            shapes = {
+                "rectangle": (rectangle(low, high), 1.0),
+                "bump": (lambda s, m=middle, h=half: np.maximum(0.0, 1 - ((s - m) / h) ** 2), half * 4 / 3),
+            }
+            force, area = shapes[kind]
+            m = Maneuver([0, 0, 0], [0, 0, 0], T, disturbance=force, edges=[high, low])
+            rtol = 1e-12 if kind == "rectangle" else max(1e-12, 1e-15 / width)
+            assert_allclose(m.moments[:2], [-area * (T - middle), -area], rtol=rtol)
+
+
+def test_edges_of_a_stack_are_shared_or_each_members_own():
+    ends, width = np.array([1.0, 4.0, 1e4]), 1e-9
+    at = ends / np.pi
+    own = np.stack([at, at * (1 + width)], axis=-1)
+
+    def pulses(s):
+        return np.sum([rectangle(*pair)(s) for pair in own], axis=0)
+
+    expected = -np.array([1.0, 2.0, 3.0])
+    shared = Maneuver([0, 0, 0], [0, 0, 0], ends, disturbance=pulses, edges=own.ravel())
+    each = Maneuver([0, 0, 0], [0, 0, 0], ends, disturbance=pulses, edges=[own.ravel()[::-1]] * 3)
+    assert_allclose(shared.moments[:, 1], expected, rtol=1e-12)
+    assert_array_equal(shared.moments, each.moments)
+    assert shared.edges.shape == (6,) and each.edges.shape == (3, 6)
+    for i, end in enumerate(ends):
+        alone = Maneuver([0, 0, 0], [0, 0, 0], end, disturbance=pulses, edges=own[: i + 1].ravel())
+        assert_array_equal(alone.moments, shared.moments[i])
+        assert_allclose(alone.drift(alone.tf)[0], -alone.moments, rtol=1e-12)
+    between = Maneuver([0, 0, 0], [0, 0, 0], 1.0, disturbance=pulses, edges=own[0])
+    assert_allclose(between.drift(own[0].mean())[0, 1], 0.5, rtol=1e-6)
+
+
+def test_edges_outside_do_no_harm_and_those_of_the_function_count():
+    plain = Maneuver([0, 0, 0], [0, 0, 0], 2.0, 1.0, disturbance=np.cos)
+    for edges in ([-5.0], [0.5, 7.0], [1.0, 2.0], [1.0, 1.0, 2.0, 2.0]):
+        told = Maneuver([0, 0, 0], [0, 0, 0], 2.0, 1.0, disturbance=np.cos, edges=edges)
+        assert_array_equal(told.moments, plain.moments)
+    pulse = rectangle(1.5, 1.5 + 1e-9)
+    pulse.edges = (1.5 + 1e-9,)
+    m = Maneuver([0, 0, 0], [0, 0, 0], 2.0, 1.0, disturbance=pulse, edges=[1.5])
+    assert_allclose(m.moments[1], -1.0, rtol=1e-12)
+    assert_allclose(m.edge_offsets, [0.5, 0.5 + 1e-9])
+
+
+def test_an_edge_is_never_crossed_by_the_rounding_of_a_time():
+    """Far from zero a pulse of three units in the last place has no times but those of the clock."""
+    for low in np.random.default_rng(7).uniform(1e6, 1e6 + 1, 20):
+        high = low + 3 * np.spacing(low)
+        m = Maneuver([0] * 3, [0] * 3, 1e6 + 1, 1e6, disturbance=rectangle(low, high), edges=[low, high])
+        assert_allclose(m.moments[1], -1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("edges", "error", "message"),
+    [
+        ([0.5, np.nan], ValueError, "finite, got nan"),
+        (np.inf, ValueError, "finite, got inf"),
+        (0.5, ValueError, r"must be an array \(k,\) or \(..., k\) of times, got 0.5"),
+        ("soon", TypeError, "'soon'"),
+        ([True], TypeError, "bool"),
+        ([[0.1], [0.2]], ValueError, "do not broadcast"),
+        (None, TypeError, "None"),
+    ],
+)
+@pytest.mark.parametrize("force", [None, np.sin])
+def test_what_are_no_edges_is_refused(edges, error, message, force):
+    with pytest.raises(error, match=f"^edges.*{message}") as failure:
+        Maneuver(np.zeros((3, 3)), [1, 0, 0], 1.0, disturbance=force, edges=edges)
+    assert failure.value.argument == "edges"
+
+
+def test_edges_are_part_of_the_value():
+    one = Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=np.sin, edges=[0.5, 0.2, 0.5])
+    assert one.edges.tolist() == [0.2, 0.5]
+    assert one == Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=np.sin, edges=(0.2, 0.5))
+    assert one != Maneuver([0, 0, 0], [1, 0, 0], 1.0, disturbance=np.sin)
+    assert pickle.loads(pickle.dumps(one)) == one == copy.copy(one)
+    assert hash(pickle.loads(pickle.dumps(one))) == hash(one)
+    assert not one.edges.flags.writeable

@@ -101,7 +101,7 @@ def bang_bang(since_switches: Array, first: Array) -> Array:
 
 
 def bang_bang_response(since: Array, first: Array) -> Array:
-    """State reached from rest under `bang_bang`, by the times since the start and both switches, (..., k, 3)."""
+    """State reached from rest under `bang_bang`, by the times since its start and switches, (..., k, 3)."""
     return response(since, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
 
 

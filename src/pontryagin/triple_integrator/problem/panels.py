@@ -32,6 +32,9 @@ EPSILON = float(np.finfo(float).eps)
 BLURRED = 1e-9
 """Largest relative error that is put down to this rounding."""
 
+STEEPEST = 100.0
+"""Largest relative slope per length of a stretch at which more than that is put down to this rounding."""
+
 PANELS = 4096
 """Largest number of panels into which an interval is cut."""
 
@@ -107,10 +110,19 @@ class Panels:
                 right[made] &= off <= LOOSER * allowed[made]
         return right
 
-    def _blur(self, stretch: NDArray[np.intp], low: Array, high: Array) -> Array:
-        """Rounding of the times of panels, (p,)."""
+    def _blur(
+        self, stretch: NDArray[np.intp], ends: tuple[Array, Array], sizes: tuple[Array, Array]
+    ) -> Array:
+        """By how much the rounding of times may change values of the given slopes and sizes, (p,).
+
+        A function may vary as fast as its stretch is narrow; one that varies still faster is near a pole,
+        where rounding would excuse anything.
+        """
+        slope, largest = sizes
         origin = self._origin[stretch]
-        return np.asarray(EPSILON * np.maximum(np.abs(origin + low), np.abs(origin + high)))
+        rounding = EPSILON * np.maximum(*(np.abs(origin + end) for end in ends))
+        share = rounding / np.diff(self.clock, axis=1).ravel()[stretch]
+        return np.minimum(rounding * slope, np.maximum(BLURRED, STEEPEST * share) * largest)
 
     @cached_property
     def series(self) -> tuple[NDArray[np.intp], Array, Array, Array, Array]:
@@ -143,8 +155,7 @@ class Panels:
                 coefficients = sample @ invert.T
                 tail = np.abs(coefficients[:, -3:]).max(axis=1)
                 slope = np.abs(coefficients) @ np.arange(DEGREE + 1) * 2 / width
-                blurred = self._blur(stretch, low, high) * slope
-                blurred = np.minimum(blurred, BLURRED * largest)  # Next to a pole it would excuse anything.
+                blurred = self._blur(stretch, (low, high), (slope, largest))
                 allowed = np.maximum.reduce([1e-14 * largest, 1e-15 * area[member] / width, blurred])
             smooth = (largest < 1e300) & (tail <= allowed)
             at = np.flatnonzero(smooth)
