@@ -13,6 +13,7 @@ from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.triple_integrator.problem.panels import Function, Panels
 from pontryagin.validation import finite
+from pontryagin.value import freeze
 
 
 class Expression(Protocol):
@@ -136,9 +137,11 @@ def _on_intervals(function: Callable[[Any], Any], start: Array, end: Array, edge
     cuts = np.broadcast_to(edges, (*np.shape(start), count)).reshape(np.size(start), count)
     low, high = np.reshape(start, (-1, 1)), np.reshape(end, (-1, 1))
     clock, member = np.unique(np.hstack([low, np.clip(cuts, low, high), high]), axis=0, return_inverse=True)
+    member = member.reshape(*np.shape(start), 1)
+    freeze((clock, member))
     panels = Panels(_on_stretches(function, clock), clock)
     _ = panels.series
-    return OnIntervals(panels, member.reshape(*np.shape(start), 1))
+    return OnIntervals(panels, member)
 
 
 def _on_stretches(function: Callable[[Any], Any], clock: Array) -> Function:

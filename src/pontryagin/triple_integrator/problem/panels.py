@@ -66,7 +66,7 @@ class Panels:
     function: Function
     clock: Array
 
-    @cached_property
+    @property
     def _origin(self) -> Array:
         """The starts of the stretches, (n,)."""
         return self.clock[:, :-1].ravel()
