@@ -28,7 +28,7 @@ OF_A_WHOLE_PAPER = frozenset(("values",))
 """What is tested for all problems and solutions of a paper together."""
 OF_TEXTS = ("pontryagin.report", "pontryagin.io", "pontryagin.numerics.compile")
 """Modules whose errors are about a text or a formula; the caller knows which argument it came from."""
-EVALUATING = ("pontryagin.numerics.jit", "pontryagin.numerics.compile", "pontryagin.value")
+EVALUATING = ("pontryagin.numerics.compile", "pontryagin.numerics.native", "pontryagin.value")
 """Modules that compile source which they wrote themselves."""
 
 
