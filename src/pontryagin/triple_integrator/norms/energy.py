@@ -95,15 +95,13 @@ class EnergySolution(Packed, Programme):
     def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
         m = self.maneuver
-        time, T, start = m.times(t), m.duration[..., None], np.zeros((*m.shape, 1))
+        T = m.duration[..., None]
         p0, p1, p2 = (self.parabola[..., None, i] * T for i in range(3))
         at_start = [p0 + p1 + p2, -p1 - 2 * p2, 2 * p2]
-        share = (time - m.t0[..., None]) / T
-        parts = [
-            response(share, start, amplitude, order) for order, amplitude in enumerate(at_start, start=1)
-        ]
+        elapsed = ((m.times(t) - m.t0[..., None]) / T)[..., None]
+        parts = [response(elapsed, amplitude, order) for order, amplitude in enumerate(at_start, start=1)]
         x1, x2, x3 = np.moveaxis(np.add.reduce(parts), -1, 0)
-        return np.asarray(m.drift(time) + np.stack([x1 * T * T, x2 * T, x3], axis=-1))
+        return np.asarray(m.drift(t) + np.stack([x1 * T * T, x2 * T, x3], axis=-1))
 
 
 def _answer(result: Array) -> dict[str, Any]:
