@@ -130,7 +130,7 @@ class Lap:
 
     def weight(self, nodes: Array) -> Array:
         """dt/ds at elements and costates (12, ...)."""
-        return np.asarray(kernels.equinoctial_weight(*nodes[:3], nodes[5]))
+        return np.asarray(kernels.equinoctial_weight(*[*nodes[:3], nodes[5]]))
 
     def admissible(self, nodes: Array) -> bool:
         """Whether a path keeps to ellipses."""

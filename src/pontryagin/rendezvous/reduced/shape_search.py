@@ -32,8 +32,6 @@ FARTHEST = 3
 """Largest number of full turns of a first path beyond the angle to the meeting."""
 COARSE, FINE, TRANSCRIBED = 40, 60, 100
 """Nodes for each lap of a first descent, of the last one, and of a transcription by the midpoint rule."""
-MOST = 400
-"""Paths that need more intervals than this are not tried."""
 SAMPLES = 200
 """Times at which the longitude of a flight is evaluated."""
 ROUGHLY, CLOSELY = 1e-3, 1e-5
@@ -80,11 +78,8 @@ def minima(scaled: Scaled, duration: float, most: float, log: SearchLog) -> Iter
     tried = shapes(scaled, duration)
     report("seeking paths in space")
     for shape in tried:
-        first = spaced(curve(scaled, duration, shape), COARSE, FEWEST)
-        if first.times.size > MOST:
-            continue
         try:
-            rough = descended(first, ROUGHLY)
+            rough = descended(spaced(curve(scaled, duration, shape), COARSE, FEWEST), ROUGHLY)
             most = min(most, WORSE * Thrust.of(rough).energy)
             path = path_of(rough)
             if Thrust.of(rough).energy > most or any(similar(path, other) for other in known):
