@@ -157,8 +157,9 @@ def test_a_bump_is_seen_in_the_complex_plane():
 
 
 def test_kinks_are_continued_across_the_chosen_symbols_only():
+    steps = [sp.Piecewise((value, t > 0), (0, True)) for value in (t, 1)]
     disc = Ball(np.array([0.0 + 0j, 2.0]), np.array([0.5, 0.5]))
-    for kink in (sp.Abs(t), sp.sign(t), sp.Max(t, 0), sp.Piecewise((t, t > 0), (0, True)), sp.Heaviside(t)):
+    for kink in (sp.Abs(t), sp.sign(t), sp.Max(t, 0), *steps, sp.Heaviside(t)):
         (strict,) = enclosure([t], [kink])(disc)
         (continued,) = enclosure([t], [kink], across=[t])(disc)
         assert strict.radius.tolist()[0] == np.inf and strict.size[1] <= 2.6

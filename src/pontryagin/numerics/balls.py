@@ -15,6 +15,9 @@ from pontryagin.arrays import Array
 
 Centre = NDArray[np.float64] | NDArray[np.complex128]
 
+Condition = tuple[NDArray[np.bool_], NDArray[np.bool_]]
+"""Whether a condition holds on the whole ball, and whether it fails on the whole ball."""
+
 ROUNDING = 2.0**-52
 """Relative error of one operation, at most; the elementary functions are given more of it."""
 GROWTH = 1 + 2.0**-48
@@ -190,3 +193,24 @@ def larger(first: Ball, second: Ball, across: bool) -> Ball:
     known = chosen(apart.lower > 0, first, second)
     both = hull(first, second)
     return chosen((apart.lower > 0) | (apart.upper < 0), known, both if across else whole(both))
+
+
+def combined(parts: list[Condition], all_of: bool) -> Condition:
+    """The conjunction of conditions, or their disjunction."""
+    holds, fails = parts[0]
+    for more, less in parts[1:]:
+        holds = holds & more if all_of else holds | more
+        fails = fails | less if all_of else fails & less
+    return holds, fails
+
+
+def joined(values: list[Ball], conditions: list[Condition], known: bool) -> Ball:
+    """The ball that holds every piece which may be the valid one; none of them may be.
+
+    Unless `known`, nothing is known where more than one piece may be valid.
+    """
+    found = whole(values[0])
+    for value, (holds, fails) in reversed(list(zip(values, conditions, strict=True))):
+        joint = hull(value, found)
+        found = chosen(holds, value, chosen(fails, found, joint if known else whole(joint)))
+    return found

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics import ball_functions as functions
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 Step = Callable[[list[Any]], Any]
 """One operation: from all results so far to the next one, a ball or a condition."""
-Condition = tuple[NDArray[np.bool_], NDArray[np.bool_]]
-"""Whether a condition holds on the whole ball, and whether it fails on the whole ball."""
 Enclosure = Callable[..., list[Ball]]
 """From balls or exact arrays, one for each symbol, to a ball for each expression."""
 
@@ -214,16 +212,19 @@ class _Program:
         return self._chain(lambda a, b: -balls.larger(-a, -b, across), [self.place(a) for a in e.args])
 
     def _pieces(self, e: "sp.Piecewise") -> Step:
-        across = any(condition.free_symbols & self.across for _, condition in e.args)
+        deciding = set().union(*(condition.free_symbols for _, condition in e.args))
+        across = bool(deciding & self.across)
+        symbols = [self.place(symbol) for symbol in sorted(deciding, key=str)]
         values = [self.place(value) for value, _ in e.args]
         conditions = [self._condition(condition) for _, condition in e.args]
 
         def joined(results: list[Any]) -> Ball:
-            return _joined([results[v] for v in values], [c(results) for c in conditions], across)
+            known = across or all(balls.is_real(results[symbol]) for symbol in symbols)
+            return balls.joined([results[v] for v in values], [c(results) for c in conditions], known)
 
         return joined
 
-    def _condition(self, condition: Any) -> Callable[[list[Any]], Condition]:
+    def _condition(self, condition: Any) -> Callable[[list[Any]], balls.Condition]:
         import sympy as sp
 
         if condition in (sp.true, sp.false):
@@ -232,7 +233,7 @@ class _Program:
         if isinstance(condition, sp.And | sp.Or):
             parts = [self._condition(part) for part in condition.args]
             all_of = isinstance(condition, sp.And)
-            return lambda results: _combined([part(results) for part in parts], all_of)
+            return lambda results: balls.combined([part(results) for part in parts], all_of)
         if isinstance(condition, sp.Not):
             inner = self._condition(condition.args[0])
             return lambda results: inner(results)[::-1]
@@ -241,30 +242,11 @@ class _Program:
             return lambda results: (results[place].lower > 0, results[place].upper < 0)
         operands = [self.place(a) for a in condition.args if hasattr(a, "free_symbols") and a.free_symbols]
 
-        def undecided(results: list[Any]) -> Condition:
+        def undecided(results: list[Any]) -> balls.Condition:
             shape = np.broadcast_shapes(*(np.shape(results[place].centre) for place in operands))
             return np.zeros(shape, bool), np.zeros(shape, bool)
 
         return undecided
-
-
-def _combined(parts: list[Condition], all_of: bool) -> Condition:
-    holds, fails = parts[0]
-    for more, less in parts[1:]:
-        holds = holds & more if all_of else holds | more
-        fails = fails | less if all_of else fails & less
-    return holds, fails
-
-
-def _joined(values: list[Ball], conditions: list[Condition], across: bool) -> Ball:
-    """The ball that holds every piece which may be the valid one; none of them may be."""
-    found = balls.whole(_like(*values))
-    for value, (holds, fails) in reversed(list(zip(values, conditions, strict=True))):
-        joint = balls.hull(value, found)
-        if not (balls.is_real(joint) or across):
-            joint = balls.whole(joint)
-        found = balls.chosen(holds, value, balls.chosen(fails, found, joint))
-    return found
 
 
 def _like(*operands: Ball) -> Ball:
