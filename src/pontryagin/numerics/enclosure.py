@@ -1,7 +1,7 @@
-"""Enclosures of SymPy expressions: all values that they take where their symbols lie in balls.
+"""Enclosures of SymPy expressions: all values that they take where their symbols lie in discs.
 
-`enclosure` compiles expressions once; the function that it makes evaluates them in ball arithmetic on arrays.
-Real balls give ranges of values. Complex balls give bounds of the analytic continuation, and a bound on a
+`enclosure` compiles expressions once; the function that it makes evaluates them in disc arithmetic on arrays.
+Real discs give ranges of values. Complex discs give bounds of the analytic continuation, and a bound on a
 complex neighbourhood says how fast series and quadratures converge: no feature can hide between their nodes.
 """
 
@@ -12,17 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.errors import ArgumentValueError
-from pontryagin.numerics import ball_functions as functions
-from pontryagin.numerics import balls
-from pontryagin.numerics.balls import ROUNDING, Ball
+from pontryagin.numerics import disc_functions as functions
+from pontryagin.numerics import discs
+from pontryagin.numerics.discs import ROUNDING, Disc
 
 if TYPE_CHECKING:
     import sympy as sp
 
 Step = Callable[[list[Any]], Any]
-"""One operation: from all results so far to the next one, a ball or a condition."""
-Enclosure = Callable[..., list[Ball]]
-"""From balls or exact arrays, one for each symbol, to a ball for each expression."""
+"""One operation: from all results so far to the next one, a disc or a condition."""
+Enclosure = Callable[..., list[Disc]]
+"""From discs or exact arrays, one for each symbol, to a disc for each expression."""
 
 LARGEST_POWER = 1024
 """Whole powers up to this are taken as such, larger ones through the logarithm."""
@@ -33,23 +33,23 @@ def enclosure(
     expressions: Iterable["sp.Expr"],
     across: Iterable["sp.Symbol"] = (),
 ) -> Enclosure:
-    """A function from balls, one for each symbol, to balls that hold all values of the expressions.
+    """A function from discs, one for each symbol, to discs that hold all values of the expressions.
 
     Parameters
     ----------
     symbols : sequence of sympy.Symbol
-        Real symbols. Arguments of the function made are a `Ball` or an array for each; arrays are exact.
+        Real symbols. Arguments of the function made are a `Disc` or an array for each; arrays are exact.
     expressions : iterable of sympy.Expr
     across : iterable of sympy.Symbol
-        Symbols across whose kinks (of Abs, sign, Max, Min, Heaviside, Piecewise) a complex ball is continued:
-        the result holds the continuation of every piece. Other kinks have no continuation, and complex balls
-        that hold one have an infinite result. Real balls hold the values of all pieces in any case.
+        Symbols across whose kinks (of Abs, sign, Max, Min, Heaviside, Piecewise) a complex disc is continued:
+        the result holds the continuation of every piece. Other kinks have no continuation, and complex discs
+        that hold one have an infinite result. Real discs hold the values of all pieces in any case.
 
     Returns
     -------
-    function of balls
-        It gives a list of balls, (...) each, the shape that the arguments broadcast to or a smaller one. A
-        radius is infinite where an expression is not defined on the whole ball, or holds a function that is
+    function of discs
+        It gives a list of discs, (...) each, the shape that the arguments broadcast to or a smaller one. A
+        radius is infinite where an expression is not defined on the whole disc, or holds a function that is
         not known here.
 
     Examples
@@ -58,7 +58,7 @@ def enclosure(
     >>> t = sp.Symbol("t", real=True)
     >>> ranges = enclosure([t], [1 + 99 * sp.exp(-10**5 * (t - sp.Rational(3, 2)) ** 2)])
     >>> ends = np.array([1.0, 1.4, 1.6, 2.0])
-    >>> (bump,) = ranges(Ball.between(ends[:-1], ends[1:]))
+    >>> (bump,) = ranges(Disc.between(ends[:-1], ends[1:]))
     >>> bump.upper.round(3).tolist()
     [1.0, 100.0, 1.0]
     """
@@ -66,10 +66,10 @@ def enclosure(
     places = [program.place(expression) for expression in expressions]
     steps, count = tuple(program.steps), len(symbols)
 
-    def enclosed(*arguments: Ball | ArrayLike) -> list[Ball]:
+    def enclosed(*arguments: Disc | ArrayLike) -> list[Disc]:
         if len(arguments) != count:
             raise TypeError(f"the enclosure takes {count} arguments, got {len(arguments)}")
-        results: list[Any] = [a if isinstance(a, Ball) else exact(a) for a in arguments]
+        results: list[Any] = [a if isinstance(a, Disc) else exact(a) for a in arguments]
         with np.errstate(all="ignore"):
             for step in steps:
                 results.append(step(results))
@@ -78,10 +78,10 @@ def enclosure(
     return enclosed
 
 
-def exact(value: ArrayLike) -> Ball:
-    """Balls of radius zero."""
+def exact(value: ArrayLike) -> Disc:
+    """Discs of radius zero."""
     centre = np.asarray(value, np.complex128) if np.iscomplexobj(value) else np.asarray(value, np.float64)
-    return Ball(centre, np.zeros(centre.shape))
+    return Disc(centre, np.zeros(centre.shape))
 
 
 class _Program:
@@ -130,11 +130,11 @@ class _Program:
             return self._extreme(e)
         across = bool(e.free_symbols & self.across)
         if isinstance(e, sp.Abs):
-            return self._do(lambda ball: balls.magnitude(ball, across), e.args[0])
+            return self._do(lambda disc: discs.magnitude(disc, across), e.args[0])
         if isinstance(e, sp.sign):
-            return self._do(lambda ball: balls.sign(ball, across), e.args[0])
+            return self._do(lambda disc: discs.sign(disc, across), e.args[0])
         if isinstance(e, sp.Heaviside):
-            return self._do(lambda ball: balls.sign(ball, across).shifted(1.0).scaled(0.5), e.args[0])
+            return self._do(lambda disc: discs.sign(disc, across).shifted(1.0).scaled(0.5), e.args[0])
         if isinstance(e, sp.atan2):
             return self._do(functions.atan2, *e.args)
         name = type(e).__name__
@@ -166,19 +166,19 @@ class _Program:
         denominator = self._chain(lambda a, b: a * b, below) if below else None
         exactly, scale = _float(factor), _constant(factor)
 
-        def product(results: list[Any]) -> Ball:
-            ball: Ball = numerator(results)
+        def product(results: list[Any]) -> Disc:
+            disc: Disc = numerator(results)
             if above and factor != 1:
-                ball = ball * scale(results) if exactly is None else ball.scaled(exactly)
-            return ball if denominator is None else ball / denominator(results)
+                disc = disc * scale(results) if exactly is None else disc.scaled(exactly)
+            return disc if denominator is None else disc / denominator(results)
 
         return product
 
-    def _chain(self, operation: Callable[[Ball, Ball], Ball], places: list[int]) -> Step:
+    def _chain(self, operation: Callable[[Disc, Disc], Disc], places: list[int]) -> Step:
         first, *others = places
 
-        def chained(results: list[Any]) -> Ball:
-            total: Ball = results[first]
+        def chained(results: list[Any]) -> Disc:
+            total: Disc = results[first]
             for place in others:
                 total = operation(total, results[place])
             return total
@@ -192,15 +192,15 @@ class _Program:
             return self._do(functions.exp, exponent)
         if exponent.is_Integer and 0 < abs(exponent) <= LARGEST_POWER:
             whole = int(exponent)
-            return self._do(lambda ball: balls.whole_power(ball, whole), base)
+            return self._do(lambda disc: discs.whole_power(disc, whole), base)
         if exponent == sp.S.Half:
             return self._do(functions.sqrt, base)
         if exponent == -sp.S.Half:
-            return self._do(lambda ball: balls.inverse(functions.sqrt(ball)), base)
+            return self._do(lambda disc: discs.inverse(functions.sqrt(disc)), base)
         if exponent.is_number and exponent.is_real:
             real = _float(exponent)
             if real is not None and not exponent.is_Integer:
-                return self._do(lambda ball: functions.real_power(ball, real), base)
+                return self._do(lambda disc: functions.real_power(disc, real), base)
         return self._do(lambda b, x: functions.exp(functions.log(b) * x), base, exponent)
 
     def _extreme(self, e: Any) -> Step:
@@ -208,8 +208,8 @@ class _Program:
 
         across = bool(e.free_symbols & self.across)
         if isinstance(e, sp.Max):
-            return self._chain(lambda a, b: balls.larger(a, b, across), [self.place(a) for a in e.args])
-        return self._chain(lambda a, b: -balls.larger(-a, -b, across), [self.place(a) for a in e.args])
+            return self._chain(lambda a, b: discs.larger(a, b, across), [self.place(a) for a in e.args])
+        return self._chain(lambda a, b: -discs.larger(-a, -b, across), [self.place(a) for a in e.args])
 
     def _pieces(self, e: "sp.Piecewise") -> Step:
         deciding = set().union(*(condition.free_symbols for _, condition in e.args))
@@ -218,13 +218,13 @@ class _Program:
         values = [self.place(value) for value, _ in e.args]
         conditions = [self._condition(condition) for _, condition in e.args]
 
-        def joined(results: list[Any]) -> Ball:
-            known = across or all(balls.is_real(results[symbol]) for symbol in symbols)
-            return balls.joined([results[v] for v in values], [c(results) for c in conditions], known)
+        def joined(results: list[Any]) -> Disc:
+            known = across or all(discs.is_real(results[symbol]) for symbol in symbols)
+            return discs.joined([results[v] for v in values], [c(results) for c in conditions], known)
 
         return joined
 
-    def _condition(self, condition: Any) -> Callable[[list[Any]], balls.Condition]:
+    def _condition(self, condition: Any) -> Callable[[list[Any]], discs.Condition]:
         import sympy as sp
 
         if condition in (sp.true, sp.false):
@@ -233,7 +233,7 @@ class _Program:
         if isinstance(condition, sp.And | sp.Or):
             parts = [self._condition(part) for part in condition.args]
             all_of = isinstance(condition, sp.And)
-            return lambda results: balls.combined([part(results) for part in parts], all_of)
+            return lambda results: discs.combined([part(results) for part in parts], all_of)
         if isinstance(condition, sp.Not):
             inner = self._condition(condition.args[0])
             return lambda results: inner(results)[::-1]
@@ -242,23 +242,23 @@ class _Program:
             return lambda results: (results[place].lower > 0, results[place].upper < 0)
         operands = [self.place(a) for a in condition.args if hasattr(a, "free_symbols") and a.free_symbols]
 
-        def undecided(results: list[Any]) -> balls.Condition:
+        def undecided(results: list[Any]) -> discs.Condition:
             shape = np.broadcast_shapes(*(np.shape(results[place].centre) for place in operands))
             return np.zeros(shape, bool), np.zeros(shape, bool)
 
         return undecided
 
 
-def _like(*operands: Ball) -> Ball:
-    """A ball of the shape and kind that the operands have together."""
+def _like(*operands: Disc) -> Disc:
+    """A disc of the shape and kind that the operands have together."""
     total = exact(0.0)
     for operand in operands:
         total = total + operand
     return total
 
 
-def _unknown(*operands: Ball) -> Ball:
-    return balls.whole(_like(*operands))
+def _unknown(*operands: Disc) -> Disc:
+    return discs.whole(_like(*operands))
 
 
 def _float(number: "sp.Expr") -> float | None:
@@ -275,15 +275,15 @@ def _constant(number: "sp.Expr") -> Step:
     """A number, with the rounding of its value."""
     exactly = _float(number)
     if exactly is not None:
-        ball = exact(exactly)
+        disc = exact(exactly)
     else:
         digits = number.evalf(20)
         value = float(digits) if digits.is_real and digits.is_finite else np.inf
-        ball = Ball(np.asarray(value), np.asarray(ROUNDING * abs(value) + balls.TINY)).settled
-    return lambda results: ball
+        disc = Disc(np.asarray(value), np.asarray(ROUNDING * abs(value) + discs.TINY)).settled
+    return lambda results: disc
 
 
-FUNCTIONS: dict[str, Callable[[Ball], Ball]] = {
+FUNCTIONS: dict[str, Callable[[Disc], Disc]] = {
     name: getattr(functions, name)
     for name in (
         *("log", "sin", "cos", "tan", "sinh", "cosh", "tanh"),

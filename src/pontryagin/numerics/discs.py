@@ -1,9 +1,9 @@
-"""Ball arithmetic on arrays: numbers known to lie within a radius of a centre, real or complex.
+"""Disc arithmetic on arrays: numbers known to lie within a radius of a centre, real or complex.
 
-Every result holds all values that its operation takes on the operands' balls, rounding included. The radii
+Every result holds all values that its operation takes on the operands' discs, rounding included. The radii
 come from majorants of Taylor series, which are the same for real and complex centres. Where an operation is
-not defined on the whole ball, or not analytic on a complex one, the radius is nan, and so are those of all
-results computed from it. `Ball.settled` turns nan into infinite radii.
+not defined on the whole disc, or not analytic on a complex one, the radius is nan, and so are those of all
+results computed from it. `Disc.settled` turns nan into infinite radii.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from pontryagin.arrays import Array
 Centre = NDArray[np.float64] | NDArray[np.complex128]
 
 Condition = tuple[NDArray[np.bool_], NDArray[np.bool_]]
-"""Whether a condition holds on the whole ball, and whether it fails on the whole ball."""
+"""Whether a condition holds on the whole disc, and whether it fails on the whole disc."""
 
 ROUNDING = 2.0**-52
 """Relative error of one operation, at most; the elementary functions are given more of it."""
@@ -27,13 +27,13 @@ TINY = 1e-300
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Ball:
+class Disc:
     """All numbers within `radius` (...) of `centre` (...), in the real line or in the complex plane.
 
     Examples
     --------
-    >>> ball = Ball.between(1.0, 3.0)
-    >>> float((ball * ball).lower) <= 1 and 9 <= float((ball * ball).upper) < 10
+    >>> disc = Disc.between(1.0, 3.0)
+    >>> float((disc * disc).lower) <= 1 and 9 <= float((disc * disc).upper) < 10
     True
     """
 
@@ -41,7 +41,7 @@ class Ball:
     radius: Array
 
     @classmethod
-    def between(cls, lower: ArrayLike, upper: ArrayLike) -> "Ball":
+    def between(cls, lower: ArrayLike, upper: ArrayLike) -> "Disc":
         """The real numbers from lower (...) to upper (...)."""
         low, high = np.asarray(lower, float), np.asarray(upper, float)
         return rounded(low / 2 + high / 2, high / 2 - low / 2, 2)
@@ -64,45 +64,45 @@ class Ball:
         return np.asarray((np.abs(self.centre) + self.radius) * GROWTH)
 
     @property
-    def settled(self) -> "Ball":
-        """The same ball, with centre 0 and infinite radius where it is not finite."""
+    def settled(self) -> "Disc":
+        """The same disc, with centre 0 and infinite radius where it is not finite."""
         finite = np.isfinite(self.centre) & np.isfinite(self.radius)
         if finite.all():
             return self
-        return Ball(np.where(finite, self.centre, 0.0), np.where(finite, self.radius, np.inf))
+        return Disc(np.where(finite, self.centre, 0.0), np.where(finite, self.radius, np.inf))
 
-    def __add__(self, other: "Ball") -> "Ball":
+    def __add__(self, other: "Disc") -> "Disc":
         return rounded(self.centre + other.centre, self.radius + other.radius, 1)
 
-    def __sub__(self, other: "Ball") -> "Ball":
+    def __sub__(self, other: "Disc") -> "Disc":
         return rounded(self.centre - other.centre, self.radius + other.radius, 1)
 
-    def __neg__(self) -> "Ball":
-        return Ball(-self.centre, self.radius)
+    def __neg__(self) -> "Disc":
+        return Disc(-self.centre, self.radius)
 
-    def __mul__(self, other: "Ball") -> "Ball":
+    def __mul__(self, other: "Disc") -> "Disc":
         radius = np.abs(self.centre) * other.radius + self.radius * other.size
         return rounded(self.centre * other.centre, radius, 4)
 
-    def __truediv__(self, other: "Ball") -> "Ball":
+    def __truediv__(self, other: "Disc") -> "Disc":
         return self * inverse(other)
 
-    def scaled(self, factor: float) -> "Ball":
+    def scaled(self, factor: float) -> "Disc":
         """The product with an exact number."""
         return rounded(self.centre * factor, self.radius * abs(factor), 1)
 
-    def shifted(self, term: float) -> "Ball":
+    def shifted(self, term: float) -> "Disc":
         """The sum with an exact number."""
         return rounded(self.centre + term, self.radius, 1)
 
 
-def rounded(centre: Centre, radius: Array, ulps: float) -> Ball:
-    """A ball whose centre was computed with an error of so many units of its last place."""
-    return Ball(centre, np.asarray(radius * GROWTH + (np.abs(centre) * (ulps * ROUNDING) + TINY)))
+def rounded(centre: Centre, radius: Array, ulps: float) -> Disc:
+    """A disc whose centre was computed with an error of so many units of its last place."""
+    return Disc(centre, np.asarray(radius * GROWTH + (np.abs(centre) * (ulps * ROUNDING) + TINY)))
 
 
-def hull(first: Ball, second: Ball) -> Ball:
-    """A ball that holds both."""
+def hull(first: Disc, second: Disc) -> Disc:
+    """A disc that holds both."""
     if not (np.iscomplexobj(first.centre) or np.iscomplexobj(second.centre)):
         low = np.minimum(first.centre - first.radius, second.centre - second.radius)
         high = np.maximum(first.centre + first.radius, second.centre + second.radius)
@@ -112,78 +112,78 @@ def hull(first: Ball, second: Ball) -> Ball:
     return rounded(middle, apart / 2 + np.maximum(first.radius, second.radius), 4)
 
 
-def chosen(which: NDArray[np.bool_], first: Ball, second: Ball) -> Ball:
-    """The first ball where `which` holds, else the second."""
-    return Ball(np.where(which, first.centre, second.centre), np.where(which, first.radius, second.radius))
+def chosen(which: NDArray[np.bool_], first: Disc, second: Disc) -> Disc:
+    """The first disc where `which` holds, else the second."""
+    return Disc(np.where(which, first.centre, second.centre), np.where(which, first.radius, second.radius))
 
 
-def whole(like: Ball) -> Ball:
-    """Balls of which nothing is known, of the shape and kind of `like`."""
+def whole(like: Disc) -> Disc:
+    """Discs of which nothing is known, of the shape and kind of `like`."""
     shape = np.broadcast_shapes(np.shape(like.centre), np.shape(like.radius))
-    return Ball(np.zeros(shape, np.result_type(like.centre)), np.full(shape, np.nan))
+    return Disc(np.zeros(shape, np.result_type(like.centre)), np.full(shape, np.nan))
 
 
-def where_defined(defined: NDArray[np.bool_] | bool, ball: Ball) -> Ball:
-    """The ball, with the radius nan where it is not defined."""
-    return Ball(ball.centre, np.where(defined, ball.radius, np.nan))
+def where_defined(defined: NDArray[np.bool_] | bool, disc: Disc) -> Disc:
+    """The disc, with the radius nan where it is not defined."""
+    return Disc(disc.centre, np.where(defined, disc.radius, np.nan))
 
 
-def is_real(ball: Ball) -> bool:
+def is_real(disc: Disc) -> bool:
     """Whether the centre is real, so that only real numbers are meant."""
-    return not np.iscomplexobj(ball.centre)
+    return not np.iscomplexobj(disc.centre)
 
 
-def inverse(ball: Ball) -> Ball:
-    """1 / z, not defined where the ball holds zero."""
-    size = np.abs(ball.centre)
-    least = size * (1 - 4 * ROUNDING) - ball.radius
-    return where_defined(least > 0, rounded(1 / ball.centre, ball.radius / (size * least), 4))
+def inverse(disc: Disc) -> Disc:
+    """1 / z, not defined where the disc holds zero."""
+    size = np.abs(disc.centre)
+    least = size * (1 - 4 * ROUNDING) - disc.radius
+    return where_defined(least > 0, rounded(1 / disc.centre, disc.radius / (size * least), 4))
 
 
-def whole_power(ball: Ball, exponent: int) -> Ball:
+def whole_power(disc: Disc, exponent: int) -> Disc:
     """z to a whole power, 0 excluded."""
     if exponent < 0:
-        return inverse(whole_power(ball, -exponent))
+        return inverse(whole_power(disc, -exponent))
     if exponent == 1:
-        return ball
+        return disc
     ulps = 4 * exponent
-    if is_real(ball) and exponent % 2 == 0:
-        size = np.abs(ball.centre)
-        low, high = np.maximum(size - ball.radius, 0) ** exponent, (size + ball.radius) ** exponent
+    if is_real(disc) and exponent % 2 == 0:
+        size = np.abs(disc.centre)
+        low, high = np.maximum(size - disc.radius, 0) ** exponent, (size + disc.radius) ** exponent
         return rounded(low / 2 + high / 2, high / 2 - low / 2 + ulps * ROUNDING * high, 2)
-    size = np.abs(ball.centre)
-    largest = (size + ball.radius) ** exponent
+    size = np.abs(disc.centre)
+    largest = (size + disc.radius) ** exponent
     radius = np.minimum(
-        largest - size**exponent, exponent * ball.radius * (size + ball.radius) ** (exponent - 1)
+        largest - size**exponent, exponent * disc.radius * (size + disc.radius) ** (exponent - 1)
     )
-    return rounded(ball.centre**exponent, radius + ulps * ROUNDING * largest, ulps)
+    return rounded(disc.centre**exponent, radius + ulps * ROUNDING * largest, ulps)
 
 
-def magnitude(ball: Ball, across: bool) -> Ball:
+def magnitude(disc: Disc, across: bool) -> Disc:
     """The modulus of a real number, continued to complex ones from where it is z or -z.
 
-    Where a complex ball holds zero the result is not defined, or with `across` it holds z and -z.
+    Where a complex disc holds zero the result is not defined, or with `across` it holds z and -z.
     """
-    if is_real(ball):
-        size = np.abs(ball.centre)
-        low, high = np.maximum(size - ball.radius, 0), size + ball.radius
+    if is_real(disc):
+        size = np.abs(disc.centre)
+        low, high = np.maximum(size - disc.radius, 0), size + disc.radius
         return rounded(low / 2 + high / 2, high / 2 - low / 2 + ROUNDING * high, 2)
-    positive, negative = ball.lower > 0, ball.upper < 0
-    side = chosen(positive, ball, -ball)
-    both = Ball(np.zeros_like(ball.centre), ball.size if across else np.full_like(ball.radius, np.nan))
+    positive, negative = disc.lower > 0, disc.upper < 0
+    side = chosen(positive, disc, -disc)
+    both = Disc(np.zeros_like(disc.centre), disc.size if across else np.full_like(disc.radius, np.nan))
     return chosen(positive | negative, side, both)
 
 
-def sign(ball: Ball, across: bool) -> Ball:
+def sign(disc: Disc, across: bool) -> Disc:
     """The sign of a real number; see `magnitude`."""
-    positive, negative = ball.lower > 0, ball.upper < 0
+    positive, negative = disc.lower > 0, disc.upper < 0
     known = np.where(positive, 1.0, np.where(negative, -1.0, 0.0))
-    unknown = 1.0 if across or is_real(ball) else np.nan
+    unknown = 1.0 if across or is_real(disc) else np.nan
     radius = np.where(positive | negative, 0.0, unknown)
-    return where_defined(~np.isnan(ball.radius), Ball(known, radius))
+    return where_defined(~np.isnan(disc.radius), Disc(known, radius))
 
 
-def larger(first: Ball, second: Ball, across: bool) -> Ball:
+def larger(first: Disc, second: Disc, across: bool) -> Disc:
     """The larger of two real numbers; see `magnitude`."""
     if is_real(first) and is_real(second):
         low = np.maximum(first.centre - first.radius, second.centre - second.radius)
@@ -204,8 +204,8 @@ def combined(parts: list[Condition], all_of: bool) -> Condition:
     return holds, fails
 
 
-def joined(values: list[Ball], conditions: list[Condition], known: bool) -> Ball:
-    """The ball that holds every piece which may be the valid one; none of them may be.
+def joined(values: list[Disc], conditions: list[Condition], known: bool) -> Disc:
+    """The disc that holds every piece which may be the valid one; none of them may be.
 
     Unless `known`, nothing is known where more than one piece may be valid.
     """
