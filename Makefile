@@ -60,6 +60,10 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 	@echo "== benchmarks"
 	@$(PY) -m benchmarks
 
+.PHONY: soak
+soak: $(EXTRA) ## random problems against certificates and foreign solvers, a minute: make soak SECONDS=7200
+	@$(PY) -m studies soak --seconds $(or $(SECONDS),60)
+
 .PHONY: study
 study: $(EXTRA) ## run a study on, an hour unless SECONDS says otherwise, and keep its table: make study NAME=soak
 	@$(PY) -m studies $(NAME) --seconds $(or $(SECONDS),3600) --keep
