@@ -15,10 +15,10 @@ from studies.soak import systems
 from studies.soak.outcome import Outcome
 from studies.soak.systems import NAMES, PHASE, Problem
 
-CHUNK = 5
-"""Problems of a chunk; the oracle looks at the first one of each fourth chunk and at all suspicious ones."""
 WANTED = 1_000
-EVERY = 4
+"""A chunk is one problem."""
+EVERY = 20
+"""Every so many problems are judged by the oracle, and those that are suspicious."""
 ALLOWED = 1e-6
 """Largest disagreement with the integrated equations that is no failure: they are integrated to 1e-9."""
 KINKS = 64
@@ -26,7 +26,7 @@ KINKS = 64
 
 
 class Averaged:
-    """The averaged Hamiltonian of a problem with means by SciPy's adaptive rule; nothing of it is the solver's."""
+    """The averaged Hamiltonian of a problem, with means by SciPy's adaptive rule."""
 
     def __init__(self, problem: Problem) -> None:
         self.n = len(problem.f)
@@ -60,7 +60,7 @@ class Averaged:
         return u, price * float(u @ u)
 
     def means(self, z: Array) -> Array:
-        """Means over a turn of: the Hamiltonian, the rates, the Hamiltonian's slopes in the slow variables, cost."""
+        """Means over a turn: the Hamiltonian, the rates, its slopes in the slow variables, the cost."""
 
         def integrand(x: float) -> Array:
             u, cost = self.control(np.array(self._push(*z, x)))
@@ -77,7 +77,7 @@ class Averaged:
 
 
 def disagreement(problem: Problem, solution: Any) -> float:
-    """How far a solution is from an averaged extremal, relative to its size: ends, Hamiltonian, cost, motion."""
+    """How far a solution is from an averaged extremal, relative to its size."""
     model, n, duration = Averaged(problem), len(problem.f), float(solution.duration)
     ends = np.concatenate([solution.slow([0.0, duration]), solution.costate([0.0, duration])], axis=-1)
     first, last = ends
@@ -108,20 +108,17 @@ def disagreement(problem: Problem, solution: Any) -> float:
 
 
 def chunk(rng: np.random.Generator, number: int) -> Found:
-    """A chunk of systems, one after the other: each is compiled."""
-    outcome = Outcome(systems.line)
-    for k in range(CHUNK):
-        problem = systems.drawn(rng)
-        outcome.problems += 1
-        given = asdict(problem)
-        solution = attempted(outcome, lambda: solve_averaged(problem.system(), problem.start), given)
-        if solution is None:
-            continue
-        suspicious = outcome.certified(solution.certificate, [given])
-        if suspicious or (k == 0 and number % EVERY == 0):
-            found = attempted(outcome, lambda: disagreement(problem, solution), given)
-            if found is not None:
-                outcome.judged(found, given, ALLOWED, "SciPy")
+    """One system: it is compiled, solved and, if its turn has come, judged."""
+    outcome, problem = Outcome(systems.line), systems.drawn(rng)
+    outcome.problems, given = 1, asdict(problem)
+    solution = attempted(outcome, lambda: solve_averaged(problem.system(), problem.start), given)
+    if solution is None:
+        return outcome.found()
+    suspicious = outcome.certified(solution.certificate, [given])
+    if suspicious or number % EVERY == 0:
+        found = attempted(outcome, lambda: disagreement(problem, solution), given)
+        if found is not None:
+            outcome.judged(found, given, ALLOWED, "SciPy")
     return outcome.found()
 
 
@@ -136,4 +133,4 @@ def attempted(outcome: Outcome, call: Callable[[], Any], given: Any) -> Any:
 
 def parts() -> list[Part]:
     """The row of the table."""
-    return [Part("averaged", [__name__], WANTED // CHUNK, chunk, share=4.0)]
+    return [Part("averaged", [__name__], WANTED, chunk, share=4.0)]

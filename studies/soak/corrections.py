@@ -26,8 +26,8 @@ ALLOWED = 1e-7
 FLOWN = 1e-9
 """Largest state that may remain after the plan is flown by matrix exponentials, relative to the start."""
 MOTION = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 2.0], [0.0, -1.0, 0.0]])
-"""Deviations of radius, radial and transverse speed near the unit circle: r'' = h^2/r^3 - 1/r^2, linearised."""
-INTERVALS = (0.25, 0.01, np.pi, np.pi / 2, 2 * np.pi / 3, 2 * np.pi - 1e-6, 40.0)
+"""Rates of the deviations of radius, radial and transverse speed: r'' = c^2/r^3 - 1/r^2, linearised."""
+INTERVALS = (0.25, 0.01, np.pi, np.pi / 2, 2 * np.pi / 3, 2 * np.pi - 1e-3, 40.0)
 """The paper's interval, and such where impulses act at few places of the orbit."""
 
 
@@ -105,7 +105,7 @@ def remaining(impulses: Array, interval: float, state: Array) -> float:
     once = expm(MOTION * (interval % (2 * np.pi)))
     largest = z = np.asarray(state, dtype=float)
     for radial, transverse in impulses:
-        z = once @ (z + [0.0, radial, transverse])
+        z = once @ (z + np.array([0.0, radial, transverse]))
         largest = np.maximum(np.abs(z), np.abs(largest))
     return float(np.abs(z).max() / largest.max()) if largest.any() else float(np.abs(z).max())
 

@@ -32,7 +32,7 @@ def wide(rng: np.random.Generator, count: int) -> Array:
 
 
 def far_scales(rng: np.random.Generator, count: int) -> Array:
-    """One scale of time and one of the moments for each row, over two hundred decades, moments of size one."""
+    """Moments of one size, that of each row within two hundred decades, times within sixty."""
     T, size = 10.0 ** rng.uniform(-30, 30, count), 10.0 ** rng.uniform(-100, 100, count)
     k = rng.standard_normal((count, 3)) * size[:, None]
     return moments_only(k * np.stack([T**3, T**2, T], axis=1), T)
@@ -116,7 +116,7 @@ TRANSFERS = (rest_to_rest, any_ends, wide_ends, lattice_ends, bangs)
 
 
 def positive_controls(rng: np.random.Generator, count: int) -> Array:
-    """Moments of three to five positive impulses, or of their negatives: inside the cone, T over six decades."""
+    """Moments of three to five impulses of one sign, inside the cone; T over six decades."""
     s, a = rng.random((count, 5)), rng.random((count, 5))
     a[:, 3:] *= rng.integers(0, 2, (count, 2))
     T, sign = 10.0 ** rng.uniform(-3, 3, count), rng.choice([-1.0, 1.0], count)

@@ -1,6 +1,7 @@
 """The oracle of the L_q norms and of the entropy: Gauss's rule on panels that shrink towards every kink."""
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import mpmath as mp
@@ -20,7 +21,7 @@ def rule(kinks: Sequence[float]) -> tuple[Array, Array]:
     """Nodes and weights on [0, 1] for functions that are smooth between the kinks."""
     inside = sorted({0.0, 1.0, *(float(k) for k in kinks if 0 < k < 1)})
     ends = [np.array(inside)]
-    for a, b in zip(inside[:-1], inside[1:], strict=True):
+    for a, b in pairwise(inside):
         half = (b - a) / 2
         ends += [a + half * SHRINKING, b - half * SHRINKING, np.array([a + half])]
     edges = np.unique(np.concatenate(ends))
@@ -54,7 +55,7 @@ def miss(shape: Array, weights: Array, sigma: Array, row: Array, total: float) -
 
 
 def power_disagreement(solution: Any, row: Array, q: float) -> float:
-    """How far a solution of least L_q norm is from optimal: moments, dual value and control evaluated anew."""
+    """How far a solution of least L_q norm is from optimal: moments, dual value, control."""
     T, p = float(row[6] - row[7]), q / (q - 1)
     l = np.asarray(solution.multipliers)
     if not l.any():
@@ -95,7 +96,7 @@ def _control_misses(solution: Any, row: Array, scale: Array, p: float) -> float:
 
 
 def entropy_disagreement(solution: Any, row: Array) -> float:
-    """How far a control of one sign and greatest entropy is from its moments; its form makes it the optimum."""
+    """How far a control of greatest entropy is from its moments; its form makes it the optimum."""
     T = float(row[6] - row[7])
     k = np.asarray(solution.coefficients) * [1, T, T * T]
     if not np.isfinite(k[0]):

@@ -1,4 +1,4 @@
-"""Rendezvous over all inclinations and eccentricities to 0.9: least energy in a fixed time, least time with a bound."""
+"""Rendezvous over all inclinations and eccentricities to 0.9: of least energy, and of least time."""
 
 import math
 import signal
@@ -23,7 +23,7 @@ WANTED = 150
 PATIENCE = 300.0
 """Seconds after which a search counts as one that does not end."""
 ALLOWED = 1e-6
-"""Largest disagreement with the flight under the given thrust that is no failure: its spline has such errors."""
+"""Largest disagreement that is no failure: the spline of the thrust has such errors."""
 DIRECTLY = 15
 """Every so many meetings are sought by the direct method too."""
 CHEAPER = 1e-3

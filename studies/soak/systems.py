@@ -1,4 +1,4 @@
-"""Random systems with a rotating phase: trigonometric polynomials in the phase, rational in the slow variables.
+"""Random systems: trigonometric polynomials in the phase, rational in the slow variables.
 
 All coefficients are multiples of 1/16, so that their texts are exact.
 """
@@ -52,10 +52,12 @@ class Problem:
 
     @property
     def slow(self) -> tuple[sp.Symbol, ...]:
+        """The slow variables."""
         return SLOW[: len(self.f)]
 
     @property
     def control(self) -> tuple[sp.Symbol, ...]:
+        """The controls that occur."""
         return tuple(u for u in CONTROL if any(u in sp.sympify(f, NAMES).free_symbols for f in self.f))
 
     def system(self) -> PhaseSystem:
