@@ -9,12 +9,13 @@ from studies.soak import averaged, corrections, meetings, triple
 MEASURES = ("gap", "residual", "disagreement")
 NOTE = (
     "Random problems, many of them chosen to be hard: ties, edges of regimes, narrow reversals, forty "
-    "decades of scale. All are judged by their own certificates. *Compared* are a stratified hundredth of the "
-    "manoeuvres and corrections, a twentieth of the averaged problems, all meetings, and whatever is "
+    "decades of scale. All are judged by their own certificates. *Compared* are a stratified hundredth of "
+    "the manoeuvres and corrections, a twentieth of the averaged problems, all meetings, and whatever is "
     "suspicious: by fifty-digit arithmetic and quadratures of its own (triple integrator), Clarabel's cone "
     "programmes (corrections), SciPy's integrators on equations built anew (averaged problems, meetings), "
     "and for some meetings CasADi's direct method. A failure is an exception, a certificate that does not "
-    "hold, a member that differs from its stack, or an oracle that disagrees; *not solved* are the exceptions."
+    "hold, a member that differs from its stack, or an oracle that disagrees; *not solved* are the "
+    "exceptions."
 )
 
 
