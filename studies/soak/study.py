@@ -7,6 +7,8 @@ from studies.part import Found, Part, Study
 from studies.soak import averaged, corrections, meetings, triple
 
 MEASURES = ("gap", "residual", "disagreement")
+SHOWN = 40
+"""Failures of a part that are listed."""
 NOTE = (
     "Random problems, many of them chosen to be hard: ties, edges of regimes, narrow reversals, forty "
     "decades of scale. All are judged by their own certificates. *Compared* are a stratified hundredth of "
@@ -36,8 +38,8 @@ def row(part: Part, found: Sequence[Found]) -> dict[str, Any]:
 
 
 def cases(part: Part, found: Sequence[Found]) -> list[dict[str, Any]]:
-    """Every failure that was kept, and the problem that is worst in each measure."""
-    kept = [case for one in found for case in one["kept"]]
+    """The first failures, and the problem that is worst in each measure; the records have all of them."""
+    kept = [case for one in found for case in one["kept"]][:SHOWN]
     worst = {name: _worst(found, name) for name in MEASURES}
     return [*kept, *({"what": f"worst {name}", **case} for name, case in worst.items() if case)]
 

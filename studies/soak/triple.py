@@ -34,6 +34,8 @@ EXPONENTS = (1.001, 1.01, 1.1, 1.5, 2.0, 3.0, 10.0, 100.0, 1e4)
 """The q of the L_q norms; a chunk has one of them."""
 INSIDE = 1e-12
 """A root counts as admissible for the comparison where its switches leave the transfer by this share."""
+CLUSTER = 1e-2
+"""Roots that differ by less than this share are judged together."""
 ROUNDINGS = 2e-14
 """The same, times the sizes of the terms of the moments relative to what the bound produces in the time."""
 
@@ -126,14 +128,20 @@ def time_line(problem: Input) -> str:
 
 
 def time_disagreement(solution: Any, row: Array) -> float:
-    """The distance of a least time from an exact root, or from an earlier one that is admissible."""
+    """The distance of a least time from the exact root, or from an earlier one that is admissible.
+
+    Roots that nearly coincide move by more than the last digits of the data do: their distances count as a
+    product, which is what the polynomial is multiplied by.
+    """
     duration = float(solution.duration)
     if duration == 0:
         return float(np.abs(row[3:6] - row[:3]).max())
     roots = [(float(v), float(T)) for v, T in exact_bang_bang_times(row[:3], row[3:6], row[6], row[7])]
-    nearest = min((relative(T, duration) for v, T in roots if v <= inside(row, T)), default=np.inf)
-    earlier = [T for v, T in roots if v <= -inside(row, T) and duration > T]
-    return max(nearest, relative(min(earlier), duration) if earlier else 0.0)
+    if not any(v <= inside(row, T) and relative(T, duration) < CLUSTER for v, T in roots):
+        return 1.0
+    away = [min(1.0, relative(T, duration) / CLUSTER) for _, T in roots]
+    earlier = [T for v, T in roots if v <= -inside(row, T) and duration * (1 - CLUSTER) > T]
+    return max(CLUSTER * float(np.prod(away)), relative(min(earlier), duration) if earlier else 0.0)
 
 
 def inside(row: Array, T: float) -> float:
