@@ -27,7 +27,6 @@ from command_line import (
 )
 from pontryagin import __version__, ledger, papers
 from pontryagin.display.recording import read_back
-from pontryagin.report import build
 from pontryagin.triple_integrator import (
     Maneuver,
     minimum_energy,
@@ -144,6 +143,7 @@ class TestFiles:
         assert float(size[2]) > 300
         assert float(size[3]) > 200
 
+    @pytest.mark.extra(name="recording")
     def test_a_recording_holds_the_motion(self, tmp_path):
         path = tmp_path / "motion.rrd"
         assert solve("--norm", "2", *ENDS, "--duration", "2", "--record", path).exit_code == 0
@@ -345,14 +345,22 @@ class TestLedger:
         assert all(entry.label.split()[0] in shown for entry in entries)
 
 
+@pytest.mark.extra(name="report")
 class TestReport:
-    def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch):
+    @pytest.fixture
+    def build(self):
+        """The module that builds the report; it needs the extra."""
+        from pontryagin.report import build
+
+        return build
+
+    def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch, build):
         calls = []
         monkeypatch.setattr(build, "main", lambda arguments: calls.append(arguments) or 1)
         assert run("report", "figures", "--workers", "1").exit_code == 1
         assert calls == [["figures", "--workers", "1"]]
 
-    def test_every_stage_is_in_the_help(self):
+    def test_every_stage_is_in_the_help(self, build):
         printed = run("report", "--help").stdout
         assert all(stage in printed for stage in build.STAGES)
 
