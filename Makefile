@@ -60,6 +60,10 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 	@echo "== benchmarks"
 	@$(PY) -m benchmarks
 
+.PHONY: study
+study: $(EXTRA) ## run a study on, an hour unless SECONDS says otherwise, and keep its table: make study NAME=soak
+	@$(PY) -m studies $(NAME) --seconds $(or $(SECONDS),3600) --keep
+
 .PHONY: judge
 judge: $(EXTRA) ## solve the rendezvous directly, from cold starts, for comparison
 	@echo "== rendezvous by collocation"
@@ -104,7 +108,7 @@ play: $(READY) ## replay the recordings in the browser
 .PHONY: clean
 clean: ## remove what was built; .venv and figures/ stay
 	@rm -rf build .pytest_cache .mypy_cache .ruff_cache .hypothesis
-	@find src tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	@find src tests benchmarks studies -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
 	@echo "removed build/ and the caches"
 
 # --- the environment -------------------------------------------------------------------------------
