@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-COPIED = ("src", "tests", "studies", "pyproject.toml")
-"""What the tests that need no checkout read, and the server itself."""
+COPIED = ("src", "tests", "pyproject.toml")
+"""What the tests that need no checkout read."""
+SERVER = Path(__file__).with_name("server.py")
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ def opened(checkout: Path, folder: Path) -> Iterator[Laboratory]:
     places = os.pathsep.join(str(folder / name) for name in ("src", "tests", "."))
     own = {"PYTHONPATH": places, "PYTHONDONTWRITEBYTECODE": "1", "OMP_NUM_THREADS": "1"}
     with subprocess.Popen(
-        [sys.executable, "-m", "studies.mutation.server"],
+        [sys.executable, "-P", str(SERVER)],
         cwd=folder,
         env={**os.environ, **own, "OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
         stdin=subprocess.PIPE,

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-NEGATED: dict[type[ast.AST], type[ast.AST]] = {
+NEGATED: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.GtE,
     ast.GtE: ast.Lt,
     ast.Gt: ast.LtE,
@@ -18,13 +18,13 @@ NEGATED: dict[type[ast.AST], type[ast.AST]] = {
     ast.In: ast.NotIn,
     ast.NotIn: ast.In,
 }
-BOUNDARY: dict[type[ast.AST], type[ast.AST]] = {
+BOUNDARY: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.LtE,
     ast.LtE: ast.Lt,
     ast.Gt: ast.GtE,
     ast.GtE: ast.Gt,
 }
-ARITHMETIC: dict[type[ast.AST], type[ast.AST]] = {
+ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
     ast.Add: ast.Sub,
     ast.Sub: ast.Add,
     ast.Mult: ast.Div,
@@ -65,8 +65,8 @@ class Mutant:
         "function", "statement" or "loop".
     function : str
         The function that holds it, with its class; empty at the level of the module.
-    first, last : int
-        Its lines.
+    line, last : int
+        Its first and its last line.
     before, after : str
         The text that is replaced, and the text in its place.
     start, end : int
@@ -78,7 +78,7 @@ class Mutant:
 
     kind: str
     function: str
-    first: int
+    line: int
     last: int
     before: str
     after: str
@@ -111,8 +111,8 @@ def mutants(source: str, module: str) -> list[Mutant]:
         for kind, other in _changes(node):
             start, end = _place(starts, node)
             before, after = source.encode()[start:end].decode(), _text(other)
-            line = lines[node.lineno - 1].decode().strip()  # type: ignore[attr-defined]
-            text = "\n".join([module, function, line, before, after])
+            whole = lines[node.lineno - 1].decode().strip()  # type: ignore[attr-defined]
+            text = "\n".join([module, function, whole, before, after])
             seen[text] += 1
             key = hashlib.sha256(f"{text}\n{seen[text]}".encode()).hexdigest()[:12]
             first, last = node.lineno, node.end_lineno  # type: ignore[attr-defined]
@@ -175,7 +175,7 @@ def _is_text(node: ast.AST) -> bool:
     return isinstance(node, ast.JoinedStr) or (isinstance(node, ast.Constant) and isinstance(node.value, str))
 
 
-def _other_constants(value: object) -> list[object]:
+def _other_constants(value: object) -> list[bool | int | float]:
     """A flag the other way; a whole number one larger; a number by a factor of two, zero one off."""
     if isinstance(value, bool):
         return [not value]

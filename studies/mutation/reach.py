@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,10 @@ APART = {"house", "report", "benchmarks", "studies", "cli", "display", "ledger",
 """Folders of tests that are not about solvers and certificates."""
 SECONDS = 600.0
 """Processor time that the tests of one file may take."""
+
+
+Reached = tuple[str, float, set[int]]
+"""A test, its seconds, and the lines of a module that it reaches."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,7 @@ class Reach:
     root: Path
     folder: Path
     modules: Sequence[str]
+    _files: dict[Path, frozenset[Path]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def project(self) -> Project:
@@ -52,7 +57,7 @@ class Reach:
         """Of a file of tests and all that it depends on."""
         settings = [self.root / name for name in ("pyproject.toml", "requirements.lock")]
         known = [path for path in settings if path.is_file()]
-        return digest(*sorted(self.project.files(test)), *known, *self.modules, root=self.root)
+        return digest(*sorted(self._depends(test)), *known, *self.modules, root=self.root)
 
     def of(self, test: Path, laboratory: Laboratory) -> Mapping[str, Any]:
         """Tests of a file: {test: [seconds, {module: lines}]}."""
@@ -69,20 +74,29 @@ class Reach:
             files.write(place, json.dumps(tests))
         return dict(json.loads(place.read_text(encoding="utf-8")))
 
-    def reaching(self, module: str, laboratory: Laboratory) -> Iterator[tuple[str, float, set[int]]]:
+    def may_reach(self, test: Path, module: str) -> bool:
+        """Whether the imports of a file of tests lead to a module."""
+        return self.root / module in self._depends(test)
+
+    def _depends(self, test: Path) -> frozenset[Path]:
+        if test not in self._files:
+            self._files[test] = self.project.files(test)
+        return self._files[test]
+
+    def reaching(self, module: str, laboratory: Laboratory) -> Iterator[Reached]:
         """The tests that reach a module, each with its seconds and lines."""
-        path = self.root / module
         for candidate in self.candidates():
-            if path in self.project.files(candidate):
+            if self.may_reach(candidate, module):
                 for test, (seconds, lines) in self.of(candidate, laboratory).items():
                     if module in lines:
                         yield test, seconds, set(lines[module])
 
 
-def chosen(tests: Iterable[tuple[str, float, set[int]]], lines: range, budget: float) -> list[tuple[str, float]]:
+def chosen(tests: Iterable[Reached], lines: range, budget: float) -> list[tuple[str, float]]:
     """The tests that reach any of some lines, quickest first, as many as a budget of seconds allows."""
     found = sorted((seconds, test) for test, seconds, reached in tests if reached & {*lines})
-    kept, spent = [], 0.0
+    kept: list[tuple[str, float]] = []
+    spent = 0.0
     for seconds, test in found:
         if kept and spent + seconds > budget:
             break

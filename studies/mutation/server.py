@@ -121,7 +121,11 @@ def _tried(request: dict[str, Any]) -> dict[str, Any]:
     try:
         status = _run(request["tests"], "-x", plugin=first)
     except Exception as reason:  # the package cannot be imported
-        return {"outcome": "failed", "by": f"import: {type(reason).__name__}", "seconds": process_time() - start}
+        return {
+            "outcome": "failed",
+            "by": f"import: {type(reason).__name__}",
+            "seconds": process_time() - start,
+        }
     outcome = "passed" if status == 0 else "failed"
     return {"outcome": outcome, "by": first.failed, "passed": first.passed, "seconds": process_time() - start}
 
@@ -159,7 +163,10 @@ class _Tracer:
 
 
 def _traced(request: dict[str, Any]) -> dict[str, Any]:
-    """Seconds and lines of the tests that pass: {test: [seconds, {file: lines}]}."""
+    """Seconds and lines of the tests that pass: {test: [seconds, {file: lines}]}.
+
+    A test that reaches a file also reaches what ran when the file was imported.
+    """
     os.environ["XDG_CACHE_HOME"] = request["cache"]
     measured = coverage.Coverage(data_file=None, include=request["trace"], config_file=False)
     tracer = _Tracer(measured)
@@ -172,12 +179,15 @@ def _traced(request: dict[str, Any]) -> dict[str, Any]:
         for line, contexts in data.contexts_by_lineno(file).items():
             for context in contexts:
                 lines[context][file].append(line)
-    shared = lines.pop(ALL, {})
+    shared, imported = lines.pop(ALL, {}), lines.pop("", {})
     found = {}
     for test, seconds in tracer.seconds.items():
         if test not in tracer.failed:
             files = {*lines[test], *shared}
-            own = {file: {*lines[test].get(file, ()), *shared.get(file, ())} for file in files}
+            own = {
+                file: {*lines[test].get(file, ()), *shared.get(file, ()), *imported.get(file, ())}
+                for file in files
+            }
             found[test] = [round(seconds, 3), {file: sorted(numbers) for file, numbers in own.items()}]
     return {"outcome": "traced", "tests": found}
 

@@ -160,7 +160,13 @@ class TestFiles:
         assert_refused(result, "--plot")
         assert not list(tmp_path.iterdir())
 
-    @pytest.mark.parametrize(("option", "name"), [("--plot", "a.svg"), ("--record", "a.rrd")])
+    @pytest.mark.parametrize(
+        ("option", "name"),
+        [
+            ("--plot", "a.svg"),
+            pytest.param("--record", "a.rrd", marks=pytest.mark.extra(name="recording")),
+        ],
+    )
     def test_a_path_that_cannot_be_written_is_named(self, tmp_path, option, name):
         (tmp_path / "file").touch()
         result = solve("--norm", "2", *ENDS, "--duration", "2", option, tmp_path / "file" / name)
@@ -245,9 +251,10 @@ class TestRefusals:
             (["ledgers"], "No such command 'ledgers'"),
             (["ledger", "--verdict", "wrong"], "--verdict: got 'wrong', takes one of 'holds'"),
             (["ledger", "--paper", "Newton"], "--paper: got 'Newton'"),
-            (
+            pytest.param(
                 ["report", "everything"],
                 "STAGE takes notebooks, figures, recordings, report, got 'everything'",
+                marks=pytest.mark.extra(name="report"),
             ),
         ],
     )
@@ -343,6 +350,16 @@ class TestLedger:
         entries = ledger.entries(verdict="misprint")
         assert f"{len(entries)} entries" in shown
         assert all(entry.label.split()[0] in shown for entry in entries)
+
+
+def test_the_report_without_its_extra_names_it(monkeypatch):
+    from pontryagin import report
+
+    monkeypatch.delattr(report, "build", raising=False)
+    monkeypatch.setitem(sys.modules, "pontryagin.report.build", None)
+    result = run("report", "figures")
+    assert result.exit_code == 1
+    assert result.stderr.endswith("which is not installed: pip install 'pontryagin[report]'\n")
 
 
 @pytest.mark.extra(name="report")
