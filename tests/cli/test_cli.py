@@ -85,10 +85,17 @@ class TestSolutions:
     def test_json_has_these_keys(self):
         common = {"solver", "x0", "xf", "disturbance"}
         found = {
-            "1": {"norm", "regime", "unique", "impulse_times", "impulses", "multipliers"},
+            "1": {"norm", "regime", "unique", "impulse_times", "impulse_offsets", "impulses", "multipliers"},
             "2": {"norm", "coefficients", "multipliers"},
-            "inf": {"norm", "switch_times", "first_sign", "switch_condition", "multipliers"},
-            "3.5": {"q", "norm", "peak", "breakpoints", "multipliers"},
+            "inf": {
+                "norm",
+                "switch_times",
+                "switch_offsets",
+                "first_sign",
+                "switch_condition",
+                "multipliers",
+            },
+            "3.5": {"q", "norm", "peak", "breakpoints", "breakpoint_offsets", "multipliers"},
         }
         for norm, keys in found.items():
             printed = answer("--norm", norm, *ENDS, "--duration", "2")
@@ -196,6 +203,7 @@ class TestRefusals:
             (options(duration="1e999"), "--duration takes"),
             (options(duration=None), "--duration is missing"),
             (options(t0="1e30"), "--duration is lost to rounding"),
+            (options(t0="1e9", duration="1e-3"), "--duration would become 0.00100004673 on a clock"),
             (options(t0="now"), "--t0 takes"),
             (options(norm="0.5"), "--norm takes 1, 2, inf"),
             (options(norm="L2"), "--norm takes"),

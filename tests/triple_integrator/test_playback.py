@@ -144,6 +144,13 @@ def test_any_solution_can_be_recorded(tmp_path, solution):
     assert_allclose(held["/angle/programme"]["scalars"], solution.state(inside)[:, 0], atol=1e-7)
 
 
+def test_impulses_of_a_short_manoeuvre_are_spikes_too(tmp_path):
+    solution = minimum_impulse(Maneuver([0, 0, 0], [1, 0, 0], tf=1e-5))
+    playback.record_solution(solution, tmp_path / "short.rrd")
+    heights = verified(tmp_path / "short.rrd")["/control/programme"]["scalars"]
+    assert_allclose([heights.min(), heights.max()], [solution.impulses.min(), solution.impulses.max()])
+
+
 def test_a_stack_cannot_be_recorded(tmp_path):
     stack = minimum_energy(Maneuver(np.zeros((2, 3)), np.ones((2, 3)), tf=1.0))
     with pytest.raises(ValueError, match=r"^solution must be the solution of one manoeuvre"):

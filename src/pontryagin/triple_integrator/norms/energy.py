@@ -92,12 +92,12 @@ class EnergySolution(Packed, Programme):
         T = m.duration
         u0, u1, u2 = (self.coefficients[..., i] for i in range(3))
         at_start = [u0 + T * (u1 + T * u2), -u1 - 2 * T * u2, 2 * u2]
-        time, knot = m.times(t), m.t0[..., None]
+        elapsed = (m.times(t) - m.t0[..., None])[..., None]
         parts = (
-            response(time, knot, amplitude[..., None], order)
+            response(elapsed, amplitude[..., None], order)
             for order, amplitude in enumerate(at_start, start=1)
         )
-        return m.drift(time) + sum(parts)
+        return m.drift(t) + sum(parts)
 
 
 def _answer(result: Array) -> dict[str, Any]:

@@ -20,7 +20,6 @@ from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, 
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import (
     Programme,
-    breakpoints,
     normalise,
     numbers_of,
     over_stack,
@@ -158,9 +157,17 @@ class ImpulseSolution(Packed, Programme):
     def impulse_times(self) -> Array:
         """Times of the impulses in order, then nan for absent ones, (..., 3)."""
         m = self.maneuver
-        times = np.stack([m.t0, m.tf - self.inner * m.duration, m.tf], axis=-1)
-        times = np.where(self.amplitudes == 0, np.nan, times)
-        return np.take_along_axis(times, self._order, axis=-1)
+        end = m.tf[..., None]
+        times = np.minimum(m.t0[..., None] + self.impulse_offsets, end)
+        return np.where(self.impulse_offsets == m.duration[..., None], end, times)
+
+    @cached_property
+    def impulse_offsets(self) -> Array:
+        """The `impulse_times` as times since the start, which a clock far from 0 cannot carry, (..., 3)."""
+        T = self.maneuver.duration
+        offsets = np.stack([np.zeros_like(T), T - self.inner * T, T], axis=-1)
+        offsets = np.where(self.amplitudes == 0, np.nan, offsets)
+        return np.take_along_axis(offsets, self._order, axis=-1)
 
     @cached_property
     def impulses(self) -> Array:
@@ -168,12 +175,10 @@ class ImpulseSolution(Packed, Programme):
         return np.take_along_axis(self.amplitudes, self._order, axis=-1)
 
     @property
-    def breakpoints(self) -> Array:
-        """Times strictly within one manoeuvre at which an impulse acts, (j,)."""
-        inside = np.where(
-            (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
-        )
-        return breakpoints(self.impulse_times * inside)
+    def _knots(self) -> Array:
+        """Times since the start of the impulses strictly within the manoeuvre, (..., 3)."""
+        offsets = self.impulse_offsets
+        return np.where((offsets > 0) & (offsets < self.maneuver.duration[..., None]), offsets, np.nan)
 
     @cached_property
     def multipliers(self) -> Array:
@@ -199,9 +204,8 @@ class ImpulseSolution(Packed, Programme):
         At the instant of an impulse x3 is the value after it, except at the start, where x(t0) = x0.
         """
         m = self.maneuver
-        time = m.times(t)
-        driven = response(time, self.impulse_times, self.impulses, order=0)
-        return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
+        driven = response(self._since(t, self.impulse_offsets), self.impulses, order=0)
+        return m.drift(t) + np.where((m.times(t) > m.t0[..., None])[..., None], driven, 0.0)
 
 
 def _answer(result: Array) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from pontryagin.triple_integrator.norms.power_rules import table
 from pontryagin.triple_integrator.norms.quadratic_programme import BLOCK, Profile, QuadraticProgramme
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import breakpoints, numbers_of, over_stack
+from pontryagin.triple_integrator.problem.programme import numbers_of, over_stack
 from pontryagin.validation import vectors
 from pontryagin.value import Packed, value_class
 
@@ -68,10 +68,10 @@ class NormSolution(Packed, QuadraticProgramme):
         return _answer(numbers[4:])
 
     @property
-    def breakpoints(self) -> Array:
-        """Times within one manoeuvre at which u changes sign, (j,); for q > 2 u is not smooth there."""
-        m = self.maneuver
-        return breakpoints(m.tf[..., None] - m.duration[..., None] * self.shape.zeros)
+    def _knots(self) -> Array:
+        """Times since the start at which u changes sign, (..., 2), where for q > 2 it is not smooth."""
+        whole = self.maneuver.duration[..., None]
+        return whole - whole * self.shape.zeros
 
     @property
     def _law(self) -> tuple[Quadratic, Profile]:
