@@ -235,6 +235,14 @@ class TestRefusals:
                 options(xf="1e308,0,0", duration="1e-200"),
                 "--xf must give, with x0 and tf - t0, a control",
             ),
+            (
+                options(xf="1e308,0,0", duration="1e-200", norm="3"),
+                "--xf must give, with x0 and tf - t0, a control",
+            ),
+            (
+                options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
+                "--xf must give, with x0 and peak, a motion",
+            ),
         ],
     )
     def test_a_wrong_option_is_named_in_one_line(self, arguments, begins):
@@ -245,8 +253,6 @@ class TestRefusals:
         [
             options(disturbance="1/t"),
             options(norm="1.0000001"),
-            options(xf="1e308,0,0", duration="1e-200", norm="3"),
-            options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
         ],
     )
     def test_a_problem_without_an_answer_exits_with_1_and_a_line(self, arguments):
