@@ -2,18 +2,21 @@
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from pontryagin import triple_integrator as ti
+from pontryagin.arrays import Array
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
 from pontryagin.orbit_correction.plan.thrust import THRUSTS
 from studies.enclosures import gauges, norms
 from studies.enclosures.ball import Enclosure
 from studies.enclosures.least_time import time
 
-Draw = Callable[[np.random.Generator], Enclosure | None]
-"""Draws a problem, solves it and encloses the optimum; None where the balls decide nothing."""
+Solved = tuple[str, Enclosure | None]
+"""A problem as a line of Python with all digits, and its interval; None where the balls decide nothing."""
+Draw = Callable[[np.random.Generator], Solved]
 
 EXPONENTS = (1.2, 1.5, 3.0, 10.0)
 
@@ -35,41 +38,66 @@ def one_signed(rng: np.random.Generator) -> ti.Maneuver:
     return ti.Maneuver([0, 0, 0], c if rng.random() < 0.5 else -c, T)
 
 
-def transfer(rng: np.random.Generator) -> Enclosure | None:
+def written(m: ti.Maneuver) -> str:
+    """The manoeuvre as a line of Python."""
+    return f"Maneuver({m.x0.tolist()}, {m.xf.tolist()}, {float(m.tf)}, disturbance={m.disturbance})"
+
+
+def of_maneuver(
+    solver: Callable[[ti.Maneuver], Any],
+    enclose: Callable[[Any], Enclosure],
+    draw: Callable[[np.random.Generator], ti.Maneuver],
+    rng: np.random.Generator,
+) -> Solved:
+    """A manoeuvre by a solver that takes it alone."""
+    m = draw(rng)
+    return f"{solver.__name__}({written(m)})", enclose(solver(m))
+
+
+def of_any_exponent(rng: np.random.Generator) -> Solved:
+    """A manoeuvre of least norm."""
+    m, q = maneuver(rng), float(rng.choice(EXPONENTS))
+    return f"minimum_norm({written(m)}, {q})", norms.power(ti.minimum_norm(m, q))
+
+
+def transfer(rng: np.random.Generator) -> Solved:
     """A transfer of least time."""
     m = maneuver(rng)
-    peak = 10.0 ** rng.uniform(-2, 2) * float(np.abs(m.xf[2] - m.x0[2]) / m.duration)
-    return time(ti.minimum_time(m.x0, m.xf, peak, m.disturbance))
+    peak = float(10.0 ** rng.uniform(-2, 2) * np.abs(m.xf[2] - m.x0[2]) / m.duration)
+    text = f"minimum_time({m.x0.tolist()}, {m.xf.tolist()}, {peak}, {m.disturbance})"
+    return text, time(ti.minimum_time(m.x0, m.xf, peak, m.disturbance))
 
 
-def general(rng: np.random.Generator) -> Enclosure:
+def general(rng: np.random.Generator) -> Solved:
     """A nonstationary system in up to five dimensions, with ellipsoids whose axes differ by up to 100."""
     n, steps = int(rng.integers(1, 6)), int(rng.integers(1, 9))
 
-    def matrix(spread: float) -> np.ndarray:
+    def matrix(spread: float) -> Array:
         left, right = (np.linalg.qr(rng.standard_normal((n, n)))[0] for _ in range(2))
         return np.asarray(left * 10.0 ** rng.uniform(-spread, spread, n) @ right)
 
     A = np.array([matrix(0.2) for _ in range(steps)])
-    H = [np.linalg.inv(L @ L.T) for L in (matrix(1.0) for _ in range(steps))]
-    system = DiscreteSystem(A, np.array([(h + h.T) / 2 for h in H]))
-    x0 = rng.standard_normal(n)
-    return gauges.gauge(system, x0, steps, gauge(system, x0, steps))
+    H = np.array([np.linalg.inv(L @ L.T) for L in (matrix(1.0) for _ in range(steps))])
+    H = (H + H.swapaxes(1, 2)) / 2
+    system, x0 = DiscreteSystem(A, H), rng.standard_normal(n)
+    text = f"gauge(DiscreteSystem({A.tolist()}, {H.tolist()}), {x0.tolist()}, {steps})"
+    return text, gauges.gauge(system, x0, steps, gauge(system, x0, steps))
 
 
-def correction(thrust: str, rng: np.random.Generator) -> Enclosure:
+def correction(thrust: str, rng: np.random.Generator) -> Solved:
     """A deviation, an interval from 0.1 to 3 and a peak for some tens of steps at most."""
     z0 = rng.standard_normal(3) * 10.0 ** rng.uniform(-4, -1)
-    peak = float(np.abs(z0).max()) * rng.uniform(0.1, 1.0)
-    return gauges.correction(correct(z0, rng.uniform(0.1, 3.0), peak, thrust))
+    interval, peak = float(rng.uniform(0.1, 3.0)), float(np.abs(z0).max() * rng.uniform(0.1, 1.0))
+    text = f"correct({z0.tolist()}, {interval}, {peak}, {thrust!r})"
+    return text, gauges.correction(correct(z0, interval, peak, thrust))
 
 
 SOLVERS: Mapping[str, Draw] = {
-    "least energy": lambda rng: norms.energy(ti.minimum_energy(maneuver(rng))),
-    "least peak": lambda rng: norms.peak(ti.minimum_peak(maneuver(rng))),
-    "least total impulse": lambda rng: norms.impulse(ti.minimum_impulse(maneuver(rng))),
-    "least norm": lambda rng: norms.power(ti.minimum_norm(maneuver(rng), float(rng.choice(EXPONENTS)))),
-    "greatest entropy": lambda rng: norms.entropy(ti.maximum_entropy(one_signed(rng))),
+    "least energy": partial(of_maneuver, ti.minimum_energy, norms.energy, maneuver),
+    "least peak": partial(of_maneuver, ti.minimum_peak, norms.peak, maneuver),
+    "least total impulse": partial(of_maneuver, ti.minimum_impulse, norms.impulse, maneuver),
+    "least norm": of_any_exponent,
+    "greatest entropy": partial(of_maneuver, ti.maximum_entropy, norms.entropy, one_signed),
     "least time": transfer,
     "gauge of ellipsoids": general,
     **{f"correction: {thrust}": partial(correction, thrust) for thrust in THRUSTS},

@@ -1,5 +1,6 @@
 """Proved intervals of optima in ball arithmetic: how many digits, and that wrong answers have none."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +11,12 @@ pytest.importorskip("flint", reason="the extra dev has python-flint")
 from flint import arb, ctx
 from studies.enclosures import gauges, norms
 from studies.enclosures.ball import Enclosure, exact, precise
-from studies.enclosures.examples import worked
+from studies.enclosures.examples import EXAMPLES
 from studies.enclosures.least_time import candidates, time
 from studies.enclosures.powers import exponential_moments, power_moments
 from studies.enclosures.sample import SOLVERS
+from studies.enclosures.study import STUDY
+from studies.part import generator
 
 from independent import exact_bang_bang_times
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge
@@ -65,14 +68,15 @@ def test_every_solver_has_its_digits_here():
 @pytest.mark.parametrize("name", SOLVERS)
 def test_the_proven_digits_of_random_problems(name):
     rng = np.random.default_rng([1, *name.encode()])
-    found = [SOLVERS[name](rng) for _ in range(COUNTS.get(name, 60))]
+    found = [SOLVERS[name](rng)[1] for _ in range(COUNTS.get(name, 60))]
     proved = [enclosure.digits for enclosure in found if enclosure is not None]
     assert len(proved) >= 0.95 * len(found)
     assert min(proved) >= DIGITS[name]
 
 
-def test_the_proven_digits_of_the_worked_examples():
-    assert min(enclosure.digits for enclosure in worked().values()) >= 13
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_proven_digits_of_the_worked_examples(name):
+    assert EXAMPLES[name]().digits >= 13
 
 
 @pytest.mark.parametrize(
@@ -187,6 +191,22 @@ def test_a_wrong_costate_widens_the_interval_of_a_gauge():
     wrong = gauges.gauge(system, x0, 4, replace(found, costate=found.costate + np.array([1e-6, 0, 0])))
     assert wrong.digits < 12.5 < right.digits
     assert not wrong.lower > right.upper and not wrong.upper < right.lower
+
+
+def test_the_study_records_digits_and_what_was_left_open():
+    known = {part.name: part for part in STUDY.parts}
+    assert known.keys() == {*SOLVERS, *EXAMPLES}
+    part = replace(known["least time"], chunks=1)
+    found = [part.run(generator(STUDY, part, 0), 0)]
+    assert json.loads(json.dumps(found)) == found
+    cells = STUDY.row(part, found)
+    assert cells["problems"] == 50 and float(cells["least digits"]) >= 15 and cells["optimum"] == ""
+    example = known["turn of one radian, least peak"]
+    assert STUDY.row(example, [example.run(None, 0)])["optimum"] == "32.00000000000"
+    (case,) = STUDY.cases(part, found)
+    assert case["digits"] == min(found[0]["digits"])
+    solution = eval(case["problem"], {"minimum_time": minimum_time})
+    assert round(time(solution).digits, 2) == case["digits"]
 
 
 def test_precision_is_that_of_the_studies():
