@@ -425,7 +425,7 @@ def test_a_start_between_two_targets_reaches_one_of_them():
 def test_rates_that_have_a_corner(end):
     """Under s = cos x (p + 2 q sin x) the mean of |s| does not depend on q where |p| > 2 |q|.
 
-    Elsewhere it is 2 |q| (1 + k^2) / pi with k = p / 2 q, so that the rates are 2 k / pi and 2 (1 - k^2) / pi.
+    Elsewhere it is 2 |q| (1 + k^2) / pi with k = p / 2 q: the rates are 2 k / pi and 2 (1 - k^2) / pi.
     """
     target = [a - end[0], b - end[1]]
     turning = [u * sp.cos(x), u * sp.sin(2 * x)]

@@ -1,8 +1,8 @@
 """The initial costate whose mean rates lead towards the target: a convex problem, by cutting planes.
 
 Among the costates p with H0(p) <= 0, a convex set, the one with the largest p'd is a costate whose mean rates
-have the direction d. The costate along the target's gradient may be far from it: where the mean of |s| over a
-turn does not depend on a component of p, the rates have a corner, and all costates around have the same rates.
+have the direction d. The costate along the target's gradient may be far from it: where the mean of |s| over
+a turn does not depend on a component of p, the rates have a corner, and all costates around have the same.
 """
 
 import numpy as np
