@@ -36,7 +36,7 @@ def aimed(problem: Problem, towards: Array, normals: Array, first: Array, idle: 
         H0 at a zero costate, negative.
     """
     n = len(towards)
-    multipliers = np.linalg.lstsq(normals.T, first, rcond=None)[0]
+    multipliers: Array = np.linalg.lstsq(normals.T, first, rcond=None)[0]
     most = FARTHEST * np.abs(multipliers).max()
     rows, right = np.empty((0, len(normals))), np.empty(0)
     for _ in range(CUTS):
@@ -51,5 +51,5 @@ def aimed(problem: Problem, towards: Array, normals: Array, first: Array, idle: 
         found = linprog(-(normals @ towards), A_ub=rows, b_ub=right, bounds=(-most, most))
         if not found.success:
             return None
-        multipliers = found.x
+        multipliers = np.asarray(found.x)
     return None

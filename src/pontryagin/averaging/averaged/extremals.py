@@ -1,6 +1,6 @@
 """Averaged extremals by collocation: Newton's method, further guesses where it fails, mesh refinement."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -120,7 +120,7 @@ def _stack(
 
 def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
     """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
-    guesses = (
+    guesses: tuple[Callable[[], Trajectories | None], ...] = (
         lambda: straight(problem, FINE).path,
         lambda: shot(problem, FINE),
         lambda: straight(problem, GRADED).path,
