@@ -36,8 +36,8 @@ def aimed(problem: Problem, towards: Array, normals: Array, first: Array, idle: 
         H0 at a zero costate, negative.
     """
     n = len(towards)
-    multipliers: Array = np.linalg.lstsq(normals.T, first, rcond=None)[0]
-    most = FARTHEST * np.abs(multipliers).max()
+    multipliers: Array = np.asarray(np.linalg.lstsq(normals.T, first, rcond=None)[0])
+    most = FARTHEST * float(np.abs(multipliers).max())
     rows, right = np.empty((0, len(normals))), np.empty(0)
     for _ in range(CUTS):
         p = normals.T @ multipliers
