@@ -215,7 +215,7 @@ def require_digits(name: str, gives: str, moving: ArrayLike, *units: ArrayLike) 
     """
     for unit in units:
         size = np.asarray(unit)
-        lost = moving & ~((size >= TINY) & (size < np.inf))
+        lost = np.asarray(moving) & ~((size >= TINY) & (size < np.inf))
         if lost.any():
             raise beyond_range(name, gives, np.argwhere(lost)[0].tolist())
 
