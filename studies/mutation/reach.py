@@ -13,8 +13,6 @@ from pontryagin.io import files
 from pontryagin.report.dependencies import digest
 from studies.mutation.laboratory import Laboratory
 
-APART = {"house", "report", "benchmarks", "studies", "cli", "display", "ledger", "terminal", "io"}
-"""Folders of tests that are not about solvers and certificates."""
 SECONDS = 600.0
 """Processor time that the tests of one file may take."""
 
@@ -47,11 +45,17 @@ class Reach:
         """The sources and tests."""
         return Project(self.root / "src" / "pontryagin")
 
-    def candidates(self) -> list[Path]:
-        """The files of tests that are looked at."""
+    def candidates(self, module: str) -> list[Path]:
+        """The files of tests of a module's paper or room whose imports lead to the module."""
+        room = Path(module).relative_to("src/pontryagin").parts[0]
         tests = self.root / "tests"
-        found = (path for path in tests.rglob("test_*.py"))
-        return sorted(path for path in found if path.relative_to(tests).parts[0] not in APART)
+        found = sorted(tests.glob("test_*.py") if room.endswith(".py") else (tests / room).rglob("test_*.py"))
+        return [test for test in found if self.root / module in self._depends(test)]
+
+    def _depends(self, test: Path) -> frozenset[Path]:
+        if test not in self._files:
+            self._files[test] = self.project.files(test)
+        return self._files[test]
 
     def key(self, test: Path) -> str:
         """Of a file of tests and all that it depends on."""
@@ -74,22 +78,12 @@ class Reach:
             files.write(place, json.dumps(tests))
         return dict(json.loads(place.read_text(encoding="utf-8")))
 
-    def may_reach(self, test: Path, module: str) -> bool:
-        """Whether the imports of a file of tests lead to a module."""
-        return self.root / module in self._depends(test)
-
-    def _depends(self, test: Path) -> frozenset[Path]:
-        if test not in self._files:
-            self._files[test] = self.project.files(test)
-        return self._files[test]
-
     def reaching(self, module: str, laboratory: Laboratory) -> Iterator[Reached]:
         """The tests that reach a module, each with its seconds and lines."""
-        for candidate in self.candidates():
-            if self.may_reach(candidate, module):
-                for test, (seconds, lines) in self.of(candidate, laboratory).items():
-                    if module in lines:
-                        yield test, seconds, set(lines[module])
+        for candidate in self.candidates(module):
+            for test, (seconds, lines) in self.of(candidate, laboratory).items():
+                if module in lines:
+                    yield test, seconds, set(lines[module])
 
 
 def chosen(tests: Iterable[Reached], lines: range, budget: float) -> list[tuple[str, float]]:

@@ -109,8 +109,7 @@ class Sample:
     def _hash_of_tests(self, module: str, outcome: str, by: str) -> str:
         if outcome in {SURVIVED, UNREACHED}:
             if module not in self._hashes:
-                tests = (path for path in self.reach.candidates() if self.reach.may_reach(path, module))
-                self._hashes[module] = _hash(*tests)
+                self._hashes[module] = _hash(*self.reach.candidates(module))
             return self._hashes[module]
         path = self.root / by.partition("::")[0]
         return _hash(path) if path.is_file() else ""

@@ -132,7 +132,9 @@ def environment(folder: Path, version: str, wheel: Path, extra: str, lowest: boo
     if not any(succeeds([*make, place]) for place in interpreters(version)):
         return None
     python = folder / "bin" / "python"
-    versions = ["--resolution", "lowest-direct"] if lowest else ["-c", str(LOCK)]
+    # Lowest are what is named here; what the wheel needs is named beside it.
+    needs = PROJECT["project"]["dependencies"]
+    versions = ["--resolution", "lowest-direct", *needs] if lowest else ["-c", str(LOCK)]
     packages = [f"pontryagin[{extra}] @ {wheel.as_uri()}" if extra != BASE else str(wheel), *_tools()]
     subprocess.run([UV, "pip", "install", "-q", "--python", str(python), *versions, *packages], check=True)
     return python
