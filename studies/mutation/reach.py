@@ -13,6 +13,16 @@ from pontryagin.io import files
 from pontryagin.report.dependencies import digest
 from studies.mutation.laboratory import Laboratory
 
+APART = {
+    "derivation",
+    "figures",
+    "judge",
+    "test_claims.py",
+    "test_derivation.py",
+    "test_figures.py",
+    "test_playback.py",
+}
+"""Folders and files of tests that are about something else than solvers and certificates."""
 SECONDS = 600.0
 """Processor time that the tests of one file may take."""
 
@@ -50,7 +60,8 @@ class Reach:
         room = Path(module).relative_to("src/pontryagin").parts[0]
         tests = self.root / "tests"
         found = sorted(tests.glob("test_*.py") if room.endswith(".py") else (tests / room).rglob("test_*.py"))
-        return [test for test in found if self.root / module in self._depends(test)]
+        solving = (test for test in found if not APART & {*test.relative_to(tests).parts})
+        return [test for test in solving if self.root / module in self._depends(test)]
 
     def _depends(self, test: Path) -> frozenset[Path]:
         if test not in self._files:

@@ -15,7 +15,7 @@ from studies.mutation.mutants import Mutant, mutants
 from studies.mutation.reach import Reach, Reached, chosen
 from studies.part import Found
 
-BUDGET = 20.0
+BUDGET = 5.0
 """Seconds of the unchanged tests that a mutant meets at most."""
 SLOWER, SPARE = 4.0, 20.0
 """A mutant may take so many times as long as the unchanged tests, and so many seconds to load them."""
