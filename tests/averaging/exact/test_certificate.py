@@ -1,7 +1,7 @@
 """The certificate of an exact extremal measures each fault that is put into it.
 
-The extremal of the smooth example from 1 to 2 without ripple is known: v' = epsilon u with u = 1, a costate of 2,
-a running cost of 2 at each moment, a slow time of 1. With a ripple it is not.
+The extremal of the smooth example from 1 to 2 without ripple is known: v' = epsilon u with u = 1, a costate
+of 2, a running cost of 2 at each moment, a slow time of 1. With a ripple it is not.
 """
 
 from dataclasses import replace
@@ -53,7 +53,7 @@ def test_another_duration_misses_target_and_cost(known):
 def test_another_costate_misses_the_target_and_another_multiplier_the_costate(known):
     """With p = 2 (1 + d) at the start, h0 = p^2/4 - 1 = 2 d there, so that p_x/epsilon = -2 d and p' = 2 d.
 
-    Hence u = p / 2 = 1 + d (1 + tau), J = 2 + 3 d and p = 2 + 4 d at the end; both are measured in units of 2.
+    Hence u = p / 2 = 1 + d (1 + tau), J = 2 + 3 d, and p = 2 + 4 d at the end; the unit of both is 2.
     """
     boundary, transversality, *others = residuals(known, unknowns=np.array([[1 + FAULT, 1.0]]))
     assert boundary == pytest.approx(1.5 * FAULT, rel=1e-3)
