@@ -169,7 +169,7 @@ def _traced(request: dict[str, Any]) -> dict[str, Any]:
 
     A test that reaches a file also reaches what ran when the file was imported.
     """
-    os.environ["XDG_CACHE_HOME"] = request["cache"]
+    os.environ |= request["environment"]
     measured = coverage.Coverage(data_file=None, include=request["trace"], config_file=False)
     tracer = _Tracer(measured)
     measured.start()
