@@ -73,3 +73,13 @@ def test_switches_off_their_level_are_seen_by_their_share(fuel):
 
     shifted = SimpleNamespace(pieces=flight.pieces, law=Shifted(), switch_angles=flight.switch_angles)
     assert_allclose(off_level(shifted), 1e-6, rtol=1e-3)
+
+
+def test_the_worst_moment_counts(monkeypatch):
+    """The unit of H is the largest running cost, here the largest square of the thrust."""
+    root = solve_in_elements(problem(20, duration=6.0)).root
+    grid = np.linspace(0.0, root.flight.phi, 201)
+    running = (root.flight.thrust(root.flight.sample(grid), grid) ** 2).sum(axis=1).max()
+    place = "pontryagin.rendezvous.elements.certificate.maximality"
+    monkeypatch.setattr(place, lambda *given: 1e-5 * running * np.eye(201)[77])
+    assert_allclose(certify(root, free=False).maximality, 1e-5, rtol=1e-9)

@@ -126,3 +126,12 @@ class TestFaultsOfAKnownFlight:
         root = leap.root
         assert certify(root, (0.0, 1.0), free=False).hamiltonian < 1e-10
         assert certify(root, (0.0, 1.0), free=True).hamiltonian > 1e-3
+
+    def test_the_worst_moment_counts(self, leap, monkeypatch):
+        """The unit of H is the largest running cost, here the largest square of the thrust."""
+        root = leap.root
+        times = np.linspace(0, root.flight.duration, 201)
+        running = (flown_thrust(root.flight, times, root.flight.sample(times)) ** 2).sum(axis=1).max()
+        place = "pontryagin.rendezvous.reduced.certificate.maximality"
+        monkeypatch.setattr(place, lambda *given: FAULT * running * np.eye(201)[77])
+        assert float(certify(root, (0.0, 1.0), free=False).maximality) == pytest.approx(FAULT, rel=1e-9)
