@@ -189,8 +189,8 @@ def bounded(ends: Ends, path: Path, cost: RunningCost, duration: float | None) -
     return Path.of(last.unknowns)
 
 
-def least_time(ends: Ends, path: Path, peak: float) -> Path:
-    """The extremal of least time under a bound, from one of least energy.
+def least_time(ends: Ends, path: Path, peak: float, least: float = LEAST) -> Path:
+    """The extremal of least time under a bound, from one of least energy, by steps down to ``least``.
 
     First the duration is changed until the mean thrust is the bound. It is kept there by the duration, while
     the exponent of the mean grows. Then the exponent grows without limit, while the meeting's time is free.
@@ -207,9 +207,9 @@ def least_time(ends: Ends, path: Path, peak: float) -> Path:
         return ends, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
 
     path = _of_mean_thrust(ends, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
-    path = continued(posed, path, 0.5, LATE)
+    path = continued(posed, path, 0.5, LATE, least)
     end = float(switching(ends, path)[-1])
-    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0)
+    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0, least)
     return _scaled(path, 1 / (peak * end))
 
 

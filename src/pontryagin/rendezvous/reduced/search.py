@@ -1,7 +1,7 @@
 """All means of seeking extremals: lap by lap, and from shapes where the laps may miss some."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from pontryagin.rendezvous.estimate import eccentricity
 from pontryagin.rendezvous.laps.cartesian import Transfer
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
+from pontryagin.rendezvous.reduced.free_shape_search import free_extremals_from_shapes
 from pontryagin.rendezvous.reduced.lap_search import SAME, cost, extremals_on_laps
 from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shape_search import extremals_from_shapes
@@ -17,6 +18,10 @@ from pontryagin.rendezvous.root import Root
 
 INCLINED, ECCENTRIC = math.radians(30), 0.3
 """Inclination and eccentricity from which on extremals of a fixed duration are also sought from shapes."""
+Means = Callable[[Setting, SearchLog, float], Iterator[Root[Flight]]]
+"""A search, given the cost of the best extremal known."""
+FREE_INCLINED = math.radians(66)
+"""Inclination from which on extremals of free duration are also sought from shapes, which takes longer."""
 
 
 def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
@@ -31,24 +36,37 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
     """
     known: list[Root[Flight]] = []
     failure: Infeasible | NotConverged | None = None
-    try:
-        for root in extremals_on_laps(setting, log):
-            known.append(root)
-            yield root
-    except (Infeasible, NotConverged) as reason:
-        failure = reason
-    best = min((cost(setting, root) for root in known), default=math.inf)
-    further = not setting.free and (not known or _demanding(setting))
-    for root in extremals_from_shapes(setting, best, log) if further else ():
-        if all(np.abs(root.unknowns - other.unknowns).max() > SAME for other in known):
-            known.append(root)
-            yield root
+    demanding = _demanding(setting)
+    for means in _in_order(setting, demanding):
+        if means is not extremals_on_laps and known and not demanding:
+            break
+        best = min((cost(setting, root) for root in known), default=math.inf)
+        try:
+            for root in means(setting, log, best):
+                if all(np.abs(root.unknowns - other.unknowns).max() > SAME for other in known):
+                    known.append(root)
+                    yield root
+        except (Infeasible, NotConverged) as reason:
+            failure = reason
     if failure is not None and not known:
         raise failure
+
+
+def _in_order(setting: Setting, demanding: bool) -> tuple[Means, Means]:
+    """Laps and shapes, in the order in which they are tried.
+
+    Free durations on many laps take long, which the cost of an extremal from a shape shortens.
+    """
+    if not setting.free:
+        return extremals_on_laps, extremals_from_shapes
+    first, second = extremals_on_laps, free_extremals_from_shapes
+    return (second, first) if demanding else (first, second)
 
 
 def _demanding(setting: Setting) -> bool:
     """Whether the search lap by lap may miss good extremals."""
     scaled = setting.scaled
-    most = max(eccentricity(scaled.start), scaled.eccentricity)
-    return Transfer(scaled).inclination > INCLINED or most > ECCENTRIC
+    inclination = Transfer(scaled).inclination
+    if setting.free:
+        return inclination > FREE_INCLINED
+    return inclination > INCLINED or max(eccentricity(scaled.start), scaled.eccentricity) > ECCENTRIC
