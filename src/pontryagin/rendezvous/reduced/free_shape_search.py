@@ -1,4 +1,4 @@
-"""Extremals of free duration from shapes: descents for many durations, then continuation in space.
+"""Transcribed extremals of free duration from shapes: descents for many durations, then continuation.
 
 The least energies over the durations show where an extremal of the mixed cost may be, or which durations have
 a mean thrust near the bound, so that those of least time are not far.
@@ -9,22 +9,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import NotConverged
 from pontryagin.progress import report
 from pontryagin.rendezvous.estimate import gap_duration
 from pontryagin.rendezvous.laps import families, ladder
-from pontryagin.rendezvous.laps.cartesian import Transfer, reduced_costates
+from pontryagin.rendezvous.laps.cartesian import Transfer
 from pontryagin.rendezvous.laps.descent import Curve, Thrust
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.shapes import Shape
-from pontryagin.rendezvous.laps.transcription import Path
+from pontryagin.rendezvous.laps.transcription import Path, refined
 from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.lap_search import ALIKE, LONGER, SHORT
 from pontryagin.rendezvous.reduced.search_log import SearchLog
-from pontryagin.rendezvous.reduced.shape_search import lap_of, minima, shapes, transcribed
-from pontryagin.rendezvous.reduced.shooting import meet
-from pontryagin.rendezvous.root import Root
+from pontryagin.rendezvous.reduced.shape_search import DOUBLINGS, minima, note_lost, shapes, transcribed
 
 RISES = (0.5, 1.0)
 """Heights of the apex of a first path."""
@@ -42,19 +39,13 @@ WORTH = 1.1
 """Durations end where the time alone costs this many times the best."""
 
 
-def free_extremals_from_shapes(setting: Setting, log: SearchLog, best: float) -> Iterator[Root[Flight]]:
-    """The extremals of free duration that descents from shapes lead to, in no particular order."""
-    transfer = Transfer(setting.scaled)
+def paths_of_free_duration(setting: Setting, log: SearchLog, best: float) -> Iterator[Path]:
+    """Transcribed extremals of free duration that descents from shapes lead to, in no particular order.
+
+    What is not reached is logged.
+    """
     paths = _of_least_time if setting.bang else _of_mixed_cost
-    for path in paths(setting, transfer, best, log):
-        try:
-            costates = reduced_costates(setting.scaled, path.nodes[6:, 0])
-            root = meet(setting, np.append(costates, path.duration))
-        except (NotConverged, Infeasible) as reason:
-            log.given_up.append(f"a path in space of duration {path.duration:.4g}: {reason}")
-            continue
-        log.revolutions.append(lap_of(setting, root.flight))
-        yield root
+    yield from paths(setting, Transfer(setting.scaled), best, log)
 
 
 def _curves(setting: Setting, thrust: float, lost: list[Shape]) -> Iterator[tuple[float, list[Curve]]]:
@@ -69,11 +60,6 @@ def _curves(setting: Setting, thrust: float, lost: list[Shape]) -> Iterator[tupl
         duration *= FACTOR
 
 
-def _log_lost(lost: list[Shape], log: SearchLog) -> None:
-    if lost:
-        log.given_up.append(f"{len(lost)} first paths in space: no descent ended")
-
-
 def _of_least_time(setting: Setting, transfer: Transfer, best: float, log: SearchLog) -> Iterator[Path]:
     """Transcribed extremals of least time."""
     known: list[float] = []
@@ -85,7 +71,9 @@ def _of_least_time(setting: Setting, transfer: Transfer, best: float, log: Searc
                 continue
             log.durations.append(duration)
             try:
-                path = families.least_time(transfer, transcribed(transfer, curve), setting.peak, FINEST)
+                path = families.least_time(
+                    transfer, transcribed(transfer, curve), setting.peak, FINEST, DOUBLINGS
+                )
             except NotConverged as reason:
                 log.given_up.append(f"a path in space of duration {duration:.4g}: {reason}")
                 continue
@@ -94,7 +82,7 @@ def _of_least_time(setting: Setting, transfer: Transfer, best: float, log: Searc
                 yield path
         if min(means, default=math.inf) < SLOWEST or duration > LONGER * best:
             break
-    _log_lost(lost, log)
+    note_lost(lost, log)
 
 
 def _of_mixed_cost(setting: Setting, transfer: Transfer, best: float, log: SearchLog) -> Iterator[Path]:
@@ -112,12 +100,16 @@ def _of_mixed_cost(setting: Setting, transfer: Transfer, best: float, log: Searc
             best = min(best, prices[-1])
         if setting.ratio * duration > WORTH * best:
             break
-    _log_lost(lost, log)
+    note_lost(lost, log)
     around = np.pad(prices, 1, constant_values=math.inf)
     least = [i for i, price in enumerate(prices) if price <= min(around[i], around[i + 2])]
     seeds = [durations[i] for i in sorted(least, key=lambda i: prices[i])]
     log.durations.extend(seeds)
     cost, reasons = RunningCost(setting.ratio, 1.0, setting.peak), list[str]()
     rungs = ladder.Ladder(transfer, cost, lambda duration: transcribed(transfer, starts[duration]))
-    yield from rungs.transfers(seeds, reasons)
+    for path in rungs.transfers(seeds, reasons):
+        try:
+            yield refined(transfer, cost, None, path, DOUBLINGS)
+        except NotConverged as reason:
+            reasons.append(f"near the duration {path.duration:.4g}: {reason}")
     log.given_up.extend(f"paths in space, {reason}" for reason in reasons)

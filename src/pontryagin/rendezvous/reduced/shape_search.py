@@ -1,4 +1,4 @@
-"""Extremals of a fixed duration from shapes: descents in space, then Newton's method on exact flights.
+"""Transcribed extremals of a fixed duration from shapes, by descents in space.
 
 The search lap by lap describes a path by elements that vary slowly, which fails where the plane is turned far
 from the centre or at little angular momentum. A path in space has no such places.
@@ -9,22 +9,18 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from pontryagin.errors import Infeasible, NotConverged
+from pontryagin.errors import NotConverged
 from pontryagin.progress import report
 from pontryagin.rendezvous.laps import families
-from pontryagin.rendezvous.laps.cartesian import Transfer, reduced_costates
+from pontryagin.rendezvous.laps.cartesian import Transfer
 from pontryagin.rendezvous.laps.descent import Curve, Thrust, descended, path_of, spaced
-from pontryagin.rendezvous.laps.equinoctial import laps_of
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.shapes import Shape, curve
-from pontryagin.rendezvous.laps.transcription import FEWEST, ROUGH, Path, extremal
+from pontryagin.rendezvous.laps.transcription import FEWEST, ROUGH, Path, extremal, refined
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.flight import Flight
 from pontryagin.rendezvous.reduced.lap_search import MARGIN, WORSE, similar
 from pontryagin.rendezvous.reduced.search_log import SearchLog
-from pontryagin.rendezvous.reduced.shooting import meet
-from pontryagin.rendezvous.root import Root
 
 RISES = (0.0, 0.5, 1.0)
 """Heights of the apex of a first path."""
@@ -34,8 +30,8 @@ COARSE, FINE = 40, 60
 """Nodes for each lap of a first descent and of the last one."""
 TRANSCRIBED = 100, 200
 """Nodes for each lap of a transcription by the midpoint rule, and those if it is not reached with these."""
-SAMPLES = 200
-"""Times at which the longitude of a flight is evaluated."""
+DOUBLINGS = 2
+"""How often the intervals of a transcription are halved before Newton's method for exact flights."""
 ROUGHLY, CLOSELY = 1e-3, 1e-5
 """Accuracies of the first descent and of the last one, in units of the energy."""
 
@@ -48,36 +44,28 @@ def shapes(scaled: Scaled, duration: float, rises: tuple[float, ...] = RISES) ->
     return [Shape(n, rise, back) for n in range(turns + 1) for rise in rises for back in (False, True)]
 
 
-def extremals_from_shapes(setting: Setting, log: SearchLog, best: float) -> Iterator[Root[Flight]]:
-    """The extremals of a fixed duration that descents from the shapes lead to, in no particular order.
+def paths_of_fixed_duration(setting: Setting, log: SearchLog, best: float) -> Iterator[Path]:
+    """Transcribed extremals of a fixed duration that descents from the shapes lead to, in no order.
 
     Those that cost much more than the best are left out; what is not reached is logged.
     """
     scaled, duration = setting.scaled, float(setting.duration or 0.0)
-    transfer = Transfer(scaled)
+    transfer, lost = Transfer(scaled), list[Shape]()
     log.durations.extend({duration} - {*log.durations})
     most = min(WORSE * best, MARGIN * setting.peak**2 * duration)
     report("seeking paths in space")
-    lost: list[Shape] = []
-    tried = shapes(scaled, duration)
-    for rough in minima(scaled, duration, tried, most, lost):
+    for rough in minima(scaled, duration, shapes(scaled, duration), most, lost):
         try:
-            found = descended(spaced(rough, FINE, FEWEST), CLOSELY)
-            costates = reduced_costates(scaled, _under_bound(setting, transfer, found).nodes[6:, 0])
-            root = meet(setting, costates)
-        except (NotConverged, Infeasible) as reason:
+            yield _under_bound(setting, transfer, descended(spaced(rough, FINE, FEWEST), CLOSELY))
+        except NotConverged as reason:
             log.given_up.append(f"a path in space of energy {Thrust.of(rough).energy:.4g}: {reason}")
-            continue
-        log.revolutions.append(lap_of(setting, root.flight))
-        yield root
+    note_lost(lost, log)
+
+
+def note_lost(lost: Sequence[Shape], log: SearchLog) -> None:
+    """Log how many descents did not end."""
     if lost:
-        log.given_up.append(f"{len(lost)} of {len(tried)} first paths in space: no descent ended")
-
-
-def lap_of(setting: Setting, flight: Flight) -> int:
-    """The lap of a meeting."""
-    states = flight.sample(np.linspace(0.0, flight.duration, SAMPLES))
-    return laps_of(setting.scaled, states, flight.attitude(states), flight.duration)
+        log.given_up.append(f"{len(lost)} first paths in space: no descent ended")
 
 
 def minima(
@@ -112,8 +100,9 @@ def _under_bound(setting: Setting, transfer: Transfer, found: Curve) -> Path:
     thrust = np.linalg.norm(Thrust.of(found).values, axis=-1)
     if thrust.max() <= setting.peak:
         return path_of(found)
-    path = transcribed(transfer, found)
-    return families.bounded(transfer, path, RunningCost(0.0, 1.0, setting.peak), found.times[-1])
+    cost, duration = RunningCost(0.0, 1.0, setting.peak), float(found.times[-1])
+    path = families.bounded(transfer, transcribed(transfer, found), cost, duration)
+    return refined(transfer, cost, duration, path, DOUBLINGS)
 
 
 def transcribed(transfer: Transfer, found: Curve) -> Path:
