@@ -168,6 +168,17 @@ def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
     return inside
 
 
+def members_of(fault: NDArray[np.bool_]) -> tuple[int, ...]:
+    """Which problems of a stack are at fault, as errors carry it: their places in the flattened stack.
+
+    Examples
+    --------
+    >>> members_of(np.array([[False, True], [False, True]]))
+    (1, 3)
+    """
+    return tuple(np.flatnonzero(fault).tolist()) if fault.ndim else ()
+
+
 def common_shape(**shapes: tuple[int, ...]) -> tuple[int, ...]:
     """The shape that the leading shapes of the named arguments broadcast to.
 

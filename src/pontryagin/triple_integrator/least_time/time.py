@@ -13,7 +13,7 @@ from pontryagin.errors import ArgumentTypeError, NotConverged
 from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.validation import common_shape, finite, positive, vectors
+from pontryagin.validation import common_shape, finite, members_of, positive, vectors
 from pontryagin.value import Packed, value_class
 
 
@@ -148,5 +148,5 @@ def minimum_time(
     if not arrived:
         lost = ~(result[..., 0] < NEVER)
         reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
-        raise NotConverged(reason, float(result[..., 4].max()))
+        raise NotConverged(reason, float(result[..., 4].max()), members_of(lost))
     return TimeSolution(start, end, bound, force, **_answer(result))

@@ -13,7 +13,7 @@ from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.validation import times
+from pontryagin.validation import members_of, times
 
 
 class Programme(ABC):
@@ -138,11 +138,12 @@ def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
 
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
-        lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
-        where = f" at index {lost}" if lost else ""
+        beyond = ~np.isfinite(numbers).all(axis=-1)
+        where = f" at index {np.argwhere(beyond)[0].tolist()}" if beyond.shape else ""
         raise ArgumentValueError(
             "xf must give, with x0 and tf - t0, a control within the range of floating-point numbers, "
             f"got one beyond it{where}",
             "xf",
+            members_of(beyond),
         )
     return numbers
