@@ -1,7 +1,7 @@
 """Which files of the project the tests of a file depend on; what cannot be told counts as depending on all.
 
-The imports are followed as the report follows those of a notebook, into the benchmarks and the tests' own
-modules too.
+The imports are followed as the report follows those of a notebook, into the benchmarks, the studies
+and the tests' own modules too.
 """
 
 import ast
@@ -10,7 +10,8 @@ import textwrap
 from functools import cache, cached_property
 from pathlib import Path
 
-from pontryagin.report.dependencies import Source, closure
+from pontryagin.report.dependencies import closure
+from pontryagin.report.study_keys import Checkout
 
 BUILT = {"build", "dist", ".git", ".venv", ".hypothesis"}
 ANYWHERE = {"repository", "cwd", "getcwd", "walk_packages", "iter_modules"}
@@ -29,26 +30,14 @@ RUNNING = {
     "__import__",
 }
 """Names in a test that run text: its strings may be code."""
-MENTIONS = re.compile(r"\b(pontryagin|benchmarks|tests|import)\b")
-MODULE = re.compile(r"(pontryagin|benchmarks|tests)(\.\w+)+")
+MENTIONS = re.compile(r"\b(pontryagin|benchmarks|studies|tests|import)\b")
+MODULE = re.compile(r"(pontryagin|benchmarks|studies|tests)(\.\w+)+")
 FILLED = "_filled_"
 """Stands for what an f-string is filled with."""
 
 
-class Project(Source):
-    """The package together with the benchmarks and the tests' own modules."""
-
-    @property
-    def root(self) -> Path:
-        """The checkout."""
-        return self.folder.parents[1]
-
-    @cached_property
-    def modules(self) -> dict[str, Path]:
-        """Dotted name -> file; what lies in ``tests`` itself is imported without that name too."""
-        tests = Source(self.root / "tests").modules
-        short = {path.stem: path for path in tests.values() if path.parent == self.root / "tests"}
-        return short | tests | Source(self.root / "benchmarks").modules | Source(self.folder).modules
+class Project(Checkout):
+    """The package together with the benchmarks, the studies and the tests' own modules."""
 
     @cached_property
     def everything(self) -> frozenset[Path]:
@@ -66,7 +55,7 @@ class Project(Source):
     def below(self, package: str) -> set[str]:
         """All modules of a package of ours; those of the whole project, where it is no single package."""
         place, _, rest = package.partition(".")
-        if place == "benchmarks" or (place == self.folder.name and rest):
+        if place in {"benchmarks", "studies"} or (place == self.folder.name and rest):
             return super().below(package)
         return set(self.modules) if place in {"", "tests", self.folder.name, *self.modules} else set()
 

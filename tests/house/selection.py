@@ -6,7 +6,7 @@ from pathlib import Path
 from pontryagin.papers import packages
 
 ROOT = Path(__file__).resolve().parents[2]
-APART = {"benchmarks", "properties", "report", "__pycache__"}
+APART = {"benchmarks", "properties", "report", "studies", "__pycache__"}
 """Folders that belong neither to a paper nor to the core: `make test` runs their tests."""
 
 

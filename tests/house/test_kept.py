@@ -13,6 +13,7 @@ COPIED = (
     "tests/house/kept.py",
     "tests/house/dependence.py",
     "src/pontryagin/report/dependencies.py",
+    "src/pontryagin/report/study_keys.py",
     "src/pontryagin/report/syntax.py",
 )
 RUN = "open('ran', 'a').write('{} ')"
@@ -231,6 +232,7 @@ def test_an_import_by_a_computed_name_may_reach_every_module(project):
         "orbit_correction/plan/test_correction.py",
         "triple_integrator/test_playback.py",
         "benchmarks/test_benchmarks_averaging.py",
+        "studies/test_run.py",
     ],
 )
 def test_what_python_loads_for_a_test_is_among_its_files(test):
@@ -249,5 +251,6 @@ def test_what_python_loads_for_a_test_is_among_its_files(test):
     ours = {
         line for line in done.stdout.splitlines() if line.startswith((str(ROOT / "src"), str(ROOT / "tests")))
     }
-    ours |= {line for line in done.stdout.splitlines() if line.startswith(str(ROOT / "benchmarks"))}
+    beside = (str(ROOT / "benchmarks"), str(ROOT / "studies"))
+    ours |= {line for line in done.stdout.splitlines() if line.startswith(beside)}
     assert ours and ours <= {str(file) for file in Project(ROOT / "src" / "pontryagin").files(path)}

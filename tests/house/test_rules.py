@@ -28,7 +28,7 @@ OF_A_WHOLE_PAPER = frozenset(("values",))
 """What is tested for all problems and solutions of a paper together."""
 OF_TEXTS = ("pontryagin.report", "pontryagin.io", "pontryagin.numerics.compile")
 """Modules whose errors are about a text or a formula; the caller knows which argument it came from."""
-EVALUATING = ("pontryagin.numerics.jit", "pontryagin.numerics.compile", "pontryagin.value")
+EVALUATING = ("pontryagin.numerics.compile", "pontryagin.numerics.native", "pontryagin.value")
 """Modules that compile source which they wrote themselves."""
 
 
@@ -168,7 +168,7 @@ def text_of(name: str) -> str:
 def test_every_name_of_a_module_is_used_somewhere():
     everything = "\n".join(
         path.read_text(encoding="utf-8")
-        for folder in ("src", "tests", "benchmarks", "notebooks", "docs")
+        for folder in ("src", "tests", "benchmarks", "studies", "notebooks", "docs")
         for path in (ROOT / folder).rglob("*")
         if path.suffix in {".py", ".pyi", ".ipynb", ".md"}
     )
@@ -201,7 +201,7 @@ def test_tests_mirror_the_source():
         path.name for path in (ROOT / "tests").iterdir() if path.is_dir() and list(path.glob("test_*.py"))
     }
     rooms = {path.name for path in SOURCE.iterdir() if path.is_dir() and path.name != "__pycache__"}
-    assert folders - rooms <= {"properties", "house", "benchmarks"}
+    assert folders - rooms <= {"properties", "house", "benchmarks", "studies"}
     assert rooms - folders <= {"terminal"}
 
 

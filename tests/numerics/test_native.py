@@ -236,6 +236,42 @@ def test_threads_import_one_module_together(folder):
     assert [path.suffix for path in folder.iterdir() if path.is_file()] == [".py"]
 
 
+@pytest.mark.parametrize("content", ["VALUE = 8\n", "", "\0", "VALUE = "])
+def test_a_module_runs_its_text_whatever_the_file_holds(folder, content):
+    native.load_module("VALUE = 7\n")
+    (path,) = (path for path in folder.iterdir() if path.is_file())
+    path.write_text(content)
+    assert native.load_module("VALUE = 7\n").VALUE == 7
+    assert path.read_text() == "VALUE = 7\n"
+
+
+@pytest.mark.parametrize("damage", [lambda _: b"", lambda text: text[:-20], bytes.swapcase])
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+def test_what_numba_kept_is_made_anew_if_it_was_damaged(folder, damage, kind):
+    text = (
+        "from numba import njit\n\n\ndef thrice(x):\n    return 3 * x\n\n\n"
+        'compiled = njit("float64(float64)", cache=True)(thrice)\n'
+    )
+    native.load_module(text)
+    kept = [*(folder / "__pycache__").glob(f"*.{kind}")]
+    assert kept
+    for path in kept:
+        path.write_bytes(damage(path.read_bytes()))
+    assert native.load_module(text).compiled(2.0) == 6.0
+
+
+def test_a_cache_is_closed_to_others_and_a_stranger_s_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    folder = tmp_path / "pontryagin"
+    folder.mkdir()
+    folder.chmod(0o777)
+    assert object_code.cache_folder.__wrapped__() == folder
+    assert folder.stat().st_mode & 0o777 == 0o755
+    monkeypatch.setattr(object_code, "trusted", lambda state: False)
+    with pytest.warns(RuntimeWarning, match="belongs to another user"):
+        assert object_code.cache_folder.__wrapped__() != folder
+
+
 @pytest.mark.parametrize(
     "damage", [lambda text: text[:-1], lambda text: text[:500], lambda _: b"", bytes.swapcase]
 )

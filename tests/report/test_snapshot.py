@@ -20,6 +20,8 @@ def complete(checkout):
     for path in (
         checkout.root / "notebooks" / "ends.csv",
         workspace.figures / "benchmarks" / "benchmarks.md",
+        workspace.figures / "studies" / "soak" / "table.csv",
+        checkout.root / "studies" / "soak" / "study.py",
         workspace.figures / "01-title" / "line.svg",
         workspace.report / "index.html",
         workspace.recordings / "turn.rrd",
@@ -53,6 +55,8 @@ def note(checkout, meanwhile=lambda: None):
         "notebooks/ends.csv",
         "requirements.lock",
         "figures/benchmarks/benchmarks.md",
+        "figures/studies/soak/table.csv",
+        "studies/soak/study.py",
         "figures/01-title/line.svg",
         "build/report/index.html",
         "build/recordings/turn.rrd",

@@ -126,7 +126,7 @@ class TestFaults:
         (["a", "0", "0", "much", "1", "0", "0", "2"], "x30 takes a number, got 'much'"),
         (["a", "0", "0", "0", "1", "0", "0", "-2"], "tf must be later than t0, got t0 = 0.0 and tf = -2.0"),
         (["a", "0", "0"], "has 3 entries, but the header has 8"),
-        (FAR, "xf must give, with x0 and tf - t0, a control"),
+        (FAR, "xf must give with x0 and tf - t0 a control"),
     )
 
     @pytest.mark.parametrize(("row", "reason"), FAULTS)

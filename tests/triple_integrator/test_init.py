@@ -16,9 +16,9 @@ from pontryagin import triple_integrator
 
 PROMISED = ["Maneuver", "minimum_energy", "minimum_peak", "minimum_impulse", "minimum_norm", "minimum_time"]
 FIELDS = {
-    "minimum_energy": ["breakpoints"],
-    "minimum_peak": ["breakpoints", "switch_times", "first_sign"],
-    "minimum_impulse": ["breakpoints", "impulse_times", "impulses", "regime", "unique"],
+    "minimum_energy": ["breakpoints", "breakpoint_offsets"],
+    "minimum_peak": ["breakpoints", "switch_times", "switch_offsets", "first_sign"],
+    "minimum_impulse": ["breakpoints", "impulse_times", "impulse_offsets", "impulses", "regime", "unique"],
 }
 
 

@@ -18,6 +18,8 @@ from pontryagin.triple_integrator.attitude import turn
 from pontryagin.triple_integrator.coupling import couple
 from recording_files import assert_described, verified
 
+pytestmark = pytest.mark.extra(name="recording")
+
 AXIS = [1, 2, 2]
 NORMS = {"energy": minimum_energy, "peak": minimum_peak, "impulse": minimum_impulse}
 
@@ -140,6 +142,13 @@ def test_any_solution_can_be_recorded(tmp_path, solution):
     assert_allclose([t[0], t[-1]], [first, last], atol=1e-8)
     inside = np.clip(t, first, last)
     assert_allclose(held["/angle/programme"]["scalars"], solution.state(inside)[:, 0], atol=1e-7)
+
+
+def test_impulses_of_a_short_manoeuvre_are_spikes_too(tmp_path):
+    solution = minimum_impulse(Maneuver([0, 0, 0], [1, 0, 0], tf=1e-5))
+    playback.record_solution(solution, tmp_path / "short.rrd")
+    heights = verified(tmp_path / "short.rrd")["/control/programme"]["scalars"]
+    assert_allclose([heights.min(), heights.max()], [solution.impulses.min(), solution.impulses.max()])
 
 
 def test_a_stack_cannot_be_recorded(tmp_path):

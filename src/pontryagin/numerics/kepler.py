@@ -3,7 +3,10 @@
     M = E - e sin E,    tan(f/2) = sqrt((1 + e)/(1 - e)) tan(E/2)
 
 with the mean anomaly M, the eccentric anomaly E, the true anomaly f and the eccentricity 0 <= e < 1, all
-angles in radians.
+angles in radians. Close to a parabola M and E are small beside f. They are therefore written without
+differences of nearly equal numbers, so that f is found to rounding there too:
+
+    M = (1 - e) E + e (E - sin E),    1 - e^2 = (1 - e)(1 + e)
 """
 
 import numpy as np
@@ -19,7 +22,8 @@ ITERATIONS = 100
 def eccentric_anomaly(mean: ArrayLike, eccentricity: ArrayLike) -> Array:
     """E that solves M = E - e sin E, by Newton's method from the side on which it converges monotonically.
 
-    Between 0 and pi the equation is convex in E, and the starting point M + e lies beyond its root.
+    Between 0 and pi the equation is convex in E, and its root is at most M + e and at most (pi^2 M/e)^(1/3),
+    since E - sin E is at least E^3/pi^2 there.
 
     Examples
     --------
@@ -27,20 +31,37 @@ def eccentric_anomaly(mean: ArrayLike, eccentricity: ArrayLike) -> Array:
     [0.0, 1.088598, 7.371783]
     """
     given, e = np.broadcast_arrays(np.asarray(mean, dtype=float), np.asarray(eccentricity, dtype=float))
-    turns = FULL_TURN * np.round(given / FULL_TURN)
-    size, sign = np.abs(given - turns), np.sign(given - turns)
-    E = np.minimum(size + e, np.pi)
+    turns, part = _revolutions(given)
+    size = np.abs(part)
+    cubic = np.where(e > 0.1, np.cbrt(np.pi**2 * size / np.maximum(e, 0.1)), np.pi)
+    E = np.minimum(np.minimum(size + e, np.pi), cubic)
     for _ in range(ITERATIONS):
-        step = (E - e * np.sin(E) - size) / (1 - e * np.cos(E))
+        step = (mean_anomaly(E, e) - size) / (1 - e + 2 * e * np.sin(E / 2) ** 2)
         E = E - step
-        if np.all(np.abs(step) <= 1e-15 * (1 + E)):
+        if np.all(np.abs(step) <= 1e-15 * E):
             break
-    return np.asarray(turns + sign * E)
+    return np.asarray(turns + np.copysign(E, part))
 
 
 def mean_anomaly(eccentric: ArrayLike, eccentricity: ArrayLike) -> Array:
     """M = E - e sin E."""
-    return np.asarray(eccentric - np.asarray(eccentricity) * np.sin(eccentric))
+    E, e = np.asarray(eccentric, dtype=float), np.asarray(eccentricity, dtype=float)
+    return np.asarray((1 - e) * E + e * _less_its_sine(E))
+
+
+def _less_its_sine(angle: Array) -> Array:
+    """x - sin x, by its series below 1."""
+    square = np.minimum(angle * angle, 1.0)
+    tail = np.ones_like(square)
+    for k in range(18, 2, -2):  # Terms up to x^19/19!.
+        tail = 1 - square / (k * (k + 1)) * tail
+    return np.asarray(np.where(np.abs(angle) < 1, angle**3 / 6 * tail, angle - np.sin(angle)))
+
+
+def _revolutions(angle: Array) -> tuple[Array, Array]:
+    """Whole revolutions, in radians, and what is left, from -pi to pi."""
+    turns = FULL_TURN * np.round(angle / FULL_TURN)
+    return turns, angle - turns
 
 
 def eccentric_of_true(true: ArrayLike, eccentricity: ArrayLike) -> Array:
@@ -52,20 +73,26 @@ def eccentric_of_true(true: ArrayLike, eccentricity: ArrayLike) -> Array:
     >>> true_of_eccentric(E, 0.5).round(12).tolist()
     [1.0, 7.28318530718]
     """
-    e = np.asarray(eccentricity)
-    return np.asarray(true - 2 * np.arctan2(e * np.sin(true), 1 + np.sqrt(1 - e**2) + e * np.cos(true)))
+    e = np.asarray(eccentricity, dtype=float)
+    return _stretched(np.asarray(true, dtype=float), np.sqrt(1 - e), np.sqrt(1 + e))
 
 
 def true_of_eccentric(eccentric: ArrayLike, eccentricity: ArrayLike) -> Array:
     """f of the eccentric anomaly E, in the same revolution."""
-    e = np.asarray(eccentricity)
-    across, along = e * np.sin(eccentric), 1 + np.sqrt(1 - e**2) - e * np.cos(eccentric)
-    return np.asarray(eccentric + 2 * np.arctan2(across, along))
+    e = np.asarray(eccentricity, dtype=float)
+    return _stretched(np.asarray(eccentric, dtype=float), np.sqrt(1 + e), np.sqrt(1 - e))
+
+
+def _stretched(angle: Array, across: Array, along: Array) -> Array:
+    """The angle in the same revolution whose half has the tangent across/along tan(angle/2)."""
+    turns, part = _revolutions(angle)
+    return np.asarray(turns + 2 * np.arctan2(across * np.sin(part / 2), along * np.cos(part / 2)))
 
 
 def mean_motion(parameter: ArrayLike, eccentricity: ArrayLike, gravity: ArrayLike = 1.0) -> Array:
     """dM/dt of an orbit with the given parameter p = a (1 - e^2), in radians per unit of time."""
-    axis = np.asarray(parameter) / (1 - np.asarray(eccentricity) ** 2)
+    e = np.asarray(eccentricity, dtype=float)
+    axis = np.asarray(parameter) / ((1 - e) * (1 + e))
     return np.asarray(np.sqrt(np.asarray(gravity) / axis**3))
 
 
@@ -79,6 +106,7 @@ def true_anomaly_after(
     >>> bool(np.isclose(true_anomaly_after(0.3, 2 * np.pi, 1.0, 0.0), 0.3 + 2 * np.pi))
     True
     """
-    begin = mean_anomaly(eccentric_of_true(true, eccentricity), eccentricity)
+    turns, part = _revolutions(np.asarray(true, dtype=float))
+    begin = mean_anomaly(eccentric_of_true(part, eccentricity), eccentricity)
     mean = begin + mean_motion(parameter, eccentricity, gravity) * np.asarray(time)
-    return true_of_eccentric(eccentric_anomaly(mean, eccentricity), eccentricity)
+    return np.asarray(turns + true_of_eccentric(eccentric_anomaly(mean, eccentricity), eccentricity))

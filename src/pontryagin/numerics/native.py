@@ -8,7 +8,6 @@ instructions do not make scalar arithmetic faster (measured: by less than 3 %).
 
 import ctypes
 import hashlib
-import importlib.util
 import sys
 import types
 from collections.abc import Callable, Mapping
@@ -125,16 +124,30 @@ def compiled_text(
 
 
 def load_module(text: str) -> types.ModuleType:
-    """Import a module from its text, which is stored in the user's cache under its hash."""
+    """Run a module's text as a file of the user's cache, beside which Numba keeps what it compiles.
+
+    What runs is the given text, whatever the file holds. What Numba kept is made anew if it was damaged.
+    """
     digest = hashlib.sha256(text.encode()).hexdigest()[:20]
     path = object_code.cache_folder() / f"kernel_{digest}.py"
-    if not path.exists():
+    if not object_code.holds(path, text):
         scratch = scratch_of(path)
         scratch.write_text(text)
         scratch.replace(path)
-    spec = importlib.util.spec_from_file_location(f"pontryagin_{path.stem}", path)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
+    try:
+        return _run(text, path)
+    except Exception:
+        kept = list(path.parent.joinpath("__pycache__").glob(f"{path.stem}*.nb*"))
+        if not kept:
+            raise
+        for file in kept:
+            file.unlink(missing_ok=True)
+        return _run(text, path)
+
+
+def _run(text: str, path: Path) -> types.ModuleType:
+    module = types.ModuleType(f"pontryagin_{path.stem}")
+    module.__file__ = str(path)
     sys.modules[module.__name__] = module
-    spec.loader.exec_module(module)
+    exec(compile(text, str(path), "exec"), module.__dict__)
     return module

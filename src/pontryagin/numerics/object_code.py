@@ -204,6 +204,14 @@ def intact(path: Path) -> bool:
     return trusted(state) and hashlib.sha256(text[:-DIGEST]).digest() == text[-DIGEST:]
 
 
+def holds(path: Path, text: str) -> bool:
+    """Whether a file is there, is nobody else's, and holds a text."""
+    try:
+        return trusted(path.stat()) and path.read_text() == text
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
 def trusted(state: os.stat_result) -> bool:
     """Whether a file belongs to the user or the superuser and nobody else may write it."""
     user: Any = getattr(os, "getuid", None)  # Windows has no such numbers.
@@ -224,6 +232,7 @@ def cache_folder() -> Path:
     try:
         folder = Path(base).expanduser() / "pontryagin"
         folder.mkdir(parents=True, exist_ok=True)
+        close_to_others(folder)
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except (OSError, RuntimeError) as reason:  # RuntimeError: neither HOME nor the system tells the home.
@@ -234,6 +243,21 @@ def cache_folder() -> Path:
             stacklevel=2,
         )
         return passing_folder()
+
+
+def close_to_others(folder: Path) -> None:
+    """Take from others the right to write into a folder from which code is run.
+
+    Raises
+    ------
+    OSError
+        If the folder is somebody else's.
+    """
+    state = folder.stat()
+    if not trusted(state):
+        folder.chmod(stat.S_IMODE(state.st_mode) & ~(stat.S_IWGRP | stat.S_IWOTH))
+        if not trusted(folder.stat()):
+            raise PermissionError(f"{folder} belongs to another user, whose code would be run")
 
 
 def passing_folder() -> Path:

@@ -15,6 +15,7 @@ from pontryagin.report import (
     measured,
     progress,
     provenance,
+    studies,
     text,
     tree,
 )
@@ -78,10 +79,10 @@ def whole_text(
     clips: Sequence[Clip],
     entries: Sequence[Mapping[str, str]],
 ) -> str:
-    """The report as Markdown: front page, a chapter per notebook, recordings, benchmarks, provenance."""
+    """The report as Markdown: front page, a chapter per notebook, recordings, measurements, provenance."""
     parts = [front.front_page(entries)]
     parts += [assemble.chapter(workspace, result) for result in executed]
-    parts += [_recordings(clips), measured.benchmarks(workspace)]
+    parts += [_recordings(clips), measured.benchmarks(workspace), studies.chapter(workspace)]
     parts += [provenance.index_of(assemble.items(executed))]
     return "\n\n".join(part for part in [*parts, provenance.provenance(workspace, executed)] if part)
 

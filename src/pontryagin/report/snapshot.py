@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from pontryagin.io import files
-from pontryagin.report import browser, execute, provenance
+from pontryagin.report import browser, execute, provenance, study_keys
 from pontryagin.report.environment import FIXED_KEY
 from pontryagin.report.workspace import Workspace
 
@@ -73,7 +73,9 @@ def inputs(workspace: Workspace, candidates: Iterable[Path]) -> State:
     candidates : iterable of Path
         Files that the notebooks name, whether they exist or not.
     """
-    folders = [workspace.source, workspace.root / "notebooks", workspace.figures / "benchmarks"]
+    measured = [workspace.figures / name for name in ("benchmarks", "studies")]
+    beside = [workspace.root / name for name in ("notebooks", *study_keys.BESIDE)]
+    folders = [workspace.source, *beside, *measured]
     found = [path for folder in folders for path in folder.rglob("*") if "__pycache__" not in path.parts]
     contents = _hashes(workspace, [*found, workspace.root / "requirements.lock", *candidates])
     return contents | {"environment": _environment(workspace)}

@@ -12,7 +12,7 @@ from pontryagin.triple_integrator.transcript import account, certificate_of
 START, END = ("x10", "x20", "x30"), ("x1f", "x2f", "x3f")
 """The CSV columns with the states at the start and at the end."""
 
-UNSTACKED = ("q", "breakpoints", "multipliers")
+UNSTACKED = ("q", "breakpoints", "breakpoint_offsets", "multipliers")
 """Quantities of a single solution that are not written to CSV."""
 
 

@@ -20,6 +20,9 @@ ARGUMENTS = {"disturbance": "--disturbance", "q": "--norm", "xf": "--xf"}
 SOLVERS = {1.0: "minimum_impulse", 2.0: "minimum_energy", math.inf: "minimum_peak"}
 """The solvers for special exponents q of the norm; `minimum_norm` solves the others."""
 
+CARRIED = 1e-9
+"""Largest relative change of a duration by the rounding of the time at the end."""
+
 without_warnings = np.errstate(all="ignore")
 """An overflow makes the certificate fail, which is reported as an error; a warning would repeat it."""
 
@@ -140,8 +143,12 @@ def _ends(goal: Goal, x0: str, xf: str, t0: str, duration: str) -> Ends:
     if goal.least_time:
         return Ends(start, end)
     first, elapsed = console.number("--t0", t0), console.positive("--duration", duration)
-    if not first + elapsed > first:
+    flown = (first + elapsed) - first
+    if not flown > 0:
         raise console.Refusal("--duration", f"is lost to rounding when added to --t0 {t0}, got {duration!r}")
+    if abs(flown - elapsed) > CARRIED * elapsed:
+        took = f"would become {flown:.9g} on a clock that starts at --t0 {t0}"
+        raise console.Refusal("--duration", f"{took}; solve from --t0 0, got {duration!r}")
     return Ends(start, end, first, first + elapsed)
 
 

@@ -16,7 +16,7 @@ class Account(NamedTuple):
     quantities: tuple[str, ...]
 
 
-SWITCHES = ("switch_times", "first_sign", "switch_condition")
+SWITCHES = ("switch_times", "switch_offsets", "first_sign", "switch_condition")
 """The attributes that only bang-bang solutions have."""
 
 ACCOUNTS = {
@@ -29,10 +29,12 @@ ACCOUNTS = {
     "ImpulseSolution": Account(
         "minimum_impulse",
         "Least total impulse, the L1 norm of u",
-        ("norm", "regime", "unique", "impulse_times", "impulses", "multipliers"),
+        ("norm", "regime", "unique", "impulse_times", "impulse_offsets", "impulses", "multipliers"),
     ),
     "NormSolution": Account(
-        "minimum_norm", "Least L_q norm of u", ("q", "norm", "peak", "breakpoints", "multipliers")
+        "minimum_norm",
+        "Least L_q norm of u",
+        ("q", "norm", "peak", "breakpoints", "breakpoint_offsets", "multipliers"),
     ),
     "TimeSolution": Account(
         "minimum_time", "Least time under a bound on |u|", ("duration", "norm", *SWITCHES, "multipliers")

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from independent import propagate
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
-from pontryagin.triple_integrator.problem.bang_bang import bang_bang, first_sign, switch_times
+from pontryagin.triple_integrator.problem.bang_bang import bang_bang, first_sign, switch_offsets
 from pontryagin.triple_integrator.problem.programme import truncated_power
 from strategies import maneuver_with, maneuvers, stacked
 
@@ -147,26 +147,27 @@ def test_times_outside_the_manoeuvre_are_refused(solve, outside, name):
 
 def test_a_switch_belongs_to_the_piece_after_it():
     switches, first = np.array([1.0, 2.0]), np.array(3.0)
-    assert bang_bang(np.array([0.0, 1.0, 1.5, 2.0]), switches, first).tolist() == [3, -3, -3, 3]
+    since = np.array([0.0, 1.0, 1.5, 2.0])[:, None] - switches
+    assert bang_bang(since, first).tolist() == [3, -3, -3, 3]
 
 
 @given(st.integers(0, 5), st.floats(-2, 2), st.floats(-2, 2))
 def test_truncated_powers_are_each_others_integrals(order, time, knot):
     """(t - k)_+^n / n! is zero before k, and grows by (t - k)/n times the power before it."""
-    value = truncated_power(np.array([time]), np.array([knot]), order)[0, 0]
+    value = truncated_power(np.array(time - knot), order)
     if time < knot:
         assert value == 0
     elif order:
-        below = truncated_power(np.array([time]), np.array([knot]), order - 1)[0, 0]
+        below = truncated_power(np.array(time - knot), order - 1)
         assert_allclose(value, below * (time - knot) / order, rtol=1e-14, atol=1e-300)
-    assert truncated_power(np.array([time]), np.array([np.nan]), order)[0, 0] == 0
+    assert truncated_power(np.array(np.nan), order) == 0
 
 
 def test_a_piece_that_reaches_an_end_is_no_switch():
-    tf, duration = np.array(5.0), np.array(4.0)
+    duration = np.array(4.0)
     shares = np.array([[0.75, 0.25], [1.0, 0.5], [0.5, 0.0], [0.0, 0.0], [1.0, 1.0]])
-    times = switch_times(tf, duration, shares)
-    assert_allclose(times, [[2, 4], [3, np.nan], [3, np.nan], [np.nan] * 2, [np.nan] * 2])
+    offsets = switch_offsets(duration, shares)
+    assert_allclose(offsets, [[1, 3], [2, np.nan], [2, np.nan], [np.nan] * 2, [np.nan] * 2])
     assert first_sign(np.ones(5), shares).tolist() == [1, -1, 1, 1, 1]
 
 

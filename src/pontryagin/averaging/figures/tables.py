@@ -112,7 +112,7 @@ def slopes() -> Columns:
     return {
         "problem": [row.name for row in rows],
         "$J_0$": [f"{row.first:.6f}" for row in rows],
-        **{f"$J_1$: {part}": [f"{row.terms[part]:.5f}" for row in rows] for part in ("start", "end", "way")},
+        **{f"$J_1$: {part}": [f"{row.terms[part]:z.5f}" for row in rows] for part in ("start", "end", "way")},
         "error$/\\varepsilon$, $J_0$": [f"{(row.averaged / row.epsilon).max():.3f}" for row in rows],
         "error$/\\varepsilon^2$, corrected": [
             f"{(row.corrected / row.epsilon**2).max():.2f}" for row in rows

@@ -11,7 +11,7 @@ from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.orbit_correction.gauges.proof import PROVED, require_closed, unit
 from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
-from pontryagin.validation import members_of, vectors
+from pontryagin.validation import members_of, require_digits, vectors
 from pontryagin.value import value_class
 
 ROUNDING = 1e-12
@@ -174,6 +174,8 @@ def correct(z0: ArrayLike, interval: float = 0.25, peak: float = 0.0035, thrust:
         engine.peak * controls,
         Certificate(residual.reshape(shape), found.upper.reshape(shape), found.lower.reshape(shape)),
     )
+    moving = states.any(axis=-1)
+    require_digits("z0", "with interval and peak a plan", moving, plan.gauge, engine.peak * plan.gauge)
     require_closed(plan.certificate, "the plan")
     return plan
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from pontryagin.arrays import Array
 from pontryagin.display.plotting import (
@@ -45,17 +46,19 @@ def _draw_branches(ax: Axes, best: Extremal) -> None:
     shortest, longest = (pick(one.duration for one in several) for pick in (min, max))
     limits = shortest / MARGIN, longest * MARGIN
     for extremal in several:
-        for sign in (1, -1):
-            ax.plot(*branch(extremal, sign, limits, DEAREST * best.cost).T, color=CRAFT, linewidth=1.1)
-    for extremal in several:
+        longer, shorter = (branch(extremal, sign, limits, DEAREST * best.cost) for sign in (1, -1))
+        for curve in (longer, shorter):
+            ax.plot(*curve.T, color=CRAFT, linewidth=1.1)
+        is_peak = all(curve[:2, 1].argmax() == 0 for curve in (longer, shorter))
         ax.plot(extremal.duration, extremal.cost, "o", color=INK if extremal is best else OTHER, zorder=4)
         ax.annotate(
             f"{extremal.revolutions:.2f}",
             (extremal.duration, extremal.cost),
-            (0, -12),
+            (0, 5 if is_peak else -12),
             textcoords="offset points",
             ha="center",
             fontsize=9.5,
+            path_effects=[withStroke(linewidth=2, foreground="white")],
         )
     ax.set_ylim(0.93 * best.cost, DEAREST * best.cost)
 

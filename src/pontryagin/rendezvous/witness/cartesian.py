@@ -79,15 +79,10 @@ def fly_cartesian(flight: Flight, times: Array) -> Array:
 def target_by_kepler(scaled: Scaled, time: float) -> Array:
     """R and V of the target after a time, (6,), from Kepler's equation, in the axes eta of t0."""
     e = scaled.eccentricity
-    axis = 1 / (1 - e**2)
-    motion = axis**-1.5
-    mean = kepler.mean_anomaly(kepler.eccentric_of_true(scaled.anomaly, e), e) + motion * time
-    eccentric = float(kepler.eccentric_anomaly(mean, e))
-    minor = axis * math.sqrt(1 - e**2)
-    sin, cos = math.sin(eccentric), math.cos(eccentric)
-    pace = motion / (1 - e * cos)
-    place = np.array([axis * (cos - e), minor * sin, 0.0])
-    velocity = np.array([-axis * sin, minor * cos, 0.0]) * pace
+    true = float(kepler.true_anomaly_after(scaled.anomaly, time, 1.0, e))
+    sin, cos = math.sin(true), math.cos(true)
+    place = np.array([cos, sin, 0.0]) / (1 + e * cos)
+    velocity = np.array([-sin, e + cos, 0.0])
     return np.concatenate([rotated(place, scaled.orientation), rotated(velocity, scaled.orientation)])
 
 

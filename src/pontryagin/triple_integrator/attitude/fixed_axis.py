@@ -15,11 +15,10 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
-from pontryagin.numerics.compile import function
 from pontryagin.numerics.rotation import between, cross, quaternion, rotation_vector
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
+from pontryagin.triple_integrator.problem.disturbance import function_of
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.panels import Panels
 from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.validation import vectors
 from pontryagin.value import value_class
@@ -154,16 +153,18 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
     >>> round(turn(body, [1, 2, 2], programme, feedforward=False).attitude_miss, 4)
     0.4983
     """
-    maneuver = single(programme)
+    t0, tf = (float(time) for time in (single(programme).t0, programme.maneuver.tf))
+    flown = programme.from_start()
+    maneuver = flown.maneuver
     e = _unit(axis)
     start, rate, _ = maneuver.x0
     scales = float(maneuver.duration) ** -np.arange(3.0)
     commands = Commands(
         maneuver.x0,
-        _planned_motion(programme),
+        _planned_motion(flown),
         scales,
-        programme.breakpoints.tolist(),
-        [(time, np.array([0.0, 0.0, jump])) for time, jump in impulses(programme)],
+        [*flown.breakpoints.tolist(), *maneuver.edge_offsets.tolist()],
+        [(time, np.array([0.0, 0.0, jump])) for time, jump in impulses(flown)],
     )
     inertia = body.inertia @ e
     gyroscopic = cross(e, inertia) if feedforward else np.zeros(3)
@@ -173,9 +174,9 @@ def turn(body: RigidBody, axis: ArrayLike, programme: Programme, feedforward: bo
         total: Array = (planned[2] + f(t)) * inertia + planned[1] ** 2 * gyroscopic
         return total
 
-    interval = float(maneuver.t0), float(maneuver.tf)
+    interval = 0.0, float(maneuver.duration)
     motion = simulate(body, interval, quaternion(start * e), rate * e, commands, torque)
-    return Turn(body, e, programme, bool(feedforward), motion)
+    return Turn(body, e, programme, bool(feedforward), motion.on_clock(t0, tf))
 
 
 def single(programme: Programme, name: str = "programme") -> Maneuver:
@@ -223,14 +224,5 @@ def _planned_motion(programme: Programme) -> Callable[[float, Array], tuple[floa
 
 def disturbance_of(maneuver: Maneuver) -> Callable[[float], float]:
     """The disturbance f as a function of one time."""
-    given: Any = maneuver.disturbance
-    if given is None:
-        return lambda t: 0.0
-    if hasattr(given, "free_symbols"):
-        symbols = sorted(given.free_symbols, key=str)
-        compiled = function("disturbance", symbols, {"f": given})
-        return lambda t: float(compiled(*[t] * len(symbols))[0])
-    if callable(given):
-        panels = Panels(given, np.ravel(maneuver.t0), np.ravel(maneuver.tf))
-        return lambda t: float(panels.values(np.array([t]))[0])
-    return lambda t: float(given)
+    f = function_of(maneuver.disturbance)
+    return lambda t: float(f(np.array([t]))[0])

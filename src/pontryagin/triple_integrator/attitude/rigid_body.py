@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from math import nextafter
 from typing import cast
 
 import numpy as np
@@ -108,13 +109,16 @@ class Motion:
     ----------
     edges : (p+1,) array
         Ends of the smooth stretches.
+    offsets : (p+1,) array
+        The edges as times since the start, which a clock far from zero cannot carry.
     stretches : p solutions of SciPy's integrator
-        The motion on each stretch.
+        The motion on each stretch, by the time since the start.
     start, end : (7+n,) arrays
         Attitude, rate and commands at the start, before any impulse, and at the end, after all impulses.
     """
 
     edges: Array
+    offsets: Array
     stretches: Sequence[OdeSolution] = field(compare=False)
     start: Array
     end: Array
@@ -129,13 +133,22 @@ class Motion:
         outside = (time < first) | (time > last)
         if outside.any():
             raise ArgumentValueError(f"{takes}, got {time[outside][0]}", "t")
-        index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.stretches) - 1)
+        elapsed = time - first
+        index = np.searchsorted(self.offsets, elapsed, side="right")
+        at_edge = np.searchsorted(self.edges, time, side="right")  # An edge as far as the clock can tell.
+        index = np.clip(np.maximum(index, at_edge) - 1, 0, len(self.stretches) - 1)
         result = np.empty((time.size, self.start.size))
         for i in np.unique(index):
-            result[index == i] = self.stretches[i](time[index == i]).T
+            result[index == i] = self.stretches[i](elapsed[index == i]).T
         result[time == first] = self.start
         result[time == last] = self.end
         return result
+
+    def on_clock(self, start: float, end: float) -> "Motion":
+        """The same motion on a clock that shows other times at the start and at the end."""
+        edges = np.clip(start + self.offsets, start, end)
+        edges[-1] = end
+        return Motion(edges, self.offsets, self.stretches, self.start, self.end)
 
     def attitude(self, t: ArrayLike) -> Array:
         """Quaternion at the times t, (k,) -> (k, 4)."""
@@ -196,6 +209,8 @@ def simulate(
     ----------
     body : RigidBody
     interval : (start, end)
+        Where it is far from zero, the clock carries few digits of the times of `commands` and `torque`:
+        simulate from 0 and put the motion on its clock by `Motion.on_clock`.
     attitude, rate : (4,), (3,) array_like
         Quaternion and angular rate at the start.
     commands : Commands
@@ -217,10 +232,11 @@ def simulate(
     start = np.concatenate([quaternion, spin, commands.start])
     instants = [*commands.breakpoints, *(time for time, _ in commands.impulses)]
     edges = np.unique([first, last, *(time for time in instants if first < time < last)])
+    offsets = edges - first
     scales = np.concatenate([np.ones(4), np.full(3, 1 / (last - first)), commands.scales])
     state, stretches = _after_impulses(start, first, commands), []
-    for a, b in pairwise(edges.tolist()):
-        right_hand_side = _right_hand_side(body, commands.rate, torque, a, b)
+    for (a, b), event in zip(pairwise(offsets.tolist()), edges[1:].tolist(), strict=True):
+        right_hand_side = _right_hand_side(body, commands.rate, torque, first, (a, b))
         run = solve_ivp(
             right_hand_side,
             (a, b),
@@ -231,13 +247,14 @@ def simulate(
             dense_output=True,
         )
         if not run.success:
+            stopped = first + run.t[-1]
             reason = (
-                f"the integration of the motion stopped at t = {run.t[-1]}, before t = {b}: {run.message}"
+                f"the integration of the motion stopped at t = {stopped}, before t = {event}: {run.message}"
             )
             raise NotConverged(reason, float(b - run.t[-1]))
         stretches.append(cast(OdeSolution, run.sol))
-        state = _after_impulses(run.y[:, -1], b, commands)
-    return Motion(edges, stretches, start, state)
+        state = _after_impulses(run.y[:, -1], event, commands)
+    return Motion(edges, offsets, stretches, start, state)
 
 
 def _after_impulses(state: Array, time: float, commands: Commands) -> Array:
@@ -246,12 +263,15 @@ def _after_impulses(state: Array, time: float, commands: Commands) -> Array:
 
 
 def _right_hand_side(
-    body: RigidBody, command_rate: CommandRate, torque: Torque, a: float, b: float
+    body: RigidBody, command_rate: CommandRate, torque: Torque, first: float, stretch: tuple[float, float]
 ) -> Callable[[float, Array], Array]:
+    """The equations by the time since the start, on a stretch of it, whose ends may be jumps."""
+    a, b = stretch
     inset = INSET * (b - a)
+    low, high = max(a + inset, nextafter(a, b)), min(b - inset, nextafter(b, a))
 
     def right_hand_side(t: float, y: Array) -> Array:
-        inside = min(max(t, a + inset), b - inset)
+        inside = first + min(max(t, low), high)
         q, w, z = y[:4], y[4:7], y[7:]
         result = np.empty_like(y)
         result[:4] = attitude_rate(q, w)

@@ -5,7 +5,7 @@ torque M = J m. The cross-coupling f(phi, phi', m) is all that Euler's equations
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -39,21 +39,33 @@ class Coupling:
 
     Attributes
     ----------
-    edges : (p+1,) array
-        Ends of the smooth stretches.
+    offsets : (p+1,) array
+        Ends of the smooth stretches, as times since the start.
     series : (p, degree+1) array
         Chebyshev coefficients on each stretch.
+    start : float
+        The time of the start.
     """
 
-    edges: Array
+    offsets: Array
     series: Array
+    start: float = 0.0
+
+    @property
+    def edges(self) -> Array:
+        """Ends of the smooth stretches, (p+1,)."""
+        return self.start + self.offsets
+
+    def from_start(self) -> "Coupling":
+        """The same function on a clock that is 0 at the start."""
+        return replace(self, start=0.0)
 
     def __call__(self, t: ArrayLike) -> Array:
         """f at the times t, (...) -> (...)."""
-        time = np.asarray(t, dtype=float)
-        index = np.clip(np.searchsorted(self.edges, time, side="right") - 1, 0, len(self.series) - 1)
-        low, high = self.edges[index], self.edges[index + 1]
-        place = (2 * time - low - high) / (high - low)
+        elapsed = np.asarray(t, dtype=float) - self.start
+        index = np.clip(np.searchsorted(self.offsets, elapsed, side="right") - 1, 0, len(self.series) - 1)
+        low, high = self.offsets[index], self.offsets[index + 1]
+        place = (2 * elapsed - low - high) / (high - low)
         return np.asarray(chebyshev.chebval(place, np.moveaxis(self.series[index], -1, 0), tensor=False))
 
 
@@ -127,13 +139,22 @@ class Channels:
 
     def move(self) -> Motion:
         """The motion under the programmes by the full equations, from the start to the end."""
+        return self.from_start()._move().on_clock(*self.interval)
+
+    def from_start(self) -> "Channels":
+        """The same channels on a clock that is 0 at the start."""
+        return replace(self, programmes=tuple(programme.from_start() for programme in self.programmes))
+
+    def _move(self) -> Motion:
         start, (first, last) = self.ends[0], self.interval
         phi = start[:, 0]
         commands = Commands(
             start[self.programmed, 2],
             lambda t, m: np.array([self.programmes[i].control(t)[0] for i in self.programmed]),
             np.full(len(self.programmed), (last - first) ** -2.0),
-            np.concatenate([programme.breakpoints for programme in self.programmes]).tolist(),
+            np.concatenate(
+                [edges for one in self.programmes for edges in (one.breakpoints, one.maneuver.edge_offsets)]
+            ).tolist(),
             self._jumps(),
         )
 
@@ -162,17 +183,20 @@ class Channels:
     def couplings_along(self, motion: Motion, miss: float) -> list[Coupling | None]:
         """f of the programmed channels along a motion with the given miss; None for the other channels."""
         nodes, fit = chebyshev_fit(DEGREE)
-        low, high = motion.edges[:-1, None], motion.edges[1:, None]
+        here, (first, last) = self.from_start(), self.interval
+        motion = motion.on_clock(0.0, last - first)
+        low, high = motion.offsets[:-1, None], motion.offsets[1:, None]
         t = ((high + low) / 2 + (high - low) / 2 * nodes).ravel()
         phi, w = rotation_vector(motion.attitude(t)), motion.rate(t)
         angle = float(np.linalg.norm(phi, axis=-1).max())
         if angle > 0.99 * FULL_TURN:
             reason = f"the motion reached the angle {angle:.4g} rad; at 2 pi rotation vectors are singular"
             raise NotConverged(reason, miss)
-        m = self.control_acceleration(t, phi, w, motion.commands(t))
-        f = self.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
+        m = here.control_acceleration(t, phi, w, motion.commands(t))
+        f = here.coupling(phi, w, m).reshape(len(low), nodes.size, 3)
         series = np.einsum("dn,pnc->cpd", fit, f)
-        return [Coupling(motion.edges, series[i]) if i in self.programmed else None for i in range(3)]
+        parts = (Coupling(motion.offsets, part, first) for part in series)
+        return [part if i in self.programmed else None for i, part in enumerate(parts)]
 
 
 def _applied(matrix: Array, vector: Array) -> Array:

@@ -56,10 +56,12 @@ def attempts_table(tried: Sequence[Attempt]) -> dict[str, list[Any]]:
     """A row for each angle: iterations, factor measured and of a spherical body, and the outcome."""
     return {
         "angle, degrees": [attempt.degrees for attempt in tried],
-        "first miss, rad": [attempt.turn.misses[0] if attempt.turn else None for attempt in tried],
+        "first miss, rad": [round(attempt.turn.misses[0], 6) if attempt.turn else None for attempt in tried],
         "motions integrated": [len(attempt.turn.misses) if attempt.turn else None for attempt in tried],
-        "factor": [attempt.turn.factor if attempt.turn else None for attempt in tried],
-        "spherical body": [float(spherical_factor(np.deg2rad(attempt.degrees))) for attempt in tried],
+        "factor": [round(attempt.turn.factor, 6) if attempt.turn else None for attempt in tried],
+        "spherical body": [
+            round(float(spherical_factor(np.deg2rad(attempt.degrees))), 6) for attempt in tried
+        ],
         "outcome": [attempt.remark for attempt in tried],
     }
 

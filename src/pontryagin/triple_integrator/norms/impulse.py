@@ -20,12 +20,12 @@ from pontryagin.triple_integrator.kernels import chebyshev_amplitudes, pairing, 
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import (
     Programme,
-    breakpoints,
     normalise,
     numbers_of,
     over_stack,
     response,
 )
+from pontryagin.triple_integrator.problem.scales import impulse_unit
 from pontryagin.value import Packed, value_class
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
@@ -56,11 +56,11 @@ def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
 
 def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
-    share = 1.0 / T
-    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
-    scale = max(fabs(m0), fabs(m1), fabs(m2))
-    if scale == 0.0:
+    if c1 == 0.0 and c2 == 0.0 and c3 == 0.0:
         return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
+    m0, m1, m2 = c3, c2 / T, 2.0 * (c1 / T / T)
+    scale = max(fabs(m0), fabs(m1), fabs(m2))
+    unit = impulse_unit(scale, T)
     m0, m1, m2 = m0 / scale, m1 / scale, m2 / scale
     n0, n1, n2 = reversed_moments(m0, m1, m2)
     bound, regime = fabs(m0), MOMENT
@@ -99,13 +99,13 @@ def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...
     )
     return (
         place,
-        at_start * scale,
-        middle * scale,
-        at_end * scale,
+        at_start * unit,
+        middle * unit,
+        at_end * unit,
         regime,
         unique,
         residual / bound,
-        bound * scale,
+        bound * unit,
     )
 
 
@@ -158,9 +158,17 @@ class ImpulseSolution(Packed, Programme):
     def impulse_times(self) -> Array:
         """Times of the impulses in order, then nan for absent ones, (..., 3)."""
         m = self.maneuver
-        times = np.stack([m.t0, m.tf - self.inner * m.duration, m.tf], axis=-1)
-        times = np.where(self.amplitudes == 0, np.nan, times)
-        return np.take_along_axis(times, self._order, axis=-1)
+        end = m.tf[..., None]
+        times = np.minimum(m.t0[..., None] + self.impulse_offsets, end)
+        return np.where(self.impulse_offsets == m.duration[..., None], end, times)
+
+    @cached_property
+    def impulse_offsets(self) -> Array:
+        """The `impulse_times` as times since the start, which a clock far from 0 cannot carry, (..., 3)."""
+        T = self.maneuver.duration
+        offsets = np.stack([np.zeros_like(T), T - self.inner * T, T], axis=-1)
+        offsets = np.where(self.amplitudes == 0, np.nan, offsets)
+        return np.take_along_axis(offsets, self._order, axis=-1)
 
     @cached_property
     def impulses(self) -> Array:
@@ -168,12 +176,10 @@ class ImpulseSolution(Packed, Programme):
         return np.take_along_axis(self.amplitudes, self._order, axis=-1)
 
     @property
-    def breakpoints(self) -> Array:
-        """Times strictly within one manoeuvre at which an impulse acts, (j,)."""
-        inside = np.where(
-            (self.impulse_times > self.maneuver.t0) & (self.impulse_times < self.maneuver.tf), 1, np.nan
-        )
-        return breakpoints(self.impulse_times * inside)
+    def _knots(self) -> Array:
+        """Times since the start of the impulses strictly within the manoeuvre, (..., 3)."""
+        offsets = self.impulse_offsets
+        return np.where((offsets > 0) & (offsets < self.maneuver.duration[..., None]), offsets, np.nan)
 
     @cached_property
     def multipliers(self) -> Array:
@@ -184,8 +190,7 @@ class ImpulseSolution(Packed, Programme):
         p0, p1, p2 = np.ones_like(x), -4 * x, 2 * x**2
         start = regime == START
         p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
-        shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
-        return normalise(shape, self.maneuver.moments)
+        return normalise(np.stack([2 * p2, p1, p0], axis=-1), self.maneuver.moments, T)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""
@@ -199,9 +204,8 @@ class ImpulseSolution(Packed, Programme):
         At the instant of an impulse x3 is the value after it, except at the start, where x(t0) = x0.
         """
         m = self.maneuver
-        time = m.times(t)
-        driven = response(time, self.impulse_times, self.impulses, order=0)
-        return m.drift(time) + np.where((time > m.t0[..., None])[..., None], driven, 0.0)
+        driven = response(self._since(t, self.impulse_offsets), self.impulses, order=0)
+        return m.drift(t) + np.where((m.times(t) > m.t0[..., None])[..., None], driven, 0.0)
 
 
 def _answer(result: Array) -> dict[str, Any]:

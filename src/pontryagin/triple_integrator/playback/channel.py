@@ -1,6 +1,7 @@
 """Recordings of one channel: a body that turns about one axis, and its states against time."""
 
 from collections.abc import Sequence
+from math import ceil, log10
 from pathlib import Path
 
 import numpy as np
@@ -105,7 +106,8 @@ def _spikes(kicks: Sequence[tuple[float, float]], maneuver: Maneuver, t: Array) 
     heights = np.concatenate([[0.0], *([0.0, jump, jump, 0.0] for _, jump in kicks), [0.0]])
     order = np.lexsort((-np.abs(heights), times))
     once, place = np.unique(times[order], return_index=True)
-    dense = np.unique(np.round(np.concatenate([once, t]), 7))
+    digits = 8 - ceil(log10(last - first))
+    dense = np.unique(first + np.round(np.concatenate([once, t]) - first, digits))
     return dense, np.interp(dense, once, heights[order][place])
 
 

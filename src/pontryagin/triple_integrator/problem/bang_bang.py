@@ -9,7 +9,6 @@ from pontryagin.arrays import Array
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import (
     Programme,
-    breakpoints,
     normalise,
     response,
     truncated_power,
@@ -39,7 +38,13 @@ class BangBang(Programme):
     def switch_times(self) -> Array:
         """Times at which u changes sign, in order, (..., 2); nan where a switch does not happen."""
         start, end = self._interval
-        return switch_times(end, end - start, self.shares)
+        return np.minimum(start[..., None] + self.switch_offsets, end[..., None])
+
+    @cached_property
+    def switch_offsets(self) -> Array:
+        """The `switch_times` as times since the start, which a clock far from 0 cannot carry, (..., 2)."""
+        start, end = self._interval
+        return switch_offsets(end - start, self.shares)
 
     @cached_property
     def first_sign(self) -> Array:
@@ -47,15 +52,13 @@ class BangBang(Programme):
         return first_sign(self.levels, self.shares)
 
     @property
-    def breakpoints(self) -> Array:
-        """Times within one manoeuvre at which the control switches, (j,)."""
-        return breakpoints(self.switch_times)
+    def _knots(self) -> Array:
+        return self.switch_offsets
 
     @cached_property
     def multipliers(self) -> Array:
         """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
-        start, end = self._interval
-        return normalise(switching_quadratic(self.shares, end - start), self._moments)
+        return normalise(switching_quadratic(self.shares), self._moments, self._motion.duration)
 
     @cached_property
     def switch_condition(self) -> Array:
@@ -68,13 +71,14 @@ class BangBang(Programme):
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k)."""
-        return bang_bang(self._times(t), self.switch_times, self.first_sign * self.norm)
+        return bang_bang(self._since(t, self.switch_offsets), self.first_sign * self.norm)
 
     def state(self, t: ArrayLike) -> Array:
         """x at the times t, (k,) -> (..., k, 3)."""
-        time, start = self._times(t), self._interval[0]
-        forced = bang_bang_response(time, start, self.switch_times, self.first_sign * self.norm)
-        return self._motion.drift(time) + forced
+        from_start = np.zeros((*self.switch_offsets.shape[:-1], 1))
+        knots = np.concatenate([from_start, self.switch_offsets], axis=-1)
+        forced = bang_bang_response(self._since(t, knots), self.first_sign * self.norm)
+        return self._motion.drift(t) + forced
 
     @property
     def _motion(self) -> Maneuver:
@@ -86,17 +90,18 @@ class BangBang(Programme):
         return self.maneuver.moments
 
 
-def bang_bang(t: Array, switches: Array, first: Array) -> Array:
-    """u = first at the start, with a change of sign at each switch; at a switch u has the later value."""
-    count = truncated_power(t, switches, 0).sum(axis=-1)
+def bang_bang(since_switches: Array, first: Array) -> Array:
+    """u = first at the start, with a change of sign at each switch; at a switch u has the later value.
+
+    The times since both switches are (..., k, 2).
+    """
+    count = truncated_power(since_switches, 0).sum(axis=-1)
     return first[..., None] * np.where(count % 2 == 0, 1.0, -1.0)
 
 
-def bang_bang_response(t: Array, t0: Array, switches: Array, first: Array) -> Array:
-    """State reached from rest under `bang_bang`."""
-    start = np.broadcast_to(t0[..., None], (*switches.shape[:-1], 1))
-    knots = np.concatenate([start, switches], axis=-1)
-    return response(t, knots, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
+def bang_bang_response(since: Array, first: Array) -> Array:
+    """State reached from rest under `bang_bang`, by the times since its start and switches, (..., k, 3)."""
+    return response(since, first[..., None] * np.array([1.0, -2.0, 2.0]), order=1)
 
 
 def _happen(shares: Array) -> NDArray[np.bool_]:
@@ -105,10 +110,11 @@ def _happen(shares: Array) -> NDArray[np.bool_]:
     return np.stack([(a < 1) & (a > b), (b > 0) & (a > b)], axis=-1)
 
 
-def switch_times(tf: Array, duration: Array, shares: Array) -> Array:
-    """Times of the switches that happen, in order, followed by nan for the others, (..., 2)."""
-    times = np.where(_happen(shares), tf[..., None] - duration[..., None] * shares, np.nan)
-    return np.where(np.isnan(times[..., :1]), times[..., ::-1], times)
+def switch_offsets(duration: Array, shares: Array) -> Array:
+    """Times from the start to the switches that happen, in order, then nan for the others, (..., 2)."""
+    whole = duration[..., None]
+    offsets = np.where(_happen(shares), whole - whole * shares, np.nan)
+    return np.where(np.isnan(offsets[..., :1]), offsets[..., ::-1], offsets)
 
 
 def first_sign(levels: Array, shares: Array) -> Array:
@@ -117,10 +123,10 @@ def first_sign(levels: Array, shares: Array) -> Array:
     return np.where((a == 1) & (a > b), -1.0, 1.0) * np.sign(levels)
 
 
-def switching_quadratic(shares: Array, duration: Array) -> Array:
-    """Multipliers of (s - aT)(s - bT), whose sign the control has, (..., 3)."""
+def switching_quadratic(shares: Array) -> Array:
+    """Multipliers for T = 1 of (s - a)(s - b), whose sign the control has, (..., 3)."""
     a, b = shares[..., 0], shares[..., 1]
-    return np.stack([np.full(a.shape, 2.0), -duration * (a + b), duration * duration * a * b], axis=-1)
+    return np.stack([np.full(a.shape, 2.0), -(a + b), a * b], axis=-1)
 
 
 def switch_condition(shares: Array) -> Array:

@@ -1,5 +1,6 @@
 """The manoeuvre, (0.6) to (0.9): both states, both times, the disturbance, and the moments c of (1.10)."""
 
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -13,7 +14,7 @@ from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.kernels import moments
-from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, integrals
+from pontryagin.triple_integrator.problem.disturbance import Disturbance, Integrals, from_start, integrals
 from pontryagin.validation import common_shape, finite, times, vectors
 from pontryagin.value import Packed, freeze, value_class
 
@@ -27,7 +28,7 @@ def required_moments(
     T = tf - t0
     if not T > 0.0:
         return inf, inf, inf, inf
-    c1, c2, c3 = moments(x10, x20, x30, x1f, x2f, x3f, T, f * (T * T) / 2.0, f * T)
+    c1, c2, c3 = moments(x10, x20, x30, x1f, x2f, x3f, T, f * T * T / 2.0, f * T)
     return c1, c2, c3, T
 
 
@@ -52,8 +53,12 @@ class Maneuver(Packed):
         Time of the end and of the start, ``tf > t0``.
     disturbance : None, number or (...) array, callable f(t), or SymPy expression in ``t``
         Acceleration f in addition to the control acceleration. A callable is integrated to 1e-13:
-        what it does within less than 1 % of the interval may go unseen, unless its attribute ``edges``, a
-        sequence of times, says where.
+        what it does within less than 1 % of the interval may go unseen, unless ``edges`` say where.
+    edges : (k,) or (..., k) array_like
+        Times at which the disturbance jumps or has a kink, or between which it has a narrow feature, in any
+        order: it is integrated from each to the next. Those outside the interval do no harm, so that
+        members of a stack with fewer edges may repeat one. A callable's own attribute ``edges`` (k,), if it
+        has one, counts as well.
 
     Raises
     ------
@@ -68,6 +73,13 @@ class Maneuver(Packed):
     >>> t = sp.Symbol("t")
     >>> Maneuver([0, 0, 0], [1, 0, 0], tf=2.0, disturbance=6 * t).moments
     array([ -7., -12.,   0.])
+
+    A pulse that is told:
+
+    >>> pulse = lambda t: np.where(abs(t - 1.0628) < 1e-7, 1e7, 0.0)
+    >>> edges = 1.0628 + np.array([-1e-7, 1e-7])
+    >>> Maneuver([0, 0, 0], [0, 0, 0], tf=2.0, disturbance=pulse, edges=edges).moments.round(8)
+    array([-1.8744, -2.    , -0.    ])
     """
 
     x0: Array
@@ -75,6 +87,7 @@ class Maneuver(Packed):
     tf: Array
     t0: Array
     disturbance: Disturbance
+    edges: Array
 
     def __init__(
         self,
@@ -83,46 +96,63 @@ class Maneuver(Packed):
         tf: ArrayLike,
         t0: ArrayLike = 0.0,
         disturbance: Disturbance = None,
+        edges: ArrayLike = (),
     ) -> None:
-        if disturbance is None or type(disturbance) is float or type(disturbance) is int:
+        simple = disturbance is None or type(disturbance) is float or type(disturbance) is int
+        if simple and isinstance(edges, tuple) and not edges:
             numbers = one_maneuver.call(x0, xf, tf, t0, 0.0 if disturbance is None else disturbance)
             if numbers is not None:
                 values = self.__dict__
                 values["_numbers"], values["disturbance"] = numbers, disturbance
                 return
-        self._check(x0, xf, tf, t0, disturbance)
+        self._check(x0, xf, tf, t0, disturbance, edges)
 
     def _check(
-        self, x0: ArrayLike, xf: ArrayLike, tf: ArrayLike, t0: ArrayLike, disturbance: Disturbance
+        self,
+        x0: ArrayLike,
+        xf: ArrayLike,
+        tf: ArrayLike,
+        t0: ArrayLike,
+        disturbance: Disturbance,
+        edges: ArrayLike,
     ) -> None:
         """Make the fields from any arguments, or say what is wrong with them."""
         start, end = vectors("x0", x0, 3), vectors("xf", xf, 3)
         first, last = finite("t0", t0, NUMBERS), finite("tf", tf, NUMBERS)
+        cuts = _edges(edges)
         force: tuple[int, ...] = ()
         if isinstance(disturbance, np.ndarray | list | tuple):
             numbers = finite("disturbance", disturbance, NUMBERS)
             disturbance, force = numbers, numbers.shape
-        if not first.ndim == last.ndim == 0 or not start.ndim == end.ndim == 1 or force:
+        flat = first.ndim == last.ndim == 0 and start.ndim == end.ndim == cuts.ndim == 1
+        if not flat or force:
             shape = common_shape(
-                x0=start.shape[:-1], xf=end.shape[:-1], tf=last.shape, t0=first.shape, disturbance=force
+                x0=start.shape[:-1],
+                xf=end.shape[:-1],
+                tf=last.shape,
+                t0=first.shape,
+                disturbance=force,
+                edges=cuts.shape[:-1],
             )
             start, end = (np.broadcast_to(x, (*shape, 3)) for x in (start, end))
             first, last = (np.broadcast_to(time, shape) for time in (first, last))
             disturbance = np.broadcast_to(numbers, shape) if force else disturbance
+            cuts = np.broadcast_to(cuts, (*shape, cuts.shape[-1])) if cuts.ndim > 1 else cuts
         late = ~(last > first)
         if late.any():
             wrong = f"t0 = {first[late].flat[0]} and tf = {last[late].flat[0]}"
             raise ArgumentValueError(f"tf must be later than t0, got {wrong}", "tf")
         fields = {"x0": start, "xf": end, "tf": last, "t0": first, "disturbance": disturbance}
-        self.__dict__.update(fields)
-        for array in (start, end, last, first):
+        self.__dict__.update(fields, edges=cuts)
+        for array in (start, end, last, first, cuts):
             array.setflags(write=False)
         freeze(disturbance)
         _ = self._integrals  # Raises if the disturbance is of the wrong kind.
 
     def _unpacked(self, numbers: Array) -> dict[str, Any]:
         times = {"tf": numbers[..., 6], "t0": numbers[..., 7]}
-        return {"x0": numbers[:3], "xf": numbers[3:6], **times, "moments": numbers[9:12]}
+        ends = {"x0": numbers[:3], "xf": numbers[3:6]}
+        return {**ends, **times, "edges": np.empty(0), "moments": numbers[9:12]}
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -141,7 +171,7 @@ class Maneuver(Packed):
 
     @cached_property
     def _integrals(self) -> Integrals:
-        return integrals(self.disturbance, self.t0, self.tf)
+        return integrals(self.disturbance, self.t0, self.tf, self.edges)
 
     @cached_property
     def moments(self) -> Array:
@@ -152,10 +182,34 @@ class Maneuver(Packed):
         if not self.shape and self.disturbance is None:
             numbers = [*self.x0.tolist(), *self.xf.tolist()]
             return np.array(moments(*numbers, float(self.tf - self.t0), 0.0, 0.0))  # type: ignore[call-arg]
-        g = self._integrals(self.tf, self.t0)
+        g = self._integrals(self.duration[..., None])[..., 0, :]
         ends = [x[..., i].ravel() for x in (self.x0, self.xf) for i in range(3)]
         rest = [np.broadcast_to(part, self.shape).ravel() for part in (self.duration, g[..., 0], g[..., 1])]
         return moments_of_stack(*ends, *rest).reshape(*self.shape, 3)
+
+    @property
+    def edge_offsets(self) -> Array:
+        """The edges of the disturbance within the manoeuvre as times since the start, (..., j).
+
+        They are those given and its own. Those outside are moved to the nearer end.
+        """
+        none = np.empty((*self.shape, 0))
+        return np.asarray(getattr(self._integrals, "offsets", none))
+
+    def from_start(self) -> "Maneuver":
+        """The same manoeuvre, not a stack, on a clock that is 0 at the start and loses no digits."""
+        if self.t0 == 0.0:
+            return self
+        moved = copy(self)
+        moved.__dict__.update(
+            t0=np.zeros(()),
+            tf=self.duration,
+            disturbance=from_start(self.disturbance, float(self.t0)),
+            edges=self.edges - self.t0,
+            _integrals=self._integrals,
+            moments=self.moments,
+        )
+        return moved
 
     def times(self, t: ArrayLike) -> Array:
         """The times t (k,) or (..., k) checked to lie within the manoeuvre, as (..., k)."""
@@ -163,10 +217,16 @@ class Maneuver(Packed):
 
     def drift(self, t: ArrayLike) -> Array:
         """The motion without control, Phi(t, t0) x0 + g(t) of (1.3), (k,) -> (..., k, 3)."""
-        time = self.times(t)
-        start = self.t0[..., None]
-        elapsed = time - start
+        elapsed = self.times(t) - self.t0[..., None]
         x1, x2, x3 = (self.x0[..., None, i] for i in range(3))
-        g = self._integrals(time, start)
+        g = self._integrals(elapsed)
         free = kernels.coast(x1, x2, x3, elapsed)
         return np.stack(np.broadcast_arrays(free[0] + g[..., 0], free[1] + g[..., 1], free[2]), axis=-1)
+
+
+def _edges(edges: ArrayLike) -> Array:
+    """The edges in order, those shared by a stack each only once, (k,) or (..., k)."""
+    array = finite("edges", edges, "an array (k,) or (..., k) of times")
+    if array.ndim == 0:
+        raise ArgumentValueError(f"edges must be an array (k,) or (..., k) of times, got {edges!r}", "edges")
+    return np.unique(array) if array.ndim == 1 else np.sort(array, axis=-1)

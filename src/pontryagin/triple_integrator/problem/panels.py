@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from math import ceil
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import ArgumentTypeError, ArgumentValueError, NotConverged
+from pontryagin.errors import NotConverged
 
 DEGREE = 24
 """Degree of the Chebyshev series on each panel."""
@@ -33,15 +32,11 @@ EPSILON = float(np.finfo(float).eps)
 BLURRED = 1e-9
 """Largest relative error that is put down to this rounding."""
 
+STEEPEST = 100.0
+"""Largest relative slope per length of a stretch at which more than that is put down to this rounding."""
+
 PANELS = 4096
 """Largest number of panels into which an interval is cut."""
-
-
-def _real(value: object) -> Array:
-    array = np.asarray(value)
-    if array.dtype.kind in "cUS":
-        raise TypeError(f"got {value!r}")
-    return array.astype(float)
 
 
 @cache
@@ -51,98 +46,83 @@ def chebyshev_fit(degree: int) -> tuple[Array, Array]:
     return nodes, np.asarray(np.linalg.inv(chebyshev.chebvander(nodes, degree)), dtype=float)
 
 
+Function = Callable[[NDArray[np.intp], Array], Array]
+"""A function of the numbers of stretches, and of times since the starts of these, to values, each (k,)."""
+
+
 @dataclass(frozen=True)
 class Panels:
     """A function of time on m intervals: Chebyshev series on panels that are halved until each is resolved.
 
     Attributes
     ----------
-    function : callable f(t)
-        The function. It may have an attribute ``edges``: the times at which it is not smooth.
-    low, high : (m,) array
-        Ends of the intervals.
+    function : callable (stretch, time since its start) -> values, each (k,)
+        The function. Stretches are numbered through all intervals.
+    clock : (m, k + 2) array
+        The ends of the k + 1 stretches of each interval, ascending; a stretch may be empty. The function may
+        be not smooth from one stretch to the next.
     """
 
-    function: Callable[[Any], Any]
-    low: Array
-    high: Array
+    function: Function
+    clock: Array
 
-    def values(self, t: Array) -> Array:
-        """f at the times (k,), by one call with an array if f takes it, else by a call for each time."""
-        try:
-            result = _real(self.function(t))
-        except (TypeError, ValueError):
-            result = np.empty(())
-        if result.shape == ():
-            result = np.asarray([self._at(float(time)) for time in t])
-        if result.shape != t.shape:
-            raise ArgumentValueError(
-                f"disturbance must return one number for each time: got shape {result.shape} "
-                f"for times of shape {t.shape}",
-                "disturbance",
-            )
-        if not np.isfinite(result).all():
-            k = int(np.argmin(np.isfinite(result)))
-            raise ArgumentValueError(
-                f"disturbance must be finite: f({t[k]:.6g}) = {result[k]}", "disturbance"
-            )
-        return result
+    @property
+    def _origin(self) -> Array:
+        """The starts of the stretches, (n,)."""
+        return self.clock[:, :-1].ravel()
 
-    def _at(self, time: float) -> float:
-        try:
-            value = _real(self.function(time))
-        except TypeError as error:
-            raise ArgumentTypeError(
-                f"disturbance must be a function f(t) that takes a time and returns a number: {error}",
-                "disturbance",
-            ) from error
-        if value.shape != ():
-            raise ArgumentValueError(
-                f"disturbance must return one number for each time: got shape {value.shape} for one time",
-                "disturbance",
-            )
-        return float(value)
+    def _member(self, stretch: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The intervals of stretches."""
+        return np.asarray(stretch // (self.clock.shape[1] - 1))
 
-    @cached_property
-    def _edges(self) -> Array:
-        """The times at which the function says that it is not smooth, ascending."""
-        return np.sort(np.asarray(getattr(self.function, "edges", ()), dtype=float).ravel())
+    def _start(self) -> tuple[Any, ...]:
+        """The initial panels: their stretches, (p,), and their ends as times since the start of these.
 
-    def _start(self) -> tuple[NDArray[np.intp], Array, Array]:
-        """The initial panels: their intervals, (p,), and their ends, cut at the ``edges`` of the function.
-
-        Their nodes lie so close that no feature of 1 % of the interval falls between them.
+        Their nodes lie so close that no feature of 1 % of the interval falls between them. Last comes which
+        of the ends lie inside a stretch.
         """
-        share = np.arange(COARSEST) / COARSEST
-        if not self._edges.size:
-            width = (self.high - self.low)[:, None]
-            cuts = np.hstack([self.low[:, None] + width * share, self.high[:, None]])
-            member = np.repeat(np.arange(len(cuts)), COARSEST)
-            return member, cuts[:, :-1].ravel(), cuts[:, 1:].ravel()
-        parts: list[tuple[int, float, float]] = []
-        for i, (low, high) in enumerate(zip(self.low, self.high, strict=True)):
-            inner = self._edges[(self._edges > low) & (self._edges < high)]
-            for start, end in pairwise([low, *inner, high]):
-                count = max(1, ceil(COARSEST * ((end - start) / (high - low))))
-                steps = np.append(start + (end - start) * np.arange(count) / count, end).tolist()
-                parts += [(i, left, right) for left, right in pairwise(steps)]
-        of, lows, highs = map(np.array, zip(*parts, strict=True))
-        return of, lows, highs
+        width = np.diff(self.clock, axis=1)
+        duration = self.clock[:, -1:] - self.clock[:, :1]
+        count = np.ceil(COARSEST * (width / duration)).astype(np.intp)
+        count = np.where(width > 0, np.maximum(count, 1), 0).ravel()
+        stretch = np.repeat(np.arange(count.size), count)
+        place = np.arange(stretch.size) - np.repeat(np.cumsum(count) - count, count)
+        whole, parts = width.ravel()[stretch], count[stretch]
+        last = place + 1 == parts
+        high = np.where(last, whole, whole * ((place + 1) / parts))
+        return stretch, whole * (place / parts), high, place > 0, ~last
 
     def _meets_its_ends(
-        self, member: NDArray[np.intp], low: Array, high: Array, coefficients: Array, allowed: Array
+        self, stretch: NDArray[np.intp], ends: tuple[Array, ...], coefficients: Array, allowed: Array
     ) -> NDArray[np.bool_]:
-        """Whether panels' series take the function's values at the cuts that halving made, (p,).
+        """Whether panels' series take the function's values at those of their ends that lie inside, (p,).
 
         Otherwise a step lies so near to a cut that no node is beyond it.
         """
+        low, high, low_inside, high_inside = ends
         right = np.ones(len(low), dtype=bool)
-        for t, given, x in ((low, self.low, -1.0), (high, self.high, 1.0)):
-            made = np.flatnonzero((t != given[member]) & ~np.isin(t, self._edges))
+        for t, inside, x in ((low, low_inside, -1.0), (high, high_inside, 1.0)):
+            made = np.flatnonzero(inside)
             if made.size:
-                off = np.abs(self.values(t[made]) - chebyshev.chebval(x, coefficients[made].T))
+                off = np.abs(
+                    self.function(stretch[made], t[made]) - chebyshev.chebval(x, coefficients[made].T)
+                )
                 right[made] &= off <= LOOSER * allowed[made]
         return right
+
+    def _blur(
+        self, stretch: NDArray[np.intp], ends: tuple[Array, Array], sizes: tuple[Array, Array]
+    ) -> Array:
+        """By how much the rounding of times may change values of the given slopes and sizes, (p,).
+
+        A function may vary as fast as its stretch is narrow; one that varies still faster is near a pole,
+        where rounding would excuse anything.
+        """
+        slope, largest = sizes
+        origin = self._origin[stretch]
+        rounding = EPSILON * np.maximum(*(np.abs(origin + end) for end in ends))
+        share = rounding / np.diff(self.clock, axis=1).ravel()[stretch]
+        return np.minimum(rounding * slope, np.maximum(BLURRED, STEEPEST * share) * largest)
 
     @cached_property
     def series(self) -> tuple[NDArray[np.intp], Array, Array, Array, Array]:
@@ -153,20 +133,22 @@ class Panels:
         (m + 1,) array
             Where the panels of each interval begin.
         (p,), (p,) array
-            Left ends and widths.
+            Left ends, as times since the start of the interval, and widths.
         (p, 2) array
             The integrals from the start of the interval to the left end.
         (p, degree + 1) array
             Coefficients of the series.
         """
         nodes, invert = chebyshev_fit(DEGREE)
-        member, low, high = self._start()
+        low: Any
+        stretch, low, high, low_inside, high_inside = self._start()
         done: list[tuple[Array, ...]] = []
-        area, count = np.zeros(len(self.low)), np.bincount(member, minlength=len(self.low))
-        while len(member):
-            width = high - low
-            sample = self.values((low[:, None] + width[:, None] * (nodes + 1) / 2).ravel())
-            sample = sample.reshape(len(low), -1)
+        count = np.bincount(self._member(stretch), minlength=len(self.clock))
+        area = np.zeros(len(self.clock))
+        while len(stretch):
+            width, member = high - low, self._member(stretch)
+            sample = (low[:, None] + width[:, None] * (nodes + 1) / 2).ravel()
+            sample = self.function(np.repeat(stretch, nodes.size), sample).reshape(len(low), -1)
             largest = np.abs(sample).max(axis=1)
             with np.errstate(over="ignore"):
                 np.maximum.at(area, member, (np.abs(sample) / sample.shape[1]).sum(axis=1) * width)
@@ -174,55 +156,52 @@ class Panels:
                 coefficients = np.einsum("pn,cn->pc", sample, invert)
                 tail = np.abs(coefficients[:, -3:]).max(axis=1)
                 slope = np.einsum("pc,c->p", np.abs(coefficients), np.arange(DEGREE + 1.0)) * 2 / width
-                blurred = EPSILON * np.maximum(np.abs(low), np.abs(high)) * slope
-                blurred = np.minimum(blurred, BLURRED * largest)  # Next to a pole it would excuse anything.
+                blurred = self._blur(stretch, (low, high), (slope, largest))
                 allowed = np.maximum.reduce([1e-14 * largest, 1e-15 * area[member] / width, blurred])
             smooth = (largest < 1e300) & (tail <= allowed)
             at = np.flatnonzero(smooth)
-            smooth[at] = self._meets_its_ends(member[at], low[at], high[at], coefficients[at], allowed[at])
-            done.append((member[smooth], low[smooth], width[smooth], coefficients[smooth]))
+            ends = (low[at], high[at], low_inside[at], high_inside[at])
+            smooth[at] = self._meets_its_ends(stretch[at], ends, coefficients[at], allowed[at])
+            done.append((stretch[smooth], low[smooth], width[smooth], coefficients[smooth]))
             rough, middle = ~smooth, (low + high) / 2
             np.add.at(count, member[rough], 1)
+            before, time, after = (self._origin[stretch] + x for x in (low, middle, high))
             lost = rough & (
-                (largest >= 1e300) | ~((low < middle) & (middle < high)) | (count[member] > PANELS)
+                (largest >= 1e300) | (before == time) | (time == after) | (count[member] > PANELS)
             )
             if lost.any():
                 i = int(np.argmax(lost))
                 raise NotConverged(
-                    f"disturbance is not integrable to 1e-13 near t = {middle[i]:.6g}",
+                    f"disturbance is not integrable to 1e-13 near t = {time[i]:.6g}",
                     float(tail[i] / largest[i]),
                 )
-            member, low, middle, high = (np.repeat(x[rough], 2) for x in (member, low, middle, high))
+            stretch, low, middle, high, low_inside, high_inside = (
+                np.repeat(x[rough], 2) for x in (stretch, low, middle, high, low_inside, high_inside)
+            )
             low[1::2], high[::2] = middle[1::2], middle[::2]
+            low_inside[1::2], high_inside[::2] = True, True
         parts: list[Any] = [np.concatenate(column) for column in zip(*done, strict=True)]
         order = np.lexsort((parts[1], parts[0]))
-        owner, left, width, coefficients = (part[order] for part in parts)
-        first = np.searchsorted(owner, np.arange(len(self.low) + 1))
+        stretch, low, width, coefficients = (part[order] for part in parts)
+        owner = self._member(stretch)
+        left = low + (self.clock[:, :-1] - self.clock[:, :1]).ravel()[stretch]
+        first = np.searchsorted(owner, np.arange(len(self.clock) + 1))
         return first, left, width, _running(first, owner, width, coefficients), coefficients
 
-    def integrals(self, t: Array, t0: Array, member: NDArray[np.intp]) -> Array:
-        """g1 and g2 from t0 to t on the intervals with these numbers, all broadcast, (..., 2)."""
-        from_start = self._from_start(t, member)
-        if (t0 == self.low[member]).all():
-            return from_start
-        before = self._from_start(t0, member)
-        between = from_start - before
-        between[..., 0] -= before[..., 1] * (np.asarray(t) - t0)
-        return between
-
-    def _from_start(self, t: Array, member: NDArray[np.intp]) -> Array:
+    def integrals(self, elapsed: Array, member: NDArray[np.intp]) -> Array:
+        """g1 and g2 from the starts of the intervals with these numbers, both broadcast, (..., 2)."""
         first, left, width, running, coefficients = self.series
-        times, owner = np.broadcast_arrays(np.asarray(t, dtype=float), member)
+        times, owner = np.broadcast_arrays(np.asarray(elapsed, dtype=float), member)
         flat, own = times.ravel(), owner.ravel()
         low, high = first[own], first[own + 1] - 1
         while (low < high).any():
             middle = (low + high + 1) // 2
             beyond = left[middle] <= flat
             low, high = np.where(beyond, middle, low), np.where(beyond, high, middle - 1)
-        elapsed = flat - left[low]
-        inside = _panel_integrals(coefficients[low], 2 * elapsed / width[low] - 1, width[low])
+        past = flat - left[low]
+        inside = _panel_integrals(coefficients[low], 2 * past / width[low] - 1, width[low])
         inside += running[low]
-        inside[:, 0] += running[low, 1] * elapsed
+        inside[:, 0] += running[low, 1] * past
         return inside.reshape(*times.shape, 2)
 
 

@@ -54,6 +54,8 @@ class SearchResult:
         1/|F|, the route's u0; nan where F is infinite.
     switch_times : (2,) array
         The route's t1 and t2.
+    switch_offsets : (2,) array
+        Those as times since the start, which a clock far from zero cannot carry.
     curvature : float
         The route's alpha_m by (3.13), which makes l'c = 1.
     curvature_by_multiplier : float
@@ -69,6 +71,7 @@ class SearchResult:
     route: str
     peak: float
     switch_times: Array
+    switch_offsets: Array
     curvature: float
     curvature_by_multiplier: float
     evaluations: int
@@ -154,8 +157,8 @@ def search(maneuver: Maneuver, route: str) -> SearchResult:
     certified = minimum_peak(Maneuver([0, 0, 0], unit, tf=1.0))
     peak = size / abs(area) if area and np.isfinite(area) else np.nan
     reason = _judge(zeros, area, float(certified.norm), float(certified.multipliers[0]), c0)
-    times = float(maneuver.t0) + T * zeros
-    return SearchResult(route, peak, times, float(alpha), by_multiplier, evaluations, reason)
+    times, offsets = float(maneuver.t0) + T * zeros, T * zeros
+    return SearchResult(route, peak, times, offsets, float(alpha), by_multiplier, evaluations, reason)
 
 
 def survey(count: int = 200, seed: int = 0, routes: Sequence[str] = ROUTES) -> Survey:
