@@ -59,7 +59,7 @@ class Rows(NamedTuple):
             return self
         faults = {k: self.faults[i] for k, i in enumerate(places) if i in self.faults}
         columns = {name: column[list(places)] for name, column in self.columns.items()}
-        rows, lines = ([of[i] for i in places] for of in (self.rows, self.lines))
+        rows, lines = [self.rows[i] for i in places], [self.lines[i] for i in places]
         return Rows(self.header, rows, lines, columns, faults)
 
 
