@@ -16,6 +16,9 @@ BARE = frozenset({float, int, bool, str, type(None), np.float64, np.float32, np.
 TINY = 2.0**-1022
 """The smallest number with all digits of double precision. Smaller ones are multiples of 2^-1074."""
 
+LARGEST_ANGLE = 2.0**53
+"""Neighbouring numbers beyond this are two radians or more apart, so that they say little of a phase."""
+
 FEW = 16
 """Up to so many numbers are checked faster one by one than by NumPy."""
 
@@ -143,6 +146,30 @@ def positive(name: str, value: ArrayLike) -> Array:
     few = array.size < 4
     if not (all(number > 0 for number in array.ravel().tolist()) if few else (array > 0).all()):
         raise ArgumentValueError(f"{name} must be positive, got {array[~(array > 0)].flat[0]}", name)
+    return array
+
+
+def angles(name: str, value: ArrayLike, takes: str) -> Array:
+    """`value` as finite angles in radians.
+
+    Raises
+    ------
+    ValueError
+        If an angle is so large that double precision does not hold its place on the turn.
+
+    Examples
+    --------
+    >>> angles("anomaly", 0.5, "a number")
+    array(0.5)
+    """
+    array = finite(name, value, takes)
+    large = np.abs(array) > LARGEST_ANGLE
+    if large.any():
+        message = (
+            f"{name} must be {takes}, at most {LARGEST_ANGLE:.1e} rad, beyond which neighbouring numbers are "
+            f"2 rad or more apart, got {array[large].flat[0]}"
+        )
+        raise ArgumentValueError(message, name)
     return array
 
 
