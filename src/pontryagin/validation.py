@@ -198,6 +198,17 @@ def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
     return inside
 
 
+def members_of(fault: NDArray[np.bool_]) -> tuple[int, ...]:
+    """Which problems of a stack are at fault, as errors carry it: their places in the flattened stack.
+
+    Examples
+    --------
+    >>> members_of(np.array([[False, True], [False, True]]))
+    (1, 3)
+    """
+    return tuple(np.flatnonzero(fault).tolist()) if fault.ndim else ()
+
+
 def common_shape(**shapes: tuple[int, ...]) -> tuple[int, ...]:
     """The shape that the leading shapes of the named arguments broadcast to.
 
@@ -244,14 +255,15 @@ def require_digits(name: str, gives: str, moving: ArrayLike, *units: ArrayLike) 
         size = np.asarray(unit)
         lost = np.asarray(moving) & ~((size >= TINY) & (size < np.inf))
         if lost.any():
-            raise beyond_range(name, gives, np.argwhere(lost)[0].tolist())
+            raise beyond_range(name, gives, lost)
 
 
-def beyond_range(name: str, gives: str, index: list[int]) -> ArgumentValueError:
-    """The error for an argument whose answer, at this index of a stack, double precision cannot hold."""
+def beyond_range(name: str, gives: str, lost: NDArray[np.bool_]) -> ArgumentValueError:
+    """The error for an argument whose answer, where a stack is `lost`, double precision cannot hold."""
+    index = np.argwhere(lost)[0].tolist()
     where = f" at index {index}" if index else ""
     message = (
         f"{name} must give {gives} within the range of floating-point numbers, {TINY:.1e} to "
         f"{np.finfo(float).max:.1e} in modulus, got one beyond it{where}"
     )
-    return ArgumentValueError(message, name)
+    return ArgumentValueError(message, name, members_of(lost))
