@@ -12,7 +12,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics import compile as compiler
 from pontryagin.triple_integrator.problem.panels import Function, Panels
-from pontryagin.validation import finite
+from pontryagin.validation import finite, require_bare
 from pontryagin.value import freeze
 
 
@@ -100,7 +100,8 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
         moved = disturbance.from_start()
         return _on_intervals(moved, np.zeros_like(start), end - start, np.asarray(moved.edges))
     told = np.asarray(edges, dtype=float)
-    of_function = np.asarray(getattr(disturbance, "edges", ()), dtype=float).ravel()
+    own = getattr(disturbance, "edges", ())
+    of_function = finite("disturbance", own, "a function of time whose edges are times").ravel()
     if of_function.size:
         shared = np.broadcast_to(of_function, (*told.shape[:-1], of_function.size))
         told = np.sort(np.concatenate([told, shared], axis=-1), axis=-1)
@@ -206,8 +207,9 @@ def _at(function: Callable[[Any], Any], time: float) -> float:
 
 
 def _real(value: object) -> Array:
+    require_bare("disturbance", value, "a function of time that returns numbers")
     array = np.asarray(value)
-    if array.dtype.kind in "cUS":
+    if array.dtype.kind not in "fiubO":
         raise TypeError(f"got {value!r}")
     return array.astype(float)
 
