@@ -5,12 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
 
+from linear_flight import fly
 from pontryagin import Infeasible
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge, printed
 from pontryagin.orbit_correction.plan.thrust import Thrust
-from pontryagin.orbit_correction.system.satellite import LINEAR, step_input, step_transition
+from pontryagin.orbit_correction.system.satellite import step_input, step_transition
 from strategies import deviations
 
 Z0 = np.array(printed.Z0)
@@ -34,17 +34,6 @@ def test_the_satellite_as_a_general_system_of_ellipsoids():
 
     system = DiscreteSystem(lambda k: step_transition(k, 0.25), shape)
     assert_allclose(gauge(system, Z0, 4).alpha, correct(Z0).gauge, rtol=1e-12)
-
-
-def fly(plan):
-    """The state at the end of the linear flow by SciPy, with a jump of the speeds before each interval."""
-    z = plan.z0
-    for impulse in plan.impulses:
-        kicked = z + np.array([0, *impulse])
-        z = solve_ivp(lambda _, x: LINEAR @ x, (0, plan.thrust.interval), kicked, rtol=1e-12, atol=1e-16).y[
-            :, -1
-        ]
-    return z
 
 
 @pytest.mark.slow
@@ -189,3 +178,18 @@ def test_impulses_hold_every_instant_and_the_count_those_that_fire():
     plan = correct([0.0, 0.004, 0.0], thrust="ball")
     assert len(plan.impulses) == int(plan.instants)
     assert int(plan.impulse_count) == np.count_nonzero(plan.impulses.any(axis=1))
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+def test_states_and_peaks_of_any_size_have_the_same_plan_or_are_refused(thrust):
+    state, peak = np.array([0.001, 0.002, -0.0015]), 0.0035
+    usual = correct(state, peak=peak, thrust=thrust)
+    for power in (-1000, -600, -300, 300, 600, 1000):
+        plan = correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
+        assert plan.steps == usual.steps
+        assert_allclose(plan.gauge, usual.gauge, rtol=1e-14)
+        assert_allclose(plan.impulses, usual.impulses * 2.0**power, rtol=1e-12, atol=1e-15 * 2.0**power)
+    for power in (-1050, -1016):
+        with pytest.raises(ValueError, match=r"^z0 must give with interval and peak a plan within") as caught:
+            correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
+        assert caught.value.argument == "z0"

@@ -1,6 +1,6 @@
 """Averaged extremals by collocation: Newton's method, further guesses where it fails, mesh refinement."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certified import AveragedExtremals, Found, certified, joined
 from pontryagin.averaging.averaged.collocation import CLOSE, Problem, Trajectories, newton
-from pontryagin.averaging.averaged.guess import shot, straight
+from pontryagin.averaging.averaged.guess import shot, straight, towards_target
 from pontryagin.averaging.averaged.refinement import COARSE, ENOUGH, FINE, GRADED, foreseen, resolved
 from pontryagin.averaging.averaged.soundness import point, require_sound, which
 from pontryagin.averaging.system.model import Model
@@ -87,7 +87,14 @@ def _alone(problem: Problem, names: Sequence[str], members: NDArray[np.intp]) ->
 
 def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
     """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
-    for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
+    guesses: tuple[Callable[[], Trajectories | None], ...] = (
+        lambda: straight(problem, FINE).path,
+        lambda: shot(problem, FINE),
+        lambda: straight(problem, GRADED).path,
+        lambda: towards_target(problem, FINE),
+    )
+    for make in guesses:
+        guess = make()
         if guess is not None:
             path, closeness = newton(problem, guess)
             if closeness[0] <= CLOSE:

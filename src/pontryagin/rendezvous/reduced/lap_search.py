@@ -54,8 +54,10 @@ ALIKE, SIMILAR, SAME = 1e-2, 5e-2, 1e-7
 relative; in an unknown, as flown."""
 
 
-def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
+def extremals_on_laps(setting: Setting, log: SearchLog, best: float = math.inf) -> Iterator[Root[Flight]]:
     """The extremals of a problem that are found lap by lap, in no particular order.
+
+    The cost of the best extremal known is given, if there is one.
 
     Raises
     ------
@@ -67,7 +69,6 @@ def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]
     if max(gap(setting.scaled)) < TOGETHER:  # So the duration is fixed, and no thrust is needed.
         yield meet(setting, COASTING)
         return
-    best = math.inf
     for sense in (1, -1):
         laps, last = 0 if sense > 0 else -1, False
         while abs(laps) <= FARTHEST and not last:
@@ -184,7 +185,8 @@ def _transcribed(
         return
     reasons: list[str] = []
     try:
-        yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
+        begin = partial(families.least_energy, lap)
+        yield from ladder.Ladder(lap, cost, begin).transfers(durations, reasons, most)
         log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")
@@ -205,7 +207,7 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
     for way in ways:
         try:
             path = way()
-            if any(_similar(path, other) for other in known):
+            if any(similar(path, other) for other in known):
                 continue
             known.append(path)
             yield families.bounded(lap, path, cost, duration)
@@ -214,7 +216,7 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
                 log.given_up.append(f"lap {lap.laps}: {reason}")
 
 
-def _similar(one: Path, other: Path) -> bool:
+def similar(one: Path, other: Path) -> bool:
     """Whether two transcribed paths of one duration, perhaps on different nodes, seem to be one extremal."""
     first, second = one.nodes[6:, 0], other.nodes[6:, 0]
     return float(np.abs(first - second).max()) < SIMILAR * float(np.abs(first).max())
