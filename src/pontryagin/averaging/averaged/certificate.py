@@ -18,8 +18,6 @@ from pontryagin.value import value_class
 
 ENTRIES = ("boundary", "transversality", "hamiltonian", "maximality", "unresolved")
 """The entries of an `AveragedCertificate`, in their order."""
-SHORT = 1e-3
-"""Length of a panel, as a share of the way, below which rounding decides how exact derivatives are."""
 LEAST_POINTS = 27
 """Number of points on a cell that is shorter than its panel; see `resolution.REACH`."""
 
@@ -58,7 +56,8 @@ def certify(
     """Residuals of extremals between the collocation points.
 
     The derivatives of the series are compared with the means of f under the control u* itself, not with the
-    derivatives of h0, and all means are taken by rules with other nodes than the solver's.
+    derivatives of h0, and all means are taken by rules with other nodes than the solver's. A violation of the
+    equations of motion is measured by the change that it makes over a panel.
 
     Parameters
     ----------
@@ -100,10 +99,10 @@ def certify(
         return np.asarray(np.abs(values).reshape(len(z), -1).max(axis=1))
 
     slow_time = duration[:, None, None]
-    pace = _paces(slope / size[:, None], points, own, cells)
-    states = (slope[..., :n] - slow_time * rate.reshape(-1, count, n)) / size[:, None, :n] / pace[..., :n]
+    lengths = np.repeat(np.diff(own)[np.searchsorted(own, cells[:-1], side="right") - 1], points)[:, None]
+    states = lengths * (slope[..., :n] - slow_time * rate.reshape(-1, count, n)) / size[:, None, :n]
     force = (h.gradient + kappa[:, None] * omega.gradient)[:, :n].reshape(-1, count, n)
-    costates = (slope[..., n:] + slow_time * force) / size[:, None, n:] / pace[..., n:]
+    costates = lengths * (slope[..., n:] + slow_time * force) / size[:, None, n:]
     level = (h.value + kappa * omega.value).reshape(-1, count, 1) / price[:, None, None]
     start, end = path.z[:, 0], path.z[:, -1]
     target, terminal = model.ends(end[:, :n], problem.numbers)
@@ -124,16 +123,6 @@ def certify(
         maximality=largest(np.einsum("pi,pi->p", flat[:, n:], rate) - cost - h.value) / price,
     )
     return certificate, everywhere.reshape(len(z), -1, points).max(axis=-1)
-
-
-def _paces(slope: Array, points: int, panels: Array, cells: Array) -> Array:
-    """Units (s, k, 2n) of rates: the largest modulus on a cell of so many points, and at least 1.
-
-    On panels that are shorter than `SHORT` the unit is larger, as rounding is in derivatives there.
-    """
-    each = np.abs(slope).reshape(len(slope), -1, points, slope.shape[-1]).max(axis=2)
-    lengths = np.diff(panels)[np.searchsorted(panels, cells[:-1], side="right") - 1]
-    return np.repeat(np.maximum(each, np.maximum(1.0, SHORT / lengths)[:, None]), points, axis=1)
 
 
 def _at_rest(problem: Problem, path: Trajectories) -> MaximumPrinciple:

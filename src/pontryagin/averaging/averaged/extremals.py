@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certified import AveragedExtremals, Found, certified, joined
 from pontryagin.averaging.averaged.collocation import CLOSE, Problem, Trajectories, newton
+from pontryagin.averaging.averaged.followed import followed
 from pontryagin.averaging.averaged.guess import shot, straight, towards_target
 from pontryagin.averaging.averaged.refinement import COARSE, ENOUGH, FINE, GRADED, foreseen, resolved
 from pontryagin.averaging.averaged.soundness import point, require_sound, which
@@ -75,31 +76,40 @@ def _alone(problem: Problem, names: Sequence[str], members: NDArray[np.intp]) ->
     """Solve one problem (1), which was not solved among others."""
     member = int(members[0])
     try:
-        paths = resolved(problem, _from_other_guesses(problem, names, member), members)
+        paths = _from_other_guesses(problem, names, member)
     except NotConverged:
         seen = foreseen(problem, names, member)
         if seen is None:
             raise
         problem, path = seen
-        paths = resolved(problem, path, members, ENOUGH)
-    return [found for _, path in paths for _, found in certified(problem, path, names, members)]
+        paths = [finer for _, finer in resolved(problem, path, members, ENOUGH)]
+    return [found for path in paths for _, found in certified(problem, path, names, members)]
 
 
-def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
-    """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
+def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> list[Trajectories]:
+    """Solve one problem (1) from better guesses, where the first one failed or was not fine enough."""
     guesses: tuple[Callable[[], Trajectories | None], ...] = (
+        lambda: straight(problem, COARSE).path,
         lambda: straight(problem, FINE).path,
         lambda: shot(problem, FINE),
+        lambda: followed(problem, COARSE.degree),
         lambda: straight(problem, GRADED).path,
         lambda: towards_target(problem, FINE),
     )
+    unresolved: NotConverged | None = None
     for make in guesses:
         guess = make()
         if guess is not None:
             path, closeness = newton(problem, guess)
             if closeness[0] <= CLOSE:
-                return path
-    return _continued(problem, names, member)
+                try:
+                    return [found for _, found in resolved(problem, path, np.array([member]))]
+                except NotConverged as error:
+                    unresolved = unresolved or error
+    if unresolved is not None:
+        raise unresolved
+    path = _continued(problem, names, member)
+    return [found for _, found in resolved(problem, path, np.array([member]))]
 
 
 def _already_there(problem: Problem) -> NDArray[np.bool_]:

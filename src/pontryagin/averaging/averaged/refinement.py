@@ -18,7 +18,7 @@ COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
 GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
 """A panel is halved while its last coefficients, relative to the variable, exceed this."""
-LAST_TAIL, MOST_PANELS = 1e-9, 40
+LAST_TAIL, MOST_PANELS = 1e-9, 64
 """Largest last coefficients accepted when refinement ends, and number of panels at which it must end."""
 ROUGH = 1e-10
 """Residual on a cell from which its features are taken into account."""
