@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,18 @@ BLURRED = 1e-9
 STEEPEST = 100.0
 """Largest relative slope per length of a stretch at which more than that is put down to this rounding."""
 
+LATE = 1e-13
+"""A relative change of values by the rounding of times above this is made up for."""
+
+TOO_LATE = 1e-3
+"""Not so where times are rounded by more than this share of half a panel."""
+
+FAINT = 1e-6
+"""A panel that can hold at most this share of what another one can hold waits for that one."""
+
+LEAST = 1e-295
+"""Errors of a value smaller than this are those of tiny numbers, which enclosures round up."""
+
 PANELS = 4096
 """Largest number of panels into which an interval is cut."""
 
@@ -47,7 +60,12 @@ def chebyshev_fit(degree: int) -> tuple[Array, Array]:
 
 
 Function = Callable[[NDArray[np.intp], Array], Array]
-"""A function of the numbers of stretches, and of times since the starts of these, to values, each (k,)."""
+"""A function of the numbers of stretches, and of times within these, to values, each (k,)."""
+
+
+Proof = Callable[[NDArray[np.intp], Array, Array], Array]
+"""A function of the numbers of stretches, and of both ends of panels, each (k,), to (2, k): bounds on the errors
+of series through the values at the nodes, and on the moduli of the function; nan where the values decide."""
 
 
 @dataclass(frozen=True)
@@ -56,20 +74,38 @@ class Panels:
 
     Attributes
     ----------
-    function : callable (stretch, time since its start) -> values, each (k,)
-        The function. Stretches are numbered through all intervals.
+    function : callable (stretch, time) -> values, each (k,)
+        The function. Stretches are numbered through all intervals. Where a stretch ends at an edge, it is
+        never called at the edge itself or beyond it, to which the rounding of a time may lead.
     clock : (m, k + 2) array
         The ends of the k + 1 stretches of each interval, ascending; a stretch may be empty. The function may
         be not smooth from one stretch to the next.
+    proof : callable, optional
+        Bounds on what values at the nodes do not show. Without them the values decide.
     """
 
     function: Function
     clock: Array
+    proof: Proof | None = None
 
     @property
     def _origin(self) -> Array:
         """The starts of the stretches, (n,)."""
         return self.clock[:, :-1].ravel()
+
+    @cached_property
+    def _bounds(self) -> tuple[Array, Array]:
+        """The first and the last time of the clock within each stretch, (n,)."""
+        first, last = self.clock[:, :-1].copy(), self.clock[:, 1:].copy()
+        first[:, 1:], last[:, :-1] = np.nextafter(first[:, 1:], np.inf), np.nextafter(last[:, :-1], -np.inf)
+        return first.ravel(), last.ravel()
+
+    def _sampled(self, stretch: NDArray[np.intp], low: Array, after: Array) -> tuple[Array, Array]:
+        """Values at times (k, n) after times (k,) since the starts of stretches, and their delay by rounding."""
+        origin, first, last = (x[stretch][:, None] for x in (self._origin, *self._bounds))
+        time = np.clip(origin + (low[:, None] + after), first, last)
+        values = self.function(np.repeat(stretch, after.shape[1]), time.ravel())
+        return values.reshape(after.shape), ((time - origin) - low[:, None]) - after
 
     def _member(self, stretch: NDArray[np.intp]) -> NDArray[np.intp]:
         """The intervals of stretches."""
@@ -104,11 +140,29 @@ class Panels:
         for t, inside, x in ((low, low_inside, -1.0), (high, high_inside, 1.0)):
             made = np.flatnonzero(inside)
             if made.size:
-                off = np.abs(
-                    self.function(stretch[made], t[made]) - chebyshev.chebval(x, coefficients[made].T)
-                )
+                values = self._sampled(stretch[made], t[made], np.zeros((made.size, 1)))[0][:, 0]
+                off = np.abs(values - chebyshev.chebval(x, coefficients[made].T))
                 right[made] &= off <= LOOSER * allowed[made]
         return right
+
+    def _proved(
+        self, smooth: NDArray[np.bool_], stretch: NDArray[np.intp], low: Array, high: Array, allowed: Array
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Which of the panels are proved to be resolved, and which of the others wait, (p,) each.
+
+        Those wait that can hold but little in comparison with another one of their interval. When that one is
+        known better, they may be found to be negligible. Where nothing is proved, those are resolved that
+        look smooth.
+        """
+        if self.proof is None:
+            return smooth, np.zeros_like(smooth)
+        error, size = self.proof(stretch, low, high)
+        told = ~np.isnan(error)
+        proved = np.where(told, error <= np.maximum(allowed, LEAST), smooth)
+        most = np.where(proved, 0.0, np.where(told, size * (high - low), np.inf))
+        largest = np.zeros(len(self.clock))
+        np.maximum.at(largest, self._member(stretch), most)
+        return proved, ~proved & (most < FAINT * largest[self._member(stretch)])
 
     def _blur(
         self, stretch: NDArray[np.intp], ends: tuple[Array, Array], sizes: tuple[Array, Array]
@@ -139,7 +193,7 @@ class Panels:
         (p, degree + 1) array
             Coefficients of the series.
         """
-        nodes, invert = chebyshev_fit(DEGREE)
+        nodes, _ = chebyshev_fit(DEGREE)
         low: Any
         stretch, low, high, low_inside, high_inside = self._start()
         done: list[tuple[Array, ...]] = []
@@ -147,12 +201,11 @@ class Panels:
         area = np.zeros(len(self.clock))
         while len(stretch):
             width, member = high - low, self._member(stretch)
-            sample = (low[:, None] + width[:, None] * (nodes + 1) / 2).ravel()
-            sample = self.function(np.repeat(stretch, nodes.size), sample).reshape(len(low), -1)
+            sample, late = self._sampled(stretch, low, width[:, None] * ((nodes + 1) / 2))
             largest = np.abs(sample).max(axis=1)
             with np.errstate(over="ignore"):
                 np.maximum.at(area, member, (np.abs(sample) / sample.shape[1]).sum(axis=1) * width)
-                coefficients = sample @ invert.T
+                coefficients = _fitted(sample, 2 * late / width[:, None])
                 tail = np.abs(coefficients[:, -3:]).max(axis=1)
                 slope = np.abs(coefficients) @ np.arange(DEGREE + 1) * 2 / width
                 blurred = self._blur(stretch, (low, high), (slope, largest))
@@ -161,8 +214,9 @@ class Panels:
             at = np.flatnonzero(smooth)
             ends = (low[at], high[at], low_inside[at], high_inside[at])
             smooth[at] = self._meets_its_ends(stretch[at], ends, coefficients[at], allowed[at])
+            smooth, waits = self._proved(smooth, stretch, low, high, allowed)
             done.append((stretch[smooth], low[smooth], width[smooth], coefficients[smooth]))
-            rough, middle = ~smooth, (low + high) / 2
+            rough, middle = ~(smooth | waits), (low + high) / 2
             np.add.at(count, member[rough], 1)
             before, time, after = (self._origin[stretch] + x for x in (low, middle, high))
             lost = rough & (
@@ -172,16 +226,19 @@ class Panels:
                 i = int(np.argmax(lost))
                 raise NotConverged(
                     f"disturbance is not integrable to 1e-13 near t = {time[i]:.6g}",
-                    float(tail[i] / largest[i]),
+                    float(tail[i] / largest[i]) if largest[i] else inf,
                 )
+            held = [x[waits] for x in (stretch, low, high, low_inside, high_inside)]
             stretch, low, middle, high, low_inside, high_inside = (
                 np.repeat(x[rough], 2) for x in (stretch, low, middle, high, low_inside, high_inside)
             )
             low[1::2], high[::2] = middle[1::2], middle[::2]
             low_inside[1::2], high_inside[::2] = True, True
-        parts: list[Any] = [np.concatenate(column) for column in zip(*done, strict=True)]
-        order = np.lexsort((parts[1], parts[0]))
-        stretch, low, width, coefficients = (part[order] for part in parts)
+            parts = zip((stretch, low, high, low_inside, high_inside), held, strict=True)
+            stretch, low, high, low_inside, high_inside = (np.concatenate(pair) for pair in parts)
+        columns: list[Any] = [np.concatenate(column) for column in zip(*done, strict=True)]
+        order = np.lexsort((columns[1], columns[0]))
+        stretch, low, width, coefficients = (column[order] for column in columns)
         owner = self._member(stretch)
         left = low + (self.clock[:, :-1] - self.clock[:, :1]).ravel()[stretch]
         first = np.searchsorted(owner, np.arange(len(self.clock) + 1))
@@ -202,6 +259,34 @@ class Panels:
         inside += running[low]
         inside[:, 0] += running[low, 1] * past
         return inside.reshape(*times.shape, 2)
+
+
+@cache
+def _derivatives(degree: int) -> tuple[Array, Array]:
+    """The matrices from coefficients of series to their first and second derivatives at the nodes."""
+    nodes, _ = chebyshev_fit(degree)
+    unit = np.eye(degree + 1)
+    first, second = (chebyshev.chebval(nodes, chebyshev.chebder(unit, order)) for order in (1, 2))
+    return np.asarray(first), np.asarray(second)
+
+
+def _fitted(sample: Array, late: Array) -> Array:
+    """Coefficients of series from values (p, degree+1) at nodes that are late by so much, in [-1, 1].
+
+    The series itself tells how much the values change between the nodes and the rounded times, so that
+    narrow features keep the digits that the values have.
+    """
+    _, invert = chebyshev_fit(DEGREE)
+    first, second = _derivatives(DEGREE)
+    coefficients: Array = sample @ invert.T
+    moved = late * (coefficients @ first)
+    most = np.abs(late).max(axis=1, initial=0.0)
+    at = np.flatnonzero((np.abs(moved).max(axis=1) > LATE * np.abs(sample).max(axis=1)) & (most < TOO_LATE))
+    for _ in range(3 if at.size else 0):
+        given = coefficients[at]
+        moved = late[at] * (given @ first + late[at] / 2 * (given @ second))
+        coefficients[at] = (sample[at] - moved) @ invert.T
+    return coefficients
 
 
 def _running(first: NDArray[np.intp], owner: NDArray[np.intp], width: Array, coefficients: Array) -> Array:
