@@ -60,6 +60,10 @@ bench: $(EXTRA) ## measure the solvers side by side with others'
 	@echo "== benchmarks"
 	@$(PY) -m benchmarks
 
+.PHONY: soak
+soak: $(EXTRA) ## random problems against certificates and foreign solvers, a minute: make soak SECONDS=7200
+	@$(PY) -m studies soak --seconds $(or $(SECONDS),60)
+
 .PHONY: study
 study: $(EXTRA) ## run a study on, an hour unless SECONDS says otherwise, and keep its table: make study NAME=soak
 	@$(PY) -m studies $(NAME) --seconds $(or $(SECONDS),3600) --keep
@@ -89,6 +93,15 @@ check: lint ## lint and the quick tests of the core, or of one paper: make check
 	@folders=$$($(PY) -m tests.house.selection $(PAPER)); \
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest -m "not slow" \
 	  $(if $(filter-out 1,$(CORES)),-n $(CORES)) $$folders
+
+.PHONY: mutation
+mutation: $(READY) ## change the modules that decide, and see whether tests notice: make mutation SECONDS=3600
+	@$(PY) -m studies mutation --seconds $(or $(SECONDS),3600) --keep
+
+.PHONY: wheel
+wheel: $(READY) ## the wheel passes its tests on Python 3.11 to 3.13: VERSION= EXTRA= PAPER= LOWEST=1
+	@$(PY) -m tests.house.wheel $(if $(VERSION),--version $(VERSION)) $(if $(EXTRA),--extra $(EXTRA)) \
+	  $(if $(PAPER),--paper $(PAPER)) $(if $(LOWEST),--lowest)
 
 .PHONY: coverage
 coverage: $(READY) ## which statements the tests reach, into build/coverage

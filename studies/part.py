@@ -26,6 +26,8 @@ class Part:
         Does a chunk: from a generator that is seeded for it alone, and its number, to what it found.
     share : float
         Share of the time that it gets, relative to those of the other parts.
+    holds : callable
+        Whether what a chunk found still holds, where that is seen from what it found; else it is done again.
     """
 
     name: str
@@ -33,6 +35,7 @@ class Part:
     chunks: int
     run: Callable[[np.random.Generator, int], Found]
     share: float = 1.0
+    holds: Callable[[Found], bool] = lambda found: True
 
 
 @dataclass(frozen=True)

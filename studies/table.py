@@ -38,10 +38,10 @@ def write(records: Records, folders: Sequence[Path]) -> None:
 def show(records: Records) -> None:
     """Print the table."""
     study = records.study
-    known = {part: records.read(part) for part in study.parts}
-    rows = [study.row(part, _found(done)) for part, done in known.items() if done]
+    known = [(part, records.read(part)) for part in study.parts]
+    rows = [{"part": part.name, **study.row(part, _found(done))} for part, done in known if done]
     if rows:
-        printed(study.title, by_heading([{"part": "", **row} for row in rows]))
+        printed(study.title, by_heading(rows))
 
 
 def _row(study: Study, part: Part, done: Sequence[Mapping[str, Any]], key: str) -> dict[str, Any]:

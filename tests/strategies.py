@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from independent import bang_bang_moments
+from pontryagin.orbit_correction import DiscreteSystem
 from pontryagin.triple_integrator import Maneuver
 from pontryagin.triple_integrator.attitude import RigidBody
 
@@ -86,6 +87,27 @@ def deviations(size=0.02, least=0.0):
     """A deviation (3,) from the circle, of which some coordinate exceeds `least` in modulus."""
     coordinate = st.floats(-size, size, allow_subnormal=False)
     return states(coordinate).filter(lambda z: np.abs(z).max() >= least)
+
+
+def random_system(seed, n, steps, decades):
+    """Matrices A of moderate condition, matrices H of ellipsoids whose axes span the decades, and a state."""
+    generator = np.random.default_rng(seed)
+
+    def matrix(spread):
+        left, right = (np.linalg.qr(generator.normal(size=(n, n)))[0] for _ in range(2))
+        return left * 10.0 ** generator.uniform(-spread, spread, n) @ right
+
+    A = np.array([matrix(0.2) for _ in range(steps)])
+    H = [np.linalg.inv(L @ L.T) for L in (matrix(decades / 2) for _ in range(steps))]
+    return A, np.array([(shape + shape.T) / 2 for shape in H]), generator.normal(size=n)
+
+
+@st.composite
+def systems(draw, most=8):
+    """A nonstationary system of `most` steps, a state, and a number of steps."""
+    n, decades = draw(st.integers(1, 5)), draw(st.integers(0, 3))
+    A, H, x0 = random_system(draw(st.integers(0, 10_000)), n, most, decades)
+    return DiscreteSystem(A, H), x0, draw(st.integers(1, most))
 
 
 def maneuver_with(c, duration=1.0):

@@ -15,6 +15,8 @@ def test_every_figure_and_table_is_on_the_map(path):
     folder = re.escape(path.parent.name)
     if path.parent.parent.name == "benchmarks":
         folder = rf"benchmarks/{folder} \(`make bench`\)"
+    if path.parent.parent.name == "studies":
+        folder = rf"studies/{folder} \(`make study NAME={folder}`\)"
     assert re.search(rf"^\| {re.escape(path.stem)} \| {folder} \|", README, re.MULTILINE)
 
 

@@ -98,6 +98,7 @@ def test_without_epsilon_it_is_the_first_approximation():
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="recording")
 def test_files_are_drawn_and_recorded(tmp_path):
     for name, start in {"a.svg": b"<?xml", "a.png": b"\x89PNG"}.items():
         result = solve("smooth", *SMOOTH, "--plot", tmp_path / name)

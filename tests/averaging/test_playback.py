@@ -22,7 +22,7 @@ from pontryagin.averaging.playback import attitude
 from pontryagin.averaging.playback.pair import Pair
 from pontryagin.display.recording import read_back
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.extra(name="recording")]
 
 
 def recorded(pair, path):

@@ -27,7 +27,6 @@ from command_line import (
 )
 from pontryagin import __version__, ledger, papers
 from pontryagin.display.recording import read_back
-from pontryagin.report import build
 from pontryagin.triple_integrator import (
     Maneuver,
     minimum_energy,
@@ -151,6 +150,7 @@ class TestFiles:
         assert float(size[2]) > 300
         assert float(size[3]) > 200
 
+    @pytest.mark.extra(name="recording")
     def test_a_recording_holds_the_motion(self, tmp_path):
         path = tmp_path / "motion.rrd"
         assert solve("--norm", "2", *ENDS, "--duration", "2", "--record", path).exit_code == 0
@@ -167,7 +167,13 @@ class TestFiles:
         assert_refused(result, "--plot")
         assert not list(tmp_path.iterdir())
 
-    @pytest.mark.parametrize(("option", "name"), [("--plot", "a.svg"), ("--record", "a.rrd")])
+    @pytest.mark.parametrize(
+        ("option", "name"),
+        [
+            ("--plot", "a.svg"),
+            pytest.param("--record", "a.rrd", marks=pytest.mark.extra(name="recording")),
+        ],
+    )
     def test_a_path_that_cannot_be_written_is_named(self, tmp_path, option, name):
         (tmp_path / "file").touch()
         result = solve("--norm", "2", *ENDS, "--duration", "2", option, tmp_path / "file" / name)
@@ -229,6 +235,14 @@ class TestRefusals:
                 options(xf="1e308,0,0", duration="1e-200"),
                 "--xf must give, with x0 and tf - t0, a control",
             ),
+            (
+                options(xf="1e308,0,0", duration="1e-200", norm="3"),
+                "--xf must give, with x0 and tf - t0, a control",
+            ),
+            (
+                options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
+                "--xf must give, with x0 and peak, a motion",
+            ),
         ],
     )
     def test_a_wrong_option_is_named_in_one_line(self, arguments, begins):
@@ -239,8 +253,6 @@ class TestRefusals:
         [
             options(disturbance="1/t"),
             options(norm="1.0000001"),
-            options(xf="1e308,0,0", duration="1e-200", norm="3"),
-            options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
         ],
     )
     def test_a_problem_without_an_answer_exits_with_1_and_a_line(self, arguments):
@@ -253,9 +265,10 @@ class TestRefusals:
             (["ledgers"], "No such command 'ledgers'"),
             (["ledger", "--verdict", "wrong"], "--verdict: got 'wrong', takes one of 'holds'"),
             (["ledger", "--paper", "Newton"], "--paper: got 'Newton'"),
-            (
+            pytest.param(
                 ["report", "everything"],
                 "STAGE takes notebooks, figures, recordings, report, got 'everything'",
+                marks=pytest.mark.extra(name="report"),
             ),
         ],
     )
@@ -353,14 +366,32 @@ class TestLedger:
         assert all(entry.label.split()[0] in shown for entry in entries)
 
 
+def test_the_report_without_its_extra_names_it(monkeypatch):
+    from pontryagin import report
+
+    monkeypatch.delattr(report, "build", raising=False)
+    monkeypatch.setitem(sys.modules, "pontryagin.report.build", None)
+    result = run("report", "figures")
+    assert result.exit_code == 1
+    assert result.stderr.endswith("which is not installed: pip install 'pontryagin[report]'\n")
+
+
+@pytest.mark.extra(name="report")
 class TestReport:
-    def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch):
+    @pytest.fixture
+    def build(self):
+        """The module that builds the report; it needs the extra."""
+        from pontryagin.report import build
+
+        return build
+
+    def test_it_builds_up_to_the_stage_and_hands_on_the_status(self, monkeypatch, build):
         calls = []
         monkeypatch.setattr(build, "main", lambda arguments: calls.append(arguments) or 1)
         assert run("report", "figures", "--workers", "1").exit_code == 1
         assert calls == [["figures", "--workers", "1"]]
 
-    def test_every_stage_is_in_the_help(self):
+    def test_every_stage_is_in_the_help(self, build):
         printed = run("report", "--help").stdout
         assert all(stage in printed for stage in build.STAGES)
 

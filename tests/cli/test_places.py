@@ -34,6 +34,7 @@ def command(option, table):
     return (*SOLVE, "--batch", table) if option == "--out" else ONE
 
 
+RECORDS = pytest.mark.extra(name="recording")
 WRITTEN = {
     "--out": ("a.csv", b"x10,"),
     "--plot": ("a.png", b"\x89PNG"),
@@ -42,7 +43,9 @@ WRITTEN = {
 }
 
 
-@pytest.mark.parametrize("option", WRITTEN)
+@pytest.mark.parametrize(
+    "option", [pytest.param(name, marks=RECORDS if name == "--record" else ()) for name in WRITTEN]
+)
 def test_a_pipe_is_written_through_and_a_link_is_followed(tmp_path, table, option):
     name, begins = WRITTEN[option]
     pipe, target, link = tmp_path / "nodes" / name, tmp_path / f"target-{name}", tmp_path / name
@@ -106,7 +109,14 @@ def room_for(size):
 
 @pytest.mark.parametrize("size", [0, 30_000])
 @pytest.mark.parametrize(
-    "option", ["--plot=a.svg", "--plot=a.pdf", "--plot=a.png", "--record=a.rrd", "--csv=a.csv"]
+    "option",
+    [
+        "--plot=a.svg",
+        "--plot=a.pdf",
+        "--plot=a.png",
+        pytest.param("--record=a.rrd", marks=RECORDS),
+        "--csv=a.csv",
+    ],
 )
 def test_no_half_of_a_file_is_left_where_the_disk_is_full(tmp_path, monkeypatch, option, size):
     monkeypatch.chdir(tmp_path)

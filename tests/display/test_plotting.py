@@ -132,6 +132,7 @@ def displayed(monkeypatch):
     return seen
 
 
+@pytest.mark.extra(name="report")
 def test_show_saves_and_displays_the_same_picture(folder, monkeypatch, displayed):
     monkeypatch.setenv("PONTRYAGIN_NOTEBOOK", "01-overview")
     plotting.show(two_curves(3), name="three", caption="Three lines.")
@@ -149,6 +150,7 @@ def test_show_saves_and_displays_the_same_picture(folder, monkeypatch, displayed
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="report")
 def test_outside_a_known_notebook_show_only_displays(folder, monkeypatch, displayed):
     monkeypatch.delenv("PONTRYAGIN_NOTEBOOK", raising=False)
     monkeypatch.delenv("JPY_SESSION_NAME", raising=False)

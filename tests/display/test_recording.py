@@ -14,6 +14,8 @@ from hypothesis.extra.numpy import arrays
 from pontryagin.display import recording
 from pontryagin.display.recording import Events, Plot, Scene, record
 
+pytestmark = pytest.mark.extra(name="recording")
+
 LAYOUT = [[Scene("the turn", "turn")], [Plot("angle", "angle"), Events("events", "events")]]
 T = np.linspace(0.0, 2.0, 21)
 ATTITUDE = np.stack([np.cos(T), np.sin(T), 0 * T, 0 * T], axis=-1)

@@ -59,12 +59,21 @@ def test_writing_what_is_there_already_touches_nothing(tmp_path):
     assert (after.st_mtime_ns, after.st_ino) == (before.st_mtime_ns, before.st_ino)
 
 
+@pytest.mark.checkout
 def test_figures_go_where_the_environment_says_else_into_the_checkout(tmp_path, monkeypatch):
     monkeypatch.delenv("PONTRYAGIN_FIGURES", raising=False)
     monkeypatch.chdir(tmp_path)
     assert files.figures_folder() == files.repository() / "figures"
     monkeypatch.setenv("PONTRYAGIN_FIGURES", str(tmp_path / "drawn"))
     assert files.figures_folder() == tmp_path / "drawn"
+
+
+def test_an_environment_inside_a_user_s_project_is_no_checkout(tmp_path, monkeypatch):
+    (tmp_path / "pyproject.toml").touch()
+    installed = tmp_path / ".venv" / "lib" / "python3.12" / "site-packages" / "pontryagin" / "io" / "files.py"
+    monkeypatch.setattr(files, "__file__", str(installed))
+    with pytest.raises(ValueError, match="installed without"):
+        files.repository()
 
 
 @pytest.fixture

@@ -78,6 +78,7 @@ def test_nothing_to_correct():
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="recording")
 def test_files_are_drawn_and_recorded(tmp_path):
     assert_plots(tmp_path, *SOLVE, "--z0", Z0)
     assert solve("--z0", Z0, "--thrust", "disc", "--record", tmp_path / "a.rrd").exit_code == 0

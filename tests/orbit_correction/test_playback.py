@@ -15,7 +15,7 @@ from pontryagin.orbit_correction.printed import Z0
 from pontryagin.orbit_correction.system.satellite import LINEAR
 from recording_files import assert_described, verified
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.extra(name="recording")]
 
 PLANS = {"orbit-correction": correct(Z0), "orbit-correction-square": correct(Z0, thrust="box")}
 

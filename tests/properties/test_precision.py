@@ -7,41 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from independent import bang_bang_moments, exact_peak, exactly
+from independent import (
+    bang_bang_moments,
+    exact_energy,
+    exact_impulse,
+    exact_moments,
+    exact_peak,
+    exact_peak_of,
+    exactly,
+)
 from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak
 from strategies import maneuver_with, moments, states, wide
-
-
-def exact_moments(x0, xf, T):
-    """The moments c in extended precision, from ends given as floats."""
-    a, b, T = [exactly(x) for x in x0], [exactly(x) for x in xf], exactly(T)
-    return [b[0] - a[0] - T * a[1] - T * T * a[2] / 2, b[1] - a[1] - T * a[2], b[2] - a[2]]
-
-
-def exact_energy(c, T):
-    """sqrt(c' D^-1 c) with D of (2.1), by solving in fifty digits."""
-    powers = [2, 1, 0]
-    scale = [mp.mpf(1) / 2, 1, 1]
-    D = mp.matrix(3, 3)
-    for i in range(3):
-        for j in range(3):
-            n = powers[i] + powers[j] + 1
-            D[i, j] = scale[i] * scale[j] * mp.mpf(T) ** n / n
-    c = mp.matrix(c)
-    return mp.sqrt((c.T * mp.lu_solve(D, c))[0])
-
-
-def exact_impulse(c, T):
-    """Largest p.mu over the extreme quadratics, from the closed form of the theory, in fifty digits."""
-    m = [c[2], c[1] / T, 2 * c[0] / T**2]
-
-    def one_side(m0, m1, m2):
-        bounds = [abs(m0 - 4 * m1 + 2 * m2), abs(m0 - 8 * m1 + 8 * m2)]
-        if m2 != 0 and 1 < m1 / m2 < 2:
-            bounds.append(abs(m0 - 2 * m1**2 / m2))
-        return max(bounds)
-
-    return max(abs(m[0]), one_side(*m), one_side(m[0], m[0] - m[1], m[0] - 2 * m[1] + m[2]))
 
 
 @pytest.mark.parametrize(
@@ -49,7 +25,7 @@ def exact_impulse(c, T):
     [
         (minimum_energy, exact_energy),
         (minimum_impulse, exact_impulse),
-        (minimum_peak, lambda c, T: exact_peak_of(c, T)),
+        (minimum_peak, exact_peak_of),
     ],
 )
 @given(x0=states(wide()), xf=states(wide()), duration=st.floats(-3, 3).map(lambda e: 10.0**e))
@@ -61,13 +37,6 @@ def test_norms_over_six_decades_of_data(solve, exact, x0, xf, duration):
         allowed = exact([abs(s) for s in sizes], exactly(duration)) + expected
     found = solve(Maneuver(x0, xf, duration)).norm
     assert abs(float(found - expected)) <= 2e-14 * float(allowed)
-
-
-def exact_peak_of(c, T):
-    """The least peak for any T, from the roots of the quartic after scaling to T = 1."""
-    scaled = [c[0] / T**3, c[1] / T**2, c[2] / T]
-    size = max(map(abs, scaled))
-    return size * exact_peak([x / size for x in scaled]) if size else mp.mpf(0)
 
 
 @pytest.mark.parametrize(

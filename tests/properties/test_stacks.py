@@ -1,13 +1,26 @@
 """A stack has the same results as its members, bit by bit, compiled or not, and raises no exceptions."""
 
+from functools import partial
+
 import numpy as np
 import pytest
-from numpy.testing import assert_array_equal
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
 
 from pontryagin.numerics import jit
-from pontryagin.triple_integrator import Maneuver, minimum_energy, minimum_impulse, minimum_peak, minimum_time
+from pontryagin.triple_integrator import (
+    Maneuver,
+    maximum_entropy,
+    minimum_energy,
+    minimum_impulse,
+    minimum_norm,
+    minimum_peak,
+    minimum_time,
+)
 from pontryagin.triple_integrator.least_time import arrival
 from pontryagin.triple_integrator.norms import energy, impulse, peak
+from strategies import maneuvers, signs, stacked, states, wide
 
 COUNT = 100_000
 KERNELS = {
@@ -121,3 +134,62 @@ def test_leading_axes_of_any_shape(solve):
     assert stack.norm.shape == (2, 1, 3)
     for index in np.ndindex(2, 1, 3):
         assert stack.norm[index] == solve(Maneuver(np.zeros(3), xf[index], durations[index[0], 0])).norm
+
+
+@st.composite
+def mixtures(draw):
+    """Manoeuvres whose units of angle and of time differ by many decades."""
+    members = []
+    for m in draw(st.lists(maneuvers(), min_size=2, max_size=5)):
+        time, angle = 2.0 ** draw(st.integers(-20, 20)), 2.0 ** draw(st.integers(-60, 60))
+        units = angle / time ** np.arange(3)
+        force = (m.disturbance or 0.0) * units[2]
+        members.append(Maneuver(m.x0 * units, m.xf * units, m.tf * time, m.t0 * time, force))
+    return members
+
+
+@pytest.mark.parametrize(
+    "solve",
+    [minimum_energy, minimum_peak, minimum_impulse, partial(minimum_norm, q=1.3), partial(minimum_norm, q=4)],
+    ids=["energy", "peak", "impulse", "q = 1.3", "q = 4"],
+)
+@given(members=mixtures())
+def test_a_stack_of_any_mixture_of_scales_is_its_members(solve, members):
+    together = solve(stacked(members))
+    for i, member in enumerate(members):
+        alone = solve(member)
+        assert_allclose(together.norm[i], alone.norm, rtol=1e-13)
+        assert_allclose(together.multipliers[i], alone.multipliers, rtol=1e-9)
+        assert_allclose(together.certificate.dual_value[i], alone.certificate.dual_value, rtol=1e-13)
+
+
+@given(members=st.lists(st.tuples(states(wide()), states(wide()), st.floats(-3, 3)), min_size=2, max_size=5))
+def test_a_stack_of_transfers_is_its_members(members):
+    x0, xf, decades = (np.array(column) for column in zip(*members, strict=True))
+    bounds = 10.0**decades
+    together = minimum_time(x0, xf, bounds)
+    for i in range(len(members)):
+        alone = minimum_time(x0[i], xf[i], bounds[i])
+        assert together.duration[i] == alone.duration
+        assert_array_equal(together.shares[i], alone.shares)
+
+
+@given(
+    members=st.lists(
+        st.tuples(
+            st.floats(0.2, 0.8), st.floats(0.1, 0.9), st.integers(-60, 60), st.integers(-20, 20), signs
+        ),
+        min_size=2,
+        max_size=5,
+    )
+)
+def test_a_stack_of_entropies_is_its_members(members):
+    mean, share, size, time, sign = np.array(members).T
+    T = 2.0**time
+    square = mean**2 + share * (mean - mean**2)
+    c = (sign * 2.0**size)[:, None] * np.stack([T**2 * square / 2, T * mean, np.ones_like(T)], axis=-1)
+    together = maximum_entropy(Maneuver(np.zeros(3), c, T))
+    for i in range(len(members)):
+        alone = maximum_entropy(Maneuver(np.zeros(3), c[i], T[i]))
+        assert_allclose(together.entropy[i], alone.entropy, rtol=1e-11, atol=1e-13)
+        assert_allclose(together.coefficients[i], alone.coefficients, rtol=1e-8, atol=1e-10)

@@ -9,7 +9,9 @@ from functools import partial
 import numpy as np
 import pytest
 
+import rendezvous_problems
 from pontryagin import averaging, orbit_correction, rendezvous, triple_integrator
+from strategies import random_system
 
 THREADS = 4
 CHASER = rendezvous.Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
@@ -103,6 +105,57 @@ def test_steps_of_a_discrete_system_are_checked_by_many_threads():
         calls = [partial(shared.step, k) for k in (9, 3, 7, 1, 5, 8)] + [partial(shared.factors, 6)]
         expected = [alone.step(k) for k in (9, 3, 7, 1, 5, 8)] + [alone.factors(6)]
         assert all(map(same, expected, in_threads(calls)))
+
+
+def stacks():
+    """Manoeuvres inside the moment cone, which every solver takes."""
+    rng = np.random.default_rng(6)
+    c = np.array([0.2, 0.5, 1.0]) + rng.uniform(-0.03, 0.03, (6, 4, 3))
+    return [triple_integrator.Maneuver([0, 0, 0], part, 1.0) for part in c]
+
+
+def deviations():
+    return 0.01 * np.random.default_rng(7).standard_normal((8, 20, 3))
+
+
+def braked(ratio):
+    found = averaging.spin_down([0.3, 0.4, 1.2], [1.0, 0.5, 0.4], ratio)
+    return found.cost, tuple(one.cost for one in found.exact(0.2))
+
+
+def drawn_gauge(seed):
+    A, H, x0 = random_system(seed, 3, 6, 2)
+    return orbit_correction.gauge(orbit_correction.DiscreteSystem(A, H), x0, 6)
+
+
+SOLVERS = {
+    "norm": (lambda m: triple_integrator.minimum_norm(m, 3.0).norm, stacks),
+    "entropy": (lambda m: triple_integrator.maximum_entropy(m).entropy, stacks),
+    "time": (lambda m: triple_integrator.minimum_time(m.x0, m.xf, 5.0).duration, stacks),
+    "ball": (lambda z: orbit_correction.correct(z).impulses, deviations),
+    "disc": (lambda z: orbit_correction.correct(z, thrust="disc").impulses, deviations),
+    "box": (lambda z: orbit_correction.correct(z, thrust="box").impulses, deviations),
+    "gauge": (lambda seed: drawn_gauge(seed).alpha, lambda: range(8)),
+    "rotor": (lambda a: averaging.rotor(1.0, a, mass=2, peak=1.0).cost, lambda: np.linspace(2, 3, 6)),
+    "spin down": (braked, lambda: (0.5, 0.6, 0.75, 0.8)),
+    "elements": (
+        lambda anomaly: rendezvous.solve_in_elements(leap(anomaly, duration=6.0)).cost,
+        lambda: (0.3, 0.5, 0.7, 0.9),
+    ),
+    "flights": (
+        lambda size: rendezvous.carry(leap(0.5, duration=6.0), size * rendezvous_problems.starts(4)).state,
+        lambda: (0.2, 0.4, 0.6, 0.8),
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] if name == "spin down" else []) for name in SOLVERS]
+)
+def test_every_solver_in_many_threads_is_the_one_of_one_thread(name):
+    solve, problems = SOLVERS[name]
+    calls = [partial(solve, one) for one in problems()]
+    assert all(map(same, in_threads(calls), [call() for call in calls]))
 
 
 FIRST = """

@@ -148,6 +148,7 @@ class TestAnswers:
         assert transcript.table(output)["problem"]["duration"] == "free"
 
     @pytest.mark.slow
+    @pytest.mark.extra(name="recording")
     def test_a_figure_and_a_recording_are_written(self, write, tmp_path, leap, monkeypatch):
         monkeypatch.setattr("pontryagin.rendezvous.reduced.solve.solve", lambda problem: leap)
         files = ["--plot", tmp_path / "a.png", "--record", tmp_path / "a.rrd"]
@@ -449,6 +450,7 @@ def test_every_example_in_the_help_runs(write, tmp_path, monkeypatch, leap):
     assert [schema.to_dict(given)["duration"] for given in solved] == [8.0, 8.0, 9.0, 6.0]
 
 
+@pytest.mark.checkout
 def test_the_file_in_the_readme_is_a_problem():
     block = re.search(r"```json\n(.*?)```", (repository() / "README.md").read_text(), re.DOTALL)
     assert block is not None

@@ -23,6 +23,8 @@ from pontryagin.rendezvous.playback.motion import (
     motion_of,
 )
 
+pytestmark = pytest.mark.extra(name="recording")
+
 LENGTH, GRAVITY = 7000.0, 398600.0
 TIME = math.sqrt(LENGTH**3 / GRAVITY)
 START = [math.cos(0.3), 0.0, math.sin(0.3), 0.0]
@@ -86,6 +88,7 @@ def test_every_recording_has_a_title_and_a_description():
         assert title.endswith(".") and len(description) > 80
 
 
+@pytest.mark.checkout
 def test_every_recording_is_in_the_readme():
     readme = (repository() / "README.md").read_text()
     for name in playback.recordings():

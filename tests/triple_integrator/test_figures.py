@@ -8,9 +8,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import trapezoid
 from scipy.spatial.transform import Rotation
-from tests.independent import response
-from tests.strategies import maneuver_with, maneuvers, moments, states
 
+from independent import response
 from pontryagin.display.plotting import svg_of
 from pontryagin.triple_integrator import (
     Maneuver,
@@ -25,6 +24,7 @@ from pontryagin.triple_integrator import (
 from pontryagin.triple_integrator.attitude.rigid_body import RigidBody
 from pontryagin.triple_integrator.derivation import coverage, peak
 from pontryagin.triple_integrator.figures import duration, overpayment, sphere, tables
+from strategies import maneuver_with, maneuvers, moments, states
 
 MOVING = Maneuver([0.2, -0.3, 0.5], [1, 0.4, -0.2], t0=1.0, tf=3.0)
 STACK = Maneuver(np.zeros((2, 3)), np.ones((2, 3)), 1.0)

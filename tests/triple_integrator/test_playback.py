@@ -18,6 +18,8 @@ from pontryagin.triple_integrator.attitude import turn
 from pontryagin.triple_integrator.coupling import couple
 from recording_files import assert_described, verified
 
+pytestmark = pytest.mark.extra(name="recording")
+
 AXIS = [1, 2, 2]
 NORMS = {"energy": minimum_energy, "peak": minimum_peak, "impulse": minimum_impulse}
 

@@ -24,8 +24,11 @@ def report(
     Example:
       pontryagin report figures
     """
-    from pontryagin.report import build
-
+    try:
+        from pontryagin.report import build
+    except ModuleNotFoundError as missing:
+        needs = f"the report needs {missing.name}, which is not installed: pip install 'pontryagin[report]'"
+        raise typer.TyperException(needs) from missing
     if stage not in build.STAGES:
         raise console.Refusal("STAGE", f"takes {', '.join(build.STAGES)}, got {stage!r}")
     try:

@@ -23,7 +23,7 @@ def repository() -> Path:
     Returns
     -------
     Path
-        The nearest folder above the package that holds ``pyproject.toml``.
+        The folder that holds ``src/pontryagin`` and ``pyproject.toml``.
 
     Raises
     ------
@@ -35,9 +35,9 @@ def repository() -> Path:
     >>> (repository() / "pyproject.toml").is_file()
     True
     """
-    for folder in Path(__file__).resolve().parents:
-        if (folder / "pyproject.toml").is_file():
-            return folder
+    *_, source, root = Path(__file__).resolve().parents[:4]
+    if source.name == "src" and (root / "pyproject.toml").is_file():
+        return root
     raise ValueError("this needs a clone of the repository, but pontryagin is installed without one")
 
 

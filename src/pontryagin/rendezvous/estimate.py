@@ -82,8 +82,7 @@ def orbit_change_duration(scaled: Scaled, ratio: float) -> float:
         - math.sqrt(1 - scaled.eccentricity**2)
     )
     tilt = 2 * math.asin(min(1.0, float(np.hypot(*scaled.orientation[1:3]))))
-    eccentricity, _ = _eccentricity(scaled.start)
-    speed = energy_gap + abs(eccentricity - scaled.eccentricity) / 2 + tilt
+    speed = energy_gap + abs(eccentricity(scaled.start) - scaled.eccentricity) / 2 + tilt
     return min(max(SHORTEST, speed / math.sqrt(ratio)), LONGEST)
 
 
@@ -93,8 +92,7 @@ def gap_duration(scaled: Scaled, thrust: float) -> float:
     return 2 * math.sqrt(place / thrust) + velocity / thrust
 
 
-def _eccentricity(start: Array) -> tuple[float, float]:
-    """Eccentricity and true anomaly of the craft's orbit, from r, v1, c."""
+def eccentricity(start: Array) -> float:
+    """The eccentricity of the craft's orbit, from r, v1, c in the units of `Scaled`."""
     radius, radial, areal = start
-    along, across = areal**2 / radius - 1, areal * radial
-    return math.hypot(along, across), math.atan2(across, along)
+    return math.hypot(areal**2 / radius - 1, areal * radial)

@@ -158,7 +158,36 @@ def _cartesian() -> list[str]:
     costate = [*(-primer.carried()), *principle.switching()]
     reduced = [model.r, model.v1, model.c, principle.rho, principle.s1, principle.e, *principle.nu]
     texts.append(source("primer", reduced, _named("psi", costate), "psi_R and psi_V, seen in eta."))
-    return texts
+    return [*texts, *_cartesian_slopes()]
+
+
+def _cartesian_slopes() -> list[str]:
+    place, factors = [*inertial.position], inertial.factors
+    pull = inertial.attraction().subs(model.gravity, 1)
+    turns = [part.diff(x) for part, x in _upper(pull, inertial.position)]
+    bends = inertial.curvatures(factors.dot(pull))
+    weight = inertial.pace().subs(model.gravity, 1)
+    return [
+        source(
+            "attraction",
+            [*place, *factors],
+            _named("g", pull) | _named("s", turns) | _named("c", bends),
+            "g = -R/r^3, its derivatives gx_x, gx_y, gx_z, gy_y, gy_z, gz_z, and the second ones of (m, g).",
+        ),
+        source(
+            "cartesian_pace",
+            place,
+            {"weight": weight}
+            | _named("s", inertial.slopes(weight))
+            | _named("c", inertial.curvatures(weight)),
+            "dt/ds, its slopes, and its second derivatives xx, xy, xz, yy, yz, zz.",
+        ),
+    ]
+
+
+def _upper(rows: sp.Matrix, columns: sp.Matrix) -> list[tuple[sp.Expr, sp.Expr]]:
+    """The pairs of a row and a column of three that are on or above the diagonal."""
+    return [(rows[i], columns[j]) for i in range(3) for j in range(i, 3)]
 
 
 def _elements() -> list[str]:

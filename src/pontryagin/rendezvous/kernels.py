@@ -380,6 +380,72 @@ def primer(r, v1, c, rho, s1, e, nu1, nu2, nu3):
     return psi0, psi1, psi2, psi3, psi4, psi5
 
 
+def attraction(x, y, z, m0, m1, m2):
+    """g = -R/r^3, its derivatives gx_x, gx_y, gx_z, gy_y, gy_z, gz_z, and the second ones of (m, g)."""
+    x0 = (x*x)
+    x1 = (y*y)
+    x2 = (z*z)
+    x3 = x0 + x1 + x2
+    x4 = x3**(-3/2)
+    x5 = -x4
+    x6 = 3/x3**(5/2)
+    x7 = x*x6
+    x8 = -m1*y
+    x9 = -m2*z
+    x10 = 5/x3
+    x11 = m1*y
+    x12 = x0*x10
+    x13 = m2*z
+    x14 = x*x10
+    x15 = m0*y
+    x16 = x1*x10
+    x17 = x14*z
+    x18 = x10*x2
+    x19 = -m0*x
+    x20 = m0*x
+    g0 = -x*x4
+    g1 = -x4*y
+    g2 = -x4*z
+    s0 = x0*x6 + x5
+    s1 = x7*y
+    s2 = x7*z
+    s3 = x1*x6 + x5
+    s4 = x6*y*z
+    s5 = x2*x6 + x5
+    c0 = x6*(-m0*(x*x*x)*x10 + 3*m0*x - x11*x12 - x12*x13 - x8 - x9)
+    c1 = x6*(m0*y - m1*x*x16 + m1*x - x12*x15 - x13*x14*y)
+    c2 = x6*(-m0*x12*z + m0*z - m2*x*x18 + m2*x - x11*x17)
+    c3 = x6*(-m1*x10*(y*y*y) + 3*m1*y - x13*x16 - x16*x20 - x19 - x9)
+    c4 = x6*(-m1*x16*z + m1*z - m2*x18*y + m2*y - x15*x17)
+    c5 = x6*(-m2*x10*(z*z*z) + 3*m2*z - x11*x18 - x18*x20 - x19 - x8)
+    return g0, g1, g2, s0, s1, s2, s3, s4, s5, c0, c1, c2, c3, c4, c5
+
+
+def cartesian_pace(x, y, z):
+    """dt/ds, its slopes, and its second derivatives xx, xy, xz, yy, yz, zz."""
+    x0 = (x*x)
+    x1 = (y*y)
+    x2 = (z*z)
+    x3 = x0 + x1 + x2
+    x4 = x3**(-1/4)
+    x5 = (3/2)*x4
+    x6 = 1/x3
+    x7 = (3/4)*x4
+    x8 = x3**(-5/4)
+    x9 = (3/4)*x*x8
+    weight = x3**(3/4)
+    s0 = x*x5
+    s1 = x5*y
+    s2 = x5*z
+    c0 = x7*(-x0*x6 + 2)
+    c1 = -x9*y
+    c2 = -x9*z
+    c3 = x7*(-x1*x6 + 2)
+    c4 = -3/4*x8*y*z
+    c5 = x7*(-x2*x6 + 2)
+    return weight, s0, s1, s2, c0, c1, c2, c3, c4, c5
+
+
 def element_rates(A0, A1, A2, A3, B0, B1, B2, B3, a0, a1, a2, a3, b0, b1, b2, b3, varphi, p1, p2, p3):
     """Rates of A, B, a and b by phi at any thrust, (1), and dt/dphi."""
     x0 = cos(varphi)

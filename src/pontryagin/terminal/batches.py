@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -68,27 +68,27 @@ def run(
     typer.TyperException
         When rows are without answer: with the first reason, and the number of its line.
     """
-    spool = Spool(out, f"{solve.__module__} {settings!r}", as_json)
-    try:
-        stopped = _solved(path, blocks, partial(_parts, solve, frozenset(shared)), spool, as_json, out)
-        if spool.answered:
-            _write(out, spool.texts())
-    except BaseException:
-        if not spool.answered:
-            spool.remove()
-        raise
-    if stopped and spool.answered:
-        further = "; the same command goes on from there" if spool.lasting else ""
-        raise console.interrupted(f"the first {spool.rows} rows are done and written{further}")
-    spool.remove()
-    if stopped:
-        raise console.interrupted("no row is done")
-    if spool.first:
-        line, error, status = spool.first
-        some = f"{spool.errors} of {spool.rows} rows, the first of them in " if spool.answered else ""
-        failure = typer.TyperException(f"--batch: {path}, {some}line {line}: {error}")
-        failure.exit_code = 1 if spool.answered else status
-        raise failure
+    with closing(Spool(out, f"{solve.__module__} {settings!r}", as_json)) as spool:
+        try:
+            stopped = _solved(path, blocks, partial(_parts, solve, frozenset(shared)), spool, as_json, out)
+            if spool.answered:
+                _write(out, spool.texts())
+        except BaseException:
+            if not spool.answered:
+                spool.remove()
+            raise
+        if stopped and spool.answered:
+            further = "; the same command goes on from there" if spool.lasting else ""
+            raise console.interrupted(f"the first {spool.rows} rows are done and written{further}")
+        spool.remove()
+        if stopped:
+            raise console.interrupted("no row is done")
+        if spool.first:
+            line, error, status = spool.first
+            some = f"{spool.errors} of {spool.rows} rows, the first of them in " if spool.answered else ""
+            failure = typer.TyperException(f"--batch: {path}, {some}line {line}: {error}")
+            failure.exit_code = 1 if spool.answered else status
+            raise failure
 
 
 def _solved(

@@ -184,8 +184,13 @@ class Spool:
         if self.lasting:
             Path(self._file.name).unlink(missing_ok=True)
             self._remove_drafts()
-        with suppress(OSError):  # What could not be written before cannot be written now.
-            self._file.close()
+        self.close()
+
+    def close(self) -> None:
+        """Leave the file to the next process, or to the next batch of this one."""
+        if "_file" in self.__dict__:
+            with suppress(OSError):  # What could not be written before cannot be written now.
+                self._file.close()
 
     def _remove_drafts(self) -> None:
         """Remove what processes that were killed at the end had written of the target."""

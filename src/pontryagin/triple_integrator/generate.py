@@ -28,7 +28,7 @@ def kernels() -> str:
 def _model() -> list[str]:
     start = sp.Matrix(sp.symbols("x10 x20 x30", real=True))
     end = sp.Matrix(sp.symbols("x1f x2f x3f", real=True))
-    coast = model.transition(model.T) * start
+    coast = (model.transition(model.T) * start).applyfunc(lambda x: sp.horner(x, wrt=model.T))
     moments = end - coast - sp.Matrix([G1, G2, 0])
     return [
         source(

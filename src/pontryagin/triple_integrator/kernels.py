@@ -6,16 +6,18 @@ Generated from the derivation by `make kernels`; do not edit.
 
 def coast(x10, x20, x30, T):
     """Phi(t, t0) x0, (1.4)."""
-    x1 = (1/2)*(T*T)*x30 + T*x20 + x10
-    x2 = T*x30 + x20
+    x0 = T*x30
+    x1 = T*((1/2)*x0 + x20) + x10
+    x2 = x0 + x20
     x3 = x30
     return x1, x2, x3
 
 
 def moments(x10, x20, x30, x1f, x2f, x3f, T, g1, g2):
     """c, (1.10); g1 and g2 are the disturbance's integrals (1.8)."""
-    c1 = -1/2*(T*T)*x30 - T*x20 - g1 - x10 + x1f
-    c2 = -T*x30 - g2 - x20 + x2f
+    x0 = T*x30
+    c1 = -T*((1/2)*x0 + x20) - g1 - x10 + x1f
+    c2 = -g2 - x0 - x20 + x2f
     c3 = -x30 + x3f
     return c1, c2, c3
 

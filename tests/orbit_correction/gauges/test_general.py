@@ -14,26 +14,14 @@ from pontryagin.certificate import Certificate
 from pontryagin.orbit_correction import DiscreteSystem, gauge
 from pontryagin.orbit_correction.gauges.general import gauge_of_factors
 from pontryagin.orbit_correction.gauges.proof import require_closed
+from strategies import random_system
 
 PLANE = np.eye(2)
 
 
-def drawn(seed, n, steps, decades):
-    """Matrices A of moderate condition, matrices H of ellipsoids whose axes span the decades, and a state."""
-    generator = np.random.default_rng(seed)
-
-    def matrix(spread):
-        left, right = (np.linalg.qr(generator.normal(size=(n, n)))[0] for _ in range(2))
-        return left * 10.0 ** generator.uniform(-spread, spread, n) @ right
-
-    A = np.array([matrix(0.2) for _ in range(steps)])
-    H = [np.linalg.inv(L @ L.T) for L in (matrix(decades / 2) for _ in range(steps))]
-    return A, np.array([(shape + shape.T) / 2 for shape in H]), generator.normal(size=n)
-
-
 @given(st.integers(0, 10_000), st.integers(1, 6), st.integers(1, 8), st.integers(0, 5))
 def test_controls_and_costate_meet_in_every_dimension(seed, n, steps, decades):
-    A, H, x0 = drawn(seed, n, steps, decades)
+    A, H, x0 = random_system(seed, n, steps, decades)
     found = gauge(DiscreteSystem(A, H), x0, steps)
     proof = found.certificate
     assert proof.primal_residual <= 1e-12
@@ -57,7 +45,7 @@ def test_needles_are_solved_where_newtons_method_alone_stalls(seed):
 @given(st.integers(0, 10_000), st.integers(2, 4))
 def test_the_gauge_in_boxes_drawn_round_the_ellipsoids_is_a_linear_programme(seed, n):
     """An ellipsoid lies between the box and the cross-polytope of its axes, whose gauges HiGHS finds."""
-    A, H, x0 = drawn(seed, n, 4, 1)
+    A, H, x0 = random_system(seed, n, 4, 1)
     system = DiscreteSystem(A, H)
     corners = np.array(list(product([-1, 1], repeat=n)))
     low, high = (least_scale(system.factors(4), -x0, normals) for normals in (cube(n), corners))
@@ -94,7 +82,7 @@ def test_zero_states_and_empty_stacks_have_answers():
 
 
 def test_sequences_arrays_and_callables_are_one():
-    A, H, x0 = drawn(3, 3, 4, 1)
+    A, H, x0 = random_system(3, 3, 4, 1)
     expected = gauge(DiscreteSystem(A, H), x0, 4).alpha
     for given_A, given_H in ((list(A), list(H)), (A.__getitem__, H), (A, H.__getitem__)):
         assert gauge(DiscreteSystem(given_A, given_H), x0, 4).alpha == expected

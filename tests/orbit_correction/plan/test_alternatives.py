@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import linprog, minimize
-from tests.orbit_correction.plan.test_correction import fly
 
+from linear_flight import fly
 from pontryagin.orbit_correction import correct
 from pontryagin.orbit_correction.plan.alternatives import least_energy, least_fuel, least_peak
 from pontryagin.orbit_correction.printed import Z0

@@ -5,12 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
 
+from linear_flight import fly
 from pontryagin import Infeasible
 from pontryagin.orbit_correction import DiscreteSystem, correct, gauge, printed
 from pontryagin.orbit_correction.plan.thrust import Thrust
-from pontryagin.orbit_correction.system.satellite import LINEAR, step_input, step_transition
+from pontryagin.orbit_correction.system.satellite import step_input, step_transition
 from strategies import deviations
 
 Z0 = np.array(printed.Z0)
@@ -34,17 +34,6 @@ def test_the_satellite_as_a_general_system_of_ellipsoids():
 
     system = DiscreteSystem(lambda k: step_transition(k, 0.25), shape)
     assert_allclose(gauge(system, Z0, 4).alpha, correct(Z0).gauge, rtol=1e-12)
-
-
-def fly(plan):
-    """The state at the end of the linear flow by SciPy, with a jump of the speeds before each interval."""
-    z = plan.z0
-    for impulse in plan.impulses:
-        kicked = z + np.array([0, *impulse])
-        z = solve_ivp(lambda _, x: LINEAR @ x, (0, plan.thrust.interval), kicked, rtol=1e-12, atol=1e-16).y[
-            :, -1
-        ]
-    return z
 
 
 @pytest.mark.slow

@@ -20,6 +20,7 @@ def test_the_start_of_each_case_is_described():
         assert elements.in_elements(name).cost == pytest.approx(solved(name).cost, rel=1e-10)
 
 
+@pytest.mark.checkout
 def test_the_solutions_in_both_sets_of_variables_agree_in_all_cases():
     with (figures_folder() / "43-rendezvous-elements" / "agreement.csv").open() as file:
         rows = list(csv.DictReader(file))

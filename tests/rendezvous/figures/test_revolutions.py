@@ -30,6 +30,7 @@ class TestRevolutions:
         dots = [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
         assert_allclose(dots, [[one.duration, one.cost] for one in [best, *best.others]])
 
+    @pytest.mark.checkout
     def test_the_meeting_at_360_degrees_on_the_curve_of_false_meetings_is_among_the_extremals(self):
         with (figures_folder() / "42-rendezvous-false-meetings" / "family.csv").open() as file:
             (row,) = (row for row in csv.DictReader(file) if row["turned by [°]"] == "360")

@@ -7,8 +7,8 @@ from rendezvous_problems import BOUNDED, problem
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="bench")
 def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh():
-    pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct
 
     given = problem(20, duration=8.0)
@@ -18,8 +18,8 @@ def test_the_direct_method_agrees_and_its_error_shrinks_with_the_mesh():
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="bench")
 def test_the_direct_method_of_least_fuel_agrees_and_its_error_shrinks_with_the_mesh(fuel):
-    pytest.importorskip("casadi")
     from pontryagin.rendezvous.judge.collocation import direct
 
     errors = [abs(direct(BOUNDED, 6.0, 0.6, n, fuel=True).cost / fuel.cost - 1) for n in (20, 80)]

@@ -69,6 +69,7 @@ def test_the_checksum_changes_with_every_number(name):
     assert len(sums) == len(changed) + 2
 
 
+@pytest.mark.checkout
 def test_the_costs_on_the_fine_mesh_agree_with_those_of_the_report():
     indirect, fine = published(), judge.MESHES[1]
     assert list(indirect) == list(ENERGY)
@@ -76,6 +77,7 @@ def test_the_costs_on_the_fine_mesh_agree_with_those_of_the_report():
     assert max(abs(value) for value in errors.values()) < allowed(fine)
 
 
+@pytest.mark.checkout
 def test_the_error_on_the_coarse_mesh_is_larger_where_both_meshes_find_the_same_extremal():
     indirect = published()
     both = {name: [abs(cost / indirect[name] - 1) for cost in one.costs] for name, one in ENERGY.items()}
@@ -84,6 +86,7 @@ def test_the_error_on_the_coarse_mesh_is_larger_where_both_meshes_find_the_same_
     assert all(coarse > 4 * fine for name, (coarse, fine) in same.items() if name not in SIGN_CHANGES)
 
 
+@pytest.mark.checkout
 def test_the_largest_error_of_the_direct_costs_of_least_fuel_shrinks_with_the_mesh():
     """In a single case the error depends on where the switches fall in their intervals."""
     with (figures_folder() / "43-rendezvous-elements" / "fuel.csv").open() as file:
@@ -110,7 +113,7 @@ def test_direct_results_are_read_as_they_were_written(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.extra(name="bench")
 def test_the_direct_method_reproduces_a_kept_result():
-    pytest.importorskip("casadi")
     again = judge.solve_directly(case("circle-energy"))
     assert np.allclose(again.costs, KEPT["circle-energy"].costs, rtol=1e-9)

@@ -18,6 +18,7 @@ from pontryagin.rendezvous.laps.families import (
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.ladder import duration_of_thrust, guesses_on
 from pontryagin.rendezvous.laps.ladder import energy as energy_of
+from pontryagin.rendezvous.laps.transcription import switching
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.quadrature import energy
@@ -52,7 +53,7 @@ def test_bounded_thrust_is_at_its_bound_in_the_middle():
     lap, cost = Lap.of(scaled, 0), RunningCost(0.0, 1.0, scaled.peak)
     path = bounded(lap, least_energy(lap, scaled.duration), cost, scaled.duration)
     found = meet(setting, reduced_costates(scaled, lap.axes, path.nodes[:, 0]))
-    assert path.switching().max() > 2 * scaled.peak
+    assert switching(lap, path).max() > 2 * scaled.peak
     assert [piece.mode for piece in found.flight.pieces].count("saturated") > 0
 
 
@@ -75,7 +76,7 @@ def test_least_time_on_each_lap_leads_to_an_exact_extremal(name, laps, duration)
     found = meet(setting, np.append(reduced_costates(scaled, lap.axes, path.nodes[:, 0]), path.duration))
     assert found.flight.duration == pytest.approx(duration, abs=1e-6)
     assert path.duration == pytest.approx(duration, rel=0.02)
-    assert scaled.peak * path.switching()[-1] == pytest.approx(1, abs=0.05)
+    assert scaled.peak * switching(lap, path)[-1] == pytest.approx(1, abs=0.05)
 
 
 @pytest.mark.parametrize(("name", "laps", "duration"), LEAST_TIMES)
@@ -83,7 +84,7 @@ def test_the_energy_at_the_least_time_is_at_most_that_of_full_thrust(name, laps,
     """So that the duration at which the least energy is that of full thrust is a lower bound."""
     scaled, _ = posed(name)
     lap = Lap.of(scaled, laps)
-    assert energy_of(least_energy(lap, duration)) < scaled.peak**2 * duration
+    assert energy_of(lap, least_energy(lap, duration)) < scaled.peak**2 * duration
     assert duration_of_thrust(guesses_on(lap, math.inf, lambda _: math.inf), scaled.peak) < duration
 
 

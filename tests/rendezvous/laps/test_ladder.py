@@ -1,15 +1,17 @@
 """Transfers of free duration on a lap satisfy the terminal law, and no known extremal is missed."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
 from pontryagin.rendezvous.laps import ladder as ladder_module
 from pontryagin.rendezvous.laps.equinoctial import Lap, reduced_costates
-from pontryagin.rendezvous.laps.hamiltonian import RunningCost
+from pontryagin.rendezvous.laps.families import least_energy
+from pontryagin.rendezvous.laps.hamiltonian import RunningCost, square
 from pontryagin.rendezvous.laps.ladder import Ladder, duration_of_thrust, energy, guesses_on, minima
-from pontryagin.rendezvous.laps.transcription import square
+from pontryagin.rendezvous.laps.transcription import switching
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.shooting import meet
@@ -25,7 +27,8 @@ def on_lap(laps, peak):
     seeds = [
         duration for _, duration in minima(guesses_on(lap, math.inf, lambda _: math.inf), SCALED.ratio, peak)
     ]
-    return Ladder(lap, cost), Ladder(lap, cost).transfers(seeds, [])
+    ladder = Ladder(lap, cost, partial(least_energy, lap))
+    return ladder, ladder.transfers(seeds, [])
 
 
 def flown(path, peak):
@@ -53,23 +56,25 @@ def test_two_extremals_near_each_other_are_told_apart(step, monkeypatch):
 
 def test_a_transfer_under_a_bound_is_found_along_the_curve_under_the_bound():
     ladder, (path,) = on_lap(0, PEAK)
-    assert path.switching().max() > 2 * PEAK
+    assert switching(ladder.ends, path).max() > 2 * PEAK
     assert flown(path, PEAK).duration == pytest.approx(path.duration, rel=0.02)
     assert ladder.price(path) == pytest.approx(0.178142, rel=0.02)
 
 
 def test_a_curve_that_is_not_begun_is_given_up():
     given_up = []
-    assert Ladder(Lap.of(SCALED, -3), RunningCost(1.0, 1.0, math.inf)).transfers([1.0], given_up) == []
+    lap, cost = Lap.of(SCALED, -3), RunningCost(1.0, 1.0, math.inf)
+    assert Ladder(lap, cost, partial(least_energy, lap)).transfers([1.0], given_up) == []
     assert given_up == ["from the duration 1: the meeting is not ahead of the craft (residual inf)"]
 
 
 def test_minima_are_durations_of_which_the_guess_costs_least():
-    guesses = guesses_on(Lap.of(SCALED, 1), math.inf, lambda _: math.inf)
+    lap = Lap.of(SCALED, 1)
+    guesses = guesses_on(lap, math.inf, lambda _: math.inf)
     (cost, best), *_ = minima(guesses, SCALED.ratio)
     costs = SCALED.ratio * guesses.durations + guesses.energies
     assert cost == costs.min() and best == guesses.durations[costs.argmin()]
-    assert energy(guesses.path(int(costs.argmin()))) == pytest.approx(cost - SCALED.ratio * best)
+    assert energy(lap, guesses.path(int(costs.argmin()))) == pytest.approx(cost - SCALED.ratio * best)
 
 
 def test_mean_thrust_of_a_guess_falls_to_the_given_one():

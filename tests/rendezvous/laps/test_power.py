@@ -68,5 +68,5 @@ def test_mean_thrust_falls_with_the_duration_at_its_slope(theta):
     nodes[6:] /= 2 * scaled.peak**2
     start = Path(nodes, start.price / (2 * scaled.peak**2), start.span, start.duration)
     near = [extremal(lap, cost, duration * math.exp(shift), start) for shift in (-step, 0.0, step)]
-    means = [cost.mean_thrust(path) for path in near]
+    means = [cost.mean_thrust(lap, path) for path in near]
     assert (means[2][0] - means[0][0]) / (2 * step) == pytest.approx(means[1][1], rel=0.02)

@@ -1,11 +1,8 @@
 """The search lap by lap finds what the walks along families of exact extremals find."""
 
-import math
-
 import pytest
 
 from pontryagin import Infeasible
-from pontryagin.rendezvous import Chaser, Orbit, Rendezvous, solve
 from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.problem.cases import cases
 from pontryagin.rendezvous.reduced.conditions import Setting
@@ -77,18 +74,3 @@ def test_a_bound_that_no_lap_can_keep_is_infeasible():
     setting = posed("energy-bounded").replace(peak=0.01)
     with pytest.raises(Infeasible, match="on each lap, which is above the peak"):
         list(extremals_on_laps(setting, SearchLog()))
-
-
-@pytest.mark.parametrize(
-    ("degrees", "cost"),
-    [(0, 0.00175), (60, 0.16766), (90, 0.28541), (120, 0.38095), (135, 0.41445), (150, 0.857), (179, 1.0415)],
-)
-def test_planes_of_any_inclination_but_opposite_ones_are_met(degrees, cost):
-    """From 60 to 135 degrees the best known extremal climbs to turn its plane there, and saves up to 45 %."""
-    half = math.radians(degrees) / 2
-    target = Orbit(1.2, 0.05, [math.cos(half), math.sin(half), 0, 0], 0.5)
-    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
-    posed = Rendezvous(craft, target, time_weight=0, energy_weight=1, peak=math.inf, duration=10.0)
-    found = solve(posed)
-    assert found.certificate.holds(1e-9)
-    assert found.cost < cost

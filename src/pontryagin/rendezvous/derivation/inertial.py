@@ -23,13 +23,47 @@ position, velocity = sp.Matrix(sp.symbols("x y z", real=True)), sp.Matrix(sp.sym
 position_costate = sp.Matrix(sp.symbols("psi_x psi_y psi_z", real=True))
 velocity_costate = sp.Matrix(sp.symbols("psi_u psi_v psi_w", real=True))
 force = sp.Matrix(sp.symbols("f_x f_y f_z", real=True))
+gain, price = sp.symbols("gain price", real=True)
+factors = sp.Matrix(sp.symbols("m0:3", real=True))
+
+
+def attraction() -> sp.Matrix:
+    """The acceleration without thrust."""
+    return -gravity * position / principle.size(position) ** 3
+
+
+def coasting() -> sp.Expr:
+    """H without thrust and without costs."""
+    return position_costate.dot(velocity) + velocity_costate.dot(attraction())
 
 
 def hamiltonian() -> sp.Expr:
     """H without the term of phi*, at any thrust."""
-    fall = force - gravity * position / principle.size(position) ** 3
     cost = principle.time_weight + principle.energy_weight * force.dot(force)
-    return -cost + position_costate.dot(velocity) + velocity_costate.dot(fall)
+    return -cost + position_costate.dot(velocity) + velocity_costate.dot(force + attraction())
+
+
+def pace() -> sp.Expr:
+    """dt/ds of an independent variable s that runs by one radian in the time of a circle at this distance."""
+    return principle.size(position) ** sp.Rational(3, 2) / sp.sqrt(gravity)
+
+
+def regular_hamiltonian() -> sp.Expr:
+    """K = (S(|n|^2) + c + `coasting`) dt/ds, zero along extremals; c is minus the value of H, less alpha1.
+
+    S is the largest value of (n, p) - alpha2 p^2 over the admissible thrusts.
+    """
+    return (gain + price + coasting()) * pace()
+
+
+def slopes(value: sp.Expr) -> list[sp.Expr]:
+    """Derivatives in x, y and z."""
+    return [value.diff(x) for x in position]
+
+
+def curvatures(value: sp.Expr) -> list[sp.Expr]:
+    """Second derivatives in x, y and z: xx, xy, xz, yy, yz, zz."""
+    return [value.diff(position[i], position[j]) for i in range(3) for j in range(i, 3)]
 
 
 def thrust(mode: Mode) -> sp.Matrix:

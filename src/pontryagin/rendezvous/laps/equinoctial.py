@@ -10,10 +10,14 @@ from pontryagin.arrays import Array
 from pontryagin.numerics import kepler
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.laps import cartesian
+from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian, hamiltonian, square
 from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.witness.cartesian import cartesian_of, target_by_kepler
 
 TAU = 2 * math.pi
+THINNEST, ROUNDEST = 0.02, 0.98
+"""Smallest parameter, in units of p*, and largest square of the eccentricity, on the way of an iteration."""
 OPPOSITE = 1e-12
 """Size of the sum of two normals below which these count as opposite."""
 
@@ -42,7 +46,7 @@ def axes_between(craft: Array, target: Array) -> Array:
     first, second = (normal / np.linalg.norm(normal) for normal in normals)
     between = first + second
     if np.linalg.norm(between) < OPPOSITE:
-        between = craft[:3]
+        between = np.cross(first, craft[:3])  # so that the craft may turn its plane from where it is
     third = between / np.linalg.norm(between)
     along = np.cross(np.eye(3)[np.argmin(np.abs(third))], third)
     along /= np.linalg.norm(along)
@@ -111,10 +115,42 @@ class Lap:
         longitude = self.begin + anomaly - self.anomaly + TAU * self.laps
         return longitude, (1 + self.eccentricity * np.cos(anomaly)) ** 2
 
+    def meeting(self, duration: float) -> tuple[Array, Array]:
+        """p, f, g, h, k and L of the target after a time, (6,), and their rates, (6,)."""
+        longitude, pace = self.longitude(duration)
+        return np.append(self.goal, longitude), np.append(np.zeros(5), pace)
+
+    def hamiltonian(self, cost: Cost, nodes: Array, price: float) -> Hamiltonian:
+        """K and its derivatives at elements and costates (12, n), for the price c of time."""
+        return hamiltonian(cost, nodes, price)
+
+    def square(self, nodes: Array) -> Array:
+        """|n|^2 at elements and costates (12, ...)."""
+        return square(nodes)
+
+    def weight(self, nodes: Array) -> Array:
+        """dt/ds at elements and costates (12, ...)."""
+        return np.asarray(kernels.equinoctial_weight(*[*nodes[:3], nodes[5]]))
+
+    def admissible(self, nodes: Array) -> bool:
+        """Whether a path keeps to ellipses."""
+        p, f, g = nodes[:3]
+        return bool((p > THINNEST).all() and (f**2 + g**2 < ROUNDEST).all())
+
 
 def reduced_costates(scaled: Scaled, axes: Array, node: Array) -> Array:
     """rho, s1, e, nu1, nu2, nu3 (6,) at t0 of the elements and their costates there, (12,), in some axes."""
     _, slopes = jacobian(lambda x: kernels.equinoctial_place(*x), node[:6])
     in_space = seen(axes.T, np.asarray(np.linalg.solve(slopes.T, node[6:]), dtype=float))
-    columns = np.array([kernels.primer(*scaled.start, *axis) for axis in np.eye(6)]).T
-    return np.asarray(np.linalg.solve(columns, in_space))
+    return cartesian.reduced_costates(scaled, in_space)
+
+
+def laps_of(scaled: Scaled, states: Array, attitude: Array, duration: float) -> int:
+    """The lap of a flight to the target, from its states (k, ...) and attitudes (k, 4) at ascending times.
+
+    It is the nearest number, as the longitude is not defined where the plane is opposite to that of the axes.
+    """
+    lap = Lap.of(scaled, 0)
+    places = cartesian_of(states, attitude)
+    longitude = np.unwrap([elements_of(seen(lap.axes, place))[5] for place in places])
+    return round(float(longitude[-1] - longitude[0] - lap.longitude(duration)[0]) / TAU)

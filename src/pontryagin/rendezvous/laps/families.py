@@ -14,11 +14,12 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.laps.ends import Ends
 from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
 from pontryagin.rendezvous.laps.power import PowerCost
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import NODES_PER_LAP, ROUGH, Path, extremal
+from pontryagin.rendezvous.laps.transcription import NODES_PER_LAP, ROUGH, Path, extremal, switching
 
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
 SHARES = (1.0, 0.5, 0.2, 0.05)
@@ -37,10 +38,10 @@ FASTEST, CLOSE = 0.1, 0.05
 PACE = 0.05, 0.15, 0.01
 """First, largest and least step of the logarithm of a duration on the way to a mean thrust."""
 
-Posed = Callable[[float, Path], tuple[Lap, Cost, float | None]]
+Posed = Callable[[float, Path], tuple[Ends, Cost, float | None]]
 """A function of the parameter and a guess.
 
-It returns a lap, a cost, and the duration, which is None if it is free.
+It returns the ends, a cost, and the duration, which is None if it is free.
 """
 
 
@@ -161,7 +162,7 @@ def _coasting_time(lap: Lap, end: float) -> float:
     return float(kernels.equinoctial_weight(p, f, g, longitude).sum()) * end / 200
 
 
-def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> Path:
+def bounded(ends: Ends, path: Path, cost: RunningCost, duration: float | None) -> Path:
     """The extremal under a bound, from one without.
 
     Raises
@@ -169,12 +170,12 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     NotConverged
         If the continuation ends before.
     """
-    largest = float(path.switching().max()) / (2 * cost.energy_weight)
+    largest = float(switching(ends, path).max()) / (2 * cost.energy_weight)
     if largest <= cost.peak:
         return path
 
-    def posed(logarithm: float, _: Path) -> tuple[Lap, Cost, float | None]:
-        return lap, replace(cost, peak=math.exp(logarithm)), duration
+    def posed(logarithm: float, _: Path) -> tuple[Ends, Cost, float | None]:
+        return ends, replace(cost, peak=math.exp(logarithm)), duration
 
     begin, end = math.log(largest), math.log(cost.peak)
     way = abs(end - begin)
@@ -188,7 +189,7 @@ def bounded(lap: Lap, path: Path, cost: RunningCost, duration: float | None) -> 
     return Path.of(last.unknowns)
 
 
-def least_time(lap: Lap, path: Path, peak: float) -> Path:
+def least_time(ends: Ends, path: Path, peak: float) -> Path:
     """The extremal of least time under a bound, from one of least energy.
 
     First the duration is changed until the mean thrust is the bound. It is kept there by the duration, while
@@ -200,25 +201,25 @@ def least_time(lap: Lap, path: Path, peak: float) -> Path:
         If a continuation ends before.
     """
 
-    def posed(theta: float, guess: Path) -> tuple[Lap, Cost, float]:
+    def posed(theta: float, guess: Path) -> tuple[Ends, Cost, float]:
         cost = PowerCost(theta, peak)
-        mean, slope = cost.mean_thrust(guess)
-        return lap, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
+        mean, slope = cost.mean_thrust(ends, guess)
+        return ends, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
 
-    path = _of_mean_thrust(lap, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
+    path = _of_mean_thrust(ends, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
     path = continued(posed, path, 0.5, LATE)
-    end = float(path.switching()[-1])
-    path = continued(lambda theta, _: (lap, PowerCost(theta, peak, end), None), path, LATE, 0.0)
+    end = float(switching(ends, path)[-1])
+    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0)
     return _scaled(path, 1 / (peak * end))
 
 
-def _of_mean_thrust(lap: Lap, cost: PowerCost, path: Path) -> Path:
+def _of_mean_thrust(ends: Ends, cost: PowerCost, path: Path) -> Path:
     """The extremal whose mean thrust is the bound, from one of another duration."""
-    begin, (mean, _) = math.log(path.duration), cost.mean_thrust(path)
+    begin, (mean, _) = math.log(path.duration), cost.mean_thrust(ends, path)
     end = begin + math.copysign(1.0, mean)
-    for point in points(lambda logarithm, _: (lap, cost, math.exp(logarithm)), path, begin, end, PACE):
+    for point in points(lambda logarithm, _: (ends, cost, math.exp(logarithm)), path, begin, end, PACE):
         here = Path.of(point.unknowns)
-        if cost.mean_thrust(here)[0] * math.copysign(1.0, mean) < CLOSE:
+        if cost.mean_thrust(ends, here)[0] * math.copysign(1.0, mean) < CLOSE:
             return here
     raise NotConverged("the mean thrust does not reach the bound", abs(mean))
 

@@ -17,6 +17,7 @@ from pontryagin.rendezvous.kernels import (
     SWITCHING_SLOPES,
     WEIGHT_CURVATURES,
     WEIGHT_SLOPES,
+    equinoctial_switching,
     equinoctial_switching_curvatures,
     equinoctial_switching_slopes,
     equinoctial_weight_slopes,
@@ -102,6 +103,12 @@ class RunningCost:
             return within
         first, second, third = (np.where(inside, a, b) for a, b in zip(within, saturated, strict=True))
         return first, second, third
+
+
+def square(nodes: Array) -> Array:
+    """|n|^2 at elements and costates (12, ...)."""
+    n = np.array(equinoctial_switching(*nodes))
+    return np.asarray((n * n).sum(axis=0))
 
 
 @dataclass(frozen=True, eq=False)

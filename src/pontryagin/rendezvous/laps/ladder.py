@@ -13,12 +13,12 @@ import numpy as np
 
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, between
-from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.laps.ends import Ends
 from pontryagin.rendezvous.laps.equinoctial import Lap
-from pontryagin.rendezvous.laps.families import bounded, least_energy, points
+from pontryagin.rendezvous.laps.families import bounded, points
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.start import Guesses, least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, square
+from pontryagin.rendezvous.laps.transcription import ROUGH, Path, extremal, switching
 
 SHORTEST, FACTOR = 0.2, 1.146
 """The shortest of the usual durations of guesses, in units of sqrt(p*^3/fM), and the ratio of two of them."""
@@ -60,10 +60,9 @@ def guesses_on(
     return guesses
 
 
-def energy(path: Path, peak: float = math.inf) -> float:
+def energy(ends: Ends, path: Path, peak: float = math.inf) -> float:
     """The integral of p^2 along a path of least energy under a bound, alpha2 = 1."""
-    weight = kernels.equinoctial_weight(*[*path.nodes[:3], path.nodes[5]])
-    rate = np.minimum(path.switching() / 2, peak) ** 2 * weight
+    rate = np.minimum(switching(ends, path) / 2, peak) ** 2 * ends.weight(path.nodes)
     return float((rate[1:] + rate[:-1]).sum() * path.span / (2 * (rate.size - 1)))
 
 
@@ -91,22 +90,25 @@ def duration_of_thrust(guesses: Guesses, thrust: float) -> float:
 
 @dataclass(frozen=True)
 class Ladder:
-    """The transfers of free duration on a lap.
+    """The transfers of free duration on a lap, or between ends in other coordinates.
 
     Attributes
     ----------
-    lap : Lap
+    ends : Ends
         The lap.
     cost : RunningCost
         alpha1 + p^2 under a bound.
+    least_energy : function of a duration
+        The transfer of least energy without a bound, from which a curve is begun.
     """
 
-    lap: Lap
+    ends: Ends
     cost: RunningCost
+    least_energy: Callable[[float], Path]
 
     def price(self, path: Path) -> float:
         """The cost of a transfer."""
-        return self.cost.time_weight * path.duration + energy(path, self.cost.peak)
+        return self.cost.time_weight * path.duration + energy(self.ends, path, self.cost.peak)
 
     def transfers(self, seeds: list[float], given_up: list[str], most: float = math.inf) -> list[Path]:
         """The transfers on the curves through some durations, the best first.
@@ -120,7 +122,7 @@ class Ladder:
             if any(shortest <= duration <= longest for shortest, longest in passed):
                 continue
             try:
-                start = bounded(self.lap, least_energy(self.lap, duration), self.fixed, duration)
+                start = bounded(self.ends, self.least_energy(duration), self.fixed, duration)
             except NotConverged as reason:
                 given_up.append(f"from the duration {duration:.4g}: {reason}")
                 continue
@@ -146,11 +148,11 @@ class Ladder:
 
     def _law(self, point: Point[None]) -> float:
         """S - alpha1 at the meeting."""
-        gain, *_ = self.cost.gain(square(Path.of(point.unknowns).nodes[:, -1]))
+        gain, *_ = self.cost.gain(self.ends.square(Path.of(point.unknowns).nodes[:, -1]))
         return float(gain) - self.cost.time_weight
 
-    def _at(self, logarithm: float) -> tuple[Lap, RunningCost, float]:
-        return self.lap, self.fixed, math.exp(logarithm)
+    def _at(self, logarithm: float) -> tuple[Ends, RunningCost, float]:
+        return self.ends, self.fixed, math.exp(logarithm)
 
     def _along(self, start: Path, end: float, most: float, reached: list[float]) -> Iterator[Point[None]]:
         """Points of the curve in one direction, while they cost little; their durations are recorded."""
@@ -207,7 +209,7 @@ class Ladder:
             logarithm = one.parameter + here / (here - there) * (other.parameter - one.parameter)
             guess = Path.of(between(one, other, logarithm))
             try:
-                found = extremal(self.lap, self.cost, None, guess, ROUGH)
+                found = extremal(self.ends, self.cost, None, guess, ROUGH)
                 reached = math.log(found.duration)
                 if (reached - one.parameter) * (reached - other.parameter) <= 0:
                     return found

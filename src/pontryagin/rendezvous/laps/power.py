@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pontryagin.arrays import Array
-from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.laps.transcription import Path, square
+from pontryagin.rendezvous.laps.ends import Ends
+from pontryagin.rendezvous.laps.transcription import Path
 
 SMOOTHING = 0.05
 """Values of p_max |n| above this are little changed; below it the thrust falls to 0 as n does."""
@@ -51,15 +51,15 @@ class PowerCost:
         bend = (power - 1) * self.peak**2 * slope / smooth
         return raised - (1 - self.theta) * SMOOTHING ** (2 * power), slope, bend
 
-    def mean_thrust(self, path: Path) -> tuple[float, float]:
+    def mean_thrust(self, ends: Ends, path: Path) -> tuple[float, float]:
         """The logarithm of the generalised mean of |p|/p_max on an extremal, and its slope over that of time.
 
         The slope is along extremals of fixed durations: the least integral of |p|^q over a duration, with
         q = 1/theta, falls at the rate (q - 1) |p|^q at the meeting as the duration grows.
         """
-        squares = square(path.nodes)
+        squares = ends.square(path.nodes)
         raised = (2 * np.sqrt(squares) * self.gain(squares)[1] / self.peak) ** (1 / self.theta)
-        weight = kernels.equinoctial_weight(*[*path.nodes[:3], path.nodes[5]])
+        weight = ends.weight(path.nodes)
         weight[[0, -1]] /= 2
         mean = float((raised * weight).sum() / weight.sum())
         return self.theta * math.log(mean), -(1 - self.theta) * float(raised[-1]) / mean - self.theta

@@ -15,7 +15,8 @@ from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import jacobian
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.laps.equinoctial import TAU, Lap
-from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path, square
+from pontryagin.rendezvous.laps.hamiltonian import square
+from pontryagin.rendezvous.laps.transcription import FEWEST, NODES_PER_LAP, Path
 
 ROUNDS = 4
 """Number of references, the first of which is straight."""

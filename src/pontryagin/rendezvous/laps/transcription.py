@@ -1,8 +1,8 @@
-"""The extremal of a transfer on a given lap, transcribed by the midpoint rule in equinoctial elements.
+"""The extremal of a transfer, transcribed by the midpoint rule in equinoctial elements or other coordinates.
 
 The independent variable s runs like the longitude of an undisturbed orbit. The regularised Hamiltonian K
-vanishes along the extremal. Unknown are elements and costates at the nodes, the price c of time, the length
-of s and the duration. Newton's step eliminates the nodes one after the other, so that nine equations remain.
+vanishes along the extremal. Unknown are coordinates and costates at the nodes, the price c of time, the
+length of s and the duration. Newton's step eliminates the nodes one by one, so that nine equations remain.
 """
 
 import math
@@ -13,9 +13,8 @@ import numpy as np
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.newton import expected
-from pontryagin.rendezvous import kernels
-from pontryagin.rendezvous.laps.equinoctial import Lap
-from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian, hamiltonian
+from pontryagin.rendezvous.laps.ends import Ends
+from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian
 
 NODES_PER_LAP, FEWEST = 32, 32
 """Intervals of s for each turn, and the fewest intervals."""
@@ -25,8 +24,6 @@ ITERATIONS = 8
 """Largest number of steps of Newton's method."""
 LARGEST, CONTRACTION = 0.8, 0.7
 """Largest relative correction, and the largest ratio of one to that before."""
-THINNEST, ROUNDEST = 0.02, 0.98
-"""Smallest parameter, in units of p*, and largest square of the eccentricity, on the way of an iteration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +33,7 @@ class Path:
     Attributes
     ----------
     nodes : (12, N + 1) array
-        p, f, g, h, k, L and their costates at equal steps of s.
+        Coordinates, such as p, f, g, h, k and L, and their costates at equal steps of s.
     price : float
         c: minus the value of H, less alpha1.
     span : float
@@ -60,16 +57,10 @@ class Path:
         """The path of a vector of unknowns."""
         return cls(unknowns[:-3].reshape(12, -1), *map(float, unknowns[-3:]))
 
-    def switching(self) -> Array:
-        """|n| at the nodes, (N + 1,)."""
-        n = np.array(kernels.equinoctial_switching(*self.nodes))
-        return np.asarray(np.linalg.norm(n, axis=0))
 
-
-def square(nodes: Array) -> Array:
-    """|n|^2 at elements and costates (12, ...)."""
-    n = np.array(kernels.equinoctial_switching(*nodes))
-    return np.asarray((n * n).sum(axis=0))
+def switching(ends: Ends, path: Path) -> Array:
+    """|n| at the nodes, (N + 1,)."""
+    return np.asarray(np.sqrt(ends.square(path.nodes)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,34 +79,33 @@ class Transcription:
     step: Array | None
 
 
-def transcribed(lap: Lap, cost: Cost, duration: float | None, path: Path) -> Transcription:
-    """The equations of the transfer on a lap, for a fixed duration or a free one, at a path."""
+def transcribed(ends: Ends, cost: Cost, duration: float | None, path: Path) -> Transcription:
+    """The equations of the transfer between two ends, for a fixed duration or a free one, at a path."""
     nodes, count = path.nodes, path.nodes.shape[1] - 1
     h = path.span / count
     middles = (nodes[:, 1:] + nodes[:, :-1]) / 2
-    here = hamiltonian(cost, np.hstack([middles, nodes[:, [0, -1]]]), path.price)
+    here = ends.hamiltonian(cost, np.hstack([middles, nodes[:, [0, -1]]]), path.price)
     changes = canonical(here.slopes[:-2]).T
     defects = nodes[:, 1:] - nodes[:, :-1] - h * changes
-    longitude, pace = lap.longitude(path.duration)
-    off_start = nodes[:6, 0] - lap.start
+    met, moving = ends.meeting(path.duration)
+    off_start = nodes[:6, 0] - ends.start
     time, free = here.weight[:-2].sum() / count, duration is None
-    ends = np.array(
+    off = np.array(
         [
-            *(nodes[:5, -1] - lap.goal),
-            nodes[5, -1] - longitude,
+            *(nodes[:6, -1] - met),
             time * path.span - path.duration,
             here.value[-2],
             here.gain[-1] - cost.time_weight if duration is None else path.duration - duration,
         ]
     )
-    residual = np.concatenate([defects.ravel(), off_start, ends])
+    residual = np.concatenate([defects.ravel(), off_start, off])
     try:
         transfers = _transfers(h, here, changes, defects, off_start)
         final, middle = transfers[-1], (transfers[1:] + transfers[:-1]) / 2
         matrix = np.zeros((9, 10))  # columns: six costates at t0, c, span, duration; the constant
         kept = [*range(8), 9]
         matrix[:6, kept] = final[:6]
-        matrix[5, 8] = -pace
+        matrix[:6, 8] = -moving
         matrix[6, kept] = h * np.tensordot(here.weight_slopes[:-2], middle, 2)
         matrix[6, 7] += time
         matrix[6, 8] = -1.0
@@ -123,7 +113,7 @@ def transcribed(lap: Lap, cost: Cost, duration: float | None, path: Path) -> Tra
         matrix[7, 6] += here.weight[-2]
         matrix[8, kept] = here.gain_slopes[-1] @ final if free else 0.0
         matrix[8, 8] = 0.0 if free else 1.0
-        found = np.linalg.solve(matrix[:, :9], -ends - matrix[:, 9])
+        found = np.linalg.solve(matrix[:, :9], -off - matrix[:, 9])
     except np.linalg.LinAlgError:
         return Transcription(residual, None)
     moved = (transfers @ np.append(found[:8], 1.0)).T
@@ -164,7 +154,7 @@ def _transfers(h: float, here: Hamiltonian, changes: Array, defects: Array, off_
     return found[:, :12]
 
 
-def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
+def extremal(ends: Ends, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
     """The transcribed extremal that Newton's method reaches, with full steps that become shorter.
 
     Raises
@@ -175,12 +165,12 @@ def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy
     path, last = guess, math.inf
     for _ in range(ITERATIONS):
         with np.errstate(all="ignore"):
-            step = transcribed(lap, cost, duration, path).step
+            step = transcribed(ends, cost, duration, path).step
         if step is None or not np.isfinite(step).all():
             raise NotConverged("the equations of a transfer on this lap are singular", math.inf)
         before, path = path, Path.of(path.unknowns + step)
         correction = distance(before, path)
-        if correction > min(LARGEST, CONTRACTION * last) or not _admissible(path):
+        if correction > min(LARGEST, CONTRACTION * last) or not _admissible(ends, path):
             raise NotConverged("no extremal was reached on this lap", correction)
         if (correction**2 if last == math.inf else expected(correction, last)) < accuracy:
             return path
@@ -189,7 +179,7 @@ def extremal(lap: Lap, cost: Cost, duration: float | None, guess: Path, accuracy
 
 
 def distance(one: Path, other: Path) -> float:
-    """The largest change of an element, or relative change of the costates, the span or the duration."""
+    """The largest change of a coordinate, or relative change of the costates, the span or the duration."""
     elements, costates = np.split(np.abs(other.nodes - one.nodes), 2)
     size = max(np.abs(one.nodes[6:]).max(), np.abs(other.nodes[6:]).max())
     dual = max(costates.max(), abs(other.price - one.price)) / size
@@ -197,8 +187,6 @@ def distance(one: Path, other: Path) -> float:
     return float(max(elements.max(), dual, *times))
 
 
-def _admissible(path: Path) -> bool:
-    """Whether a path keeps to ellipses and runs forward."""
-    p, f, g = path.nodes[:3]
-    near = (p > THINNEST).all() and (f**2 + g**2 < ROUNDEST).all()
-    return bool(near and path.span > 0 and path.duration > 0)
+def _admissible(ends: Ends, path: Path) -> bool:
+    """Whether a path keeps to where its coordinates are regular, and runs forward."""
+    return ends.admissible(path.nodes) and path.span > 0 and path.duration > 0

@@ -184,7 +184,8 @@ def _transcribed(
         return
     reasons: list[str] = []
     try:
-        yield from ladder.Ladder(lap, cost).transfers(durations, reasons, most)
+        begin = partial(families.least_energy, lap)
+        yield from ladder.Ladder(lap, cost, begin).transfers(durations, reasons, most)
         log.given_up.extend(f"lap {lap.laps}, {reason}" for reason in reasons)
     except NotConverged as reason:
         log.given_up.append(f"lap {lap.laps}: {reason}")
@@ -205,7 +206,7 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
     for way in ways:
         try:
             path = way()
-            if any(_similar(path, other) for other in known):
+            if any(similar(path, other) for other in known):
                 continue
             known.append(path)
             yield families.bounded(lap, path, cost, duration)
@@ -214,7 +215,7 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
                 log.given_up.append(f"lap {lap.laps}: {reason}")
 
 
-def _similar(one: Path, other: Path) -> bool:
+def similar(one: Path, other: Path) -> bool:
     """Whether two transcribed paths of one duration, perhaps on different nodes, seem to be one extremal."""
     first, second = one.nodes[6:, 0], other.nodes[6:, 0]
     return float(np.abs(first - second).max()) < SIMILAR * float(np.abs(first).max())

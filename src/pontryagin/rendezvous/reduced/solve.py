@@ -8,7 +8,7 @@ from pontryagin.arrays import Array
 from pontryagin.rendezvous.estimate import require_solvable
 from pontryagin.rendezvous.problem.rendezvous import Rendezvous
 from pontryagin.rendezvous.reduced.conditions import Setting
-from pontryagin.rendezvous.reduced.lap_search import extremals_on_laps
+from pontryagin.rendezvous.reduced.search import extremals
 from pontryagin.rendezvous.reduced.search_log import INTERRUPTED, SearchLog
 from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.reduced.solution import Extremal, distinct, require_extremal
@@ -71,7 +71,7 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     log = SearchLog()
     found: list[Extremal] = []
     try:
-        found.extend(Extremal(problem, root) for root in extremals_on_laps(setting, log))
+        found.extend(Extremal(problem, root) for root in extremals(setting, log))
     except KeyboardInterrupt as stop:
         if found:
             log.ends.append(INTERRUPTED)

@@ -5,7 +5,7 @@ c3 = x3f - x30 is negative, the signs of x, u and f are changed, so that c3 >= 0
 z = T - c3 >= 0, since x3 alone needs the time c3.
 """
 
-from math import fabs, inf, sqrt
+from math import fabs, inf, nan, sqrt
 
 from pontryagin.numerics.jit import batched
 from pontryagin.triple_integrator.kernels import (
@@ -25,6 +25,7 @@ from pontryagin.triple_integrator.least_time.quartic import (
     upper_bound,
 )
 from pontryagin.triple_integrator.norms.peak import EDGE, place_switches
+from pontryagin.triple_integrator.problem.scales import TINY
 
 ACCEPT = 2e-15
 """Largest residual of the moments, relative to the size of the data, with which a root is accepted."""
@@ -156,12 +157,26 @@ def first_arrival(accept: float, ends: tuple[float, ...], f: float, c3: float) -
     return 1.0, z, a, b, residual
 
 
+def square_root(number: float, unit: float) -> float:
+    """Square root of number / unit, which need not be in the range of double precision."""
+    ratio = number / unit
+    return sqrt(ratio) if TINY <= ratio < inf else sqrt(number) / sqrt(unit)
+
+
+def cube_root(number: float, unit: float) -> float:
+    """Cube root of number / unit, which need not be in the range of double precision."""
+    ratio = number / unit
+    root: float = ratio**THIRD if TINY <= ratio < inf else number**THIRD / unit**THIRD
+    return root
+
+
 def solve_time(
     x10: float, x20: float, x30: float, x1f: float, x2f: float, x3f: float, f: float, U: float
 ) -> tuple[float, ...]:
     """Duration, signed level, switches a >= b (shares of T to go), scaled residual, lower bound on T.
 
-    The duration is infinite where no root is accepted, and where U is not positive.
+    The duration is infinite where no root is accepted, and where U is not positive. It is nan where double
+    precision does not hold the motion.
     """
     if not U > 0.0:
         return inf, 0.0, 0.0, 0.0, 1.0, 0.0
@@ -172,10 +187,12 @@ def solve_time(
     sign = -1.0 if c3 < 0.0 else 1.0
     unit = max(
         fabs(c3) / U,
-        sqrt(max(fabs(d2), min(fabs(x20), fabs(x2f))) / U),
-        (fabs(d1) / U) ** THIRD,
+        square_root(max(fabs(d2), min(fabs(x20), fabs(x2f))), U),
+        cube_root(fabs(d1), U),
         min(fabs(x30 + f), fabs(x3f + f)) / U,
     )
+    if not (TINY <= unit < inf and TINY <= U * unit * unit * unit <= 1.0 / TINY):
+        return nan, 0.0, 0.0, 0.0, 1.0, 0.0
     e3 = sign / (U * unit)
     e2 = e3 / unit
     e1 = e2 / unit

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentTypeError, NotConverged
-from pontryagin.triple_integrator.least_time.arrival import NEVER, solve_stack
+from pontryagin.triple_integrator.least_time.arrival import solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.scales import beyond_range
 from pontryagin.validation import common_shape, finite, positive, vectors
 from pontryagin.value import Packed, value_class
 
@@ -135,7 +136,6 @@ def minimum_time(
     force = finite("disturbance", 0.0 if disturbance is None else disturbance, "None, a number or an array")
     if start.ndim == end.ndim == 1 and bound.ndim == force.ndim == 0:
         result = solve_stack.one(*start.tolist(), *end.tolist(), float(force), float(bound))
-        arrived = float(result[0]) < NEVER
     else:
         shape = common_shape(
             x0=start.shape[:-1], xf=end.shape[:-1], peak=bound.shape, disturbance=force.shape
@@ -144,9 +144,11 @@ def minimum_time(
         bound, force = (np.broadcast_to(value, shape) for value in (bound, force))
         columns = [x[..., i].ravel() for x in (start, end) for i in range(3)]
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
-        arrived = bool((result[..., 0] < NEVER).all())
-    if not arrived:
-        lost = ~(result[..., 0] < NEVER)
+    lost = ~np.isfinite(result[..., 0])
+    if lost.any():
+        beyond = np.argwhere(np.isnan(result[..., 0])).tolist()
+        if beyond:
+            raise beyond_range("a motion and a duration", beyond[0], "peak")
         reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
         raise NotConverged(reason, float(result[..., 4].max()))
     return TimeSolution(start, end, bound, force, **_answer(result))

@@ -27,6 +27,7 @@ from pontryagin.triple_integrator.norms.quadrature import (
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import normalise, numbers_of
+from pontryagin.triple_integrator.problem.scales import require_digits, require_levels
 from pontryagin.value import value_class
 
 CONVERGED = 1e-10
@@ -63,12 +64,13 @@ class EntropySolution(QuadraticProgramme):
     def multipliers(self) -> Array:
         """l0 = (0, 0, 1/c3): the dual function is constant, (..., 3); zeros where c = 0."""
         c = self.maneuver.moments
-        return normalise(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c)
+        return normalise(np.broadcast_to([0.0, 0.0, 1.0], c.shape), c, self.maneuver.duration)
 
     @property
     def coefficients(self) -> Array:
         """k0, k1, k2, (..., 3); where c = 0 k0 is -inf."""
         T = self.maneuver.duration
+        require_digits("coefficients of the exponent", self.peak != 0, 1 / T / T)
         with np.errstate(divide="ignore"):
             level = np.log(np.abs(self.peak))
         k0, k1, k2 = np.moveaxis(self.exponent.coefficients, -1, 0)
@@ -119,6 +121,7 @@ def maximum_entropy(maneuver: Maneuver) -> EntropySolution:
     ([6.0, 6.0], 6.0)
     """
     numbers_of(maneuver)
+    require_levels(maneuver.moments, maneuver.duration)
     c1, c2, c3 = (part.reshape(-1) for part in np.moveaxis(maneuver.moments, -1, 0))
     T = maneuver.duration.reshape(-1)
     moving = (c1 != 0) | (c2 != 0) | (c3 != 0)

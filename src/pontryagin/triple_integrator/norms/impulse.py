@@ -25,6 +25,7 @@ from pontryagin.triple_integrator.problem.programme import (
     over_stack,
     response,
 )
+from pontryagin.triple_integrator.problem.scales import impulse_unit
 from pontryagin.value import Packed, value_class
 
 REGIMES = ("zero", "moment", "chebyshev", "end", "start")
@@ -55,11 +56,11 @@ def one_impulse(m0: float, m1: float) -> tuple[float, ...]:
 
 def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Inner place sigma, impulses at start, inside and end, regime, uniqueness, scaled residual, bound."""
-    share = 1.0 / T
-    m0, m1, m2 = c3, c2 * share, 2.0 * c1 * share * share
-    scale = max(fabs(m0), fabs(m1), fabs(m2))
-    if scale == 0.0:
+    if c1 == 0.0 and c2 == 0.0 and c3 == 0.0:
         return 0.5, 0.0, 0.0, 0.0, ZERO, 1.0, 0.0, 0.0
+    m0, m1, m2 = c3, c2 / T, 2.0 * (c1 / T / T)
+    scale = max(fabs(m0), fabs(m1), fabs(m2))
+    unit = impulse_unit(scale, T)
     m0, m1, m2 = m0 / scale, m1 / scale, m2 / scale
     n0, n1, n2 = reversed_moments(m0, m1, m2)
     bound, regime = fabs(m0), MOMENT
@@ -98,13 +99,13 @@ def solve_impulse(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...
     )
     return (
         place,
-        at_start * scale,
-        middle * scale,
-        at_end * scale,
+        at_start * unit,
+        middle * unit,
+        at_end * unit,
         regime,
         unique,
         residual / bound,
-        bound * scale,
+        bound * unit,
     )
 
 
@@ -189,8 +190,7 @@ class ImpulseSolution(Packed, Programme):
         p0, p1, p2 = np.ones_like(x), -4 * x, 2 * x**2
         start = regime == START
         p0, p1, p2 = np.where(start, p0 + p1 + p2, p0), np.where(start, -p1 - 2 * p2, p1), p2
-        shape = np.stack([2 * p2 / T**2, p1 / T, p0], axis=-1)
-        return normalise(shape, self.maneuver.moments)
+        return normalise(np.stack([2 * p2, p1, p0], axis=-1), self.maneuver.moments, T)
 
     def control(self, t: ArrayLike) -> Array:
         """u at the times t, (k,) -> (..., k): 0, and plus or minus infinity at the instant of an impulse."""

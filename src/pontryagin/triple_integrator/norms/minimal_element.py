@@ -7,9 +7,10 @@ required moments. The moments are scaled to length one in a basis of polynomials
 The kernel solves one problem, first by coarse rules for exponents that end with p, then by a fine rule.
 """
 
-from math import copysign, fabs, hypot, sqrt
+from math import copysign, fabs, hypot, inf, sqrt
 
 from pontryagin.triple_integrator.norms.power_integrals import HEAD, Rule, power_integrals
+from pontryagin.triple_integrator.problem.scales import in_range, level_unit
 
 R5, R12 = sqrt(5.0), sqrt(12.0)
 """The polynomials 1, sqrt(12) y and sqrt(5) (6 y^2 - 1/2) are orthonormal on [-1/2, 1/2]."""
@@ -170,15 +171,18 @@ def measured(
 
 
 def solve_norm(c1: float, c2: float, c3: float, T: float, table: Rule) -> tuple[float, ...]:
-    """h in s/T and its discriminant, multipliers, peak, scaled residual, norm and bound.
+    """h in s/T and its discriminant, peak, scaled residual, norm and bound.
 
     The moments of the control, its norm and that of h in the bound are integrals by a rule that Newton's
     method does not use. If that fails, the control is 0, which misses the moments entirely.
     """
-    k1, k2, k3 = 6.0 * c1 / T / T / T, 2.0 * c2 / T / T, c3 / T
+    if c1 == 0.0 and c2 == 0.0 and c3 == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    k1, k2, k3 = 6.0 * (c1 / T / T), 2.0 * (c2 / T), c3
     size = max(fabs(k1), fabs(k2), fabs(k3))
-    if size == 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    level = level_unit(size, T)
+    if not level < inf:
+        return 0.0, 0.0, 0.0, 0.0, level, 0.0, level, level
     k1, k2, k3 = k1 / size, k2 / size, k3 / size
     n0, n1, n2 = k3, 0.5 * (k2 - k3), k1 / 3.0 - 0.5 * k2 + 0.25 * k3
     w0, w1, w2 = n0, R12 * n1, R5 * (6.0 * n2 - 0.5 * n0)
@@ -194,26 +198,14 @@ def solve_norm(c1: float, c2: float, c3: float, T: float, table: Rule) -> tuple[
         tolerance *= FINER
         top = largest(b0, b1, b2, discriminant)
         b0, b1, b2, discriminant = b0 / top, b1 / top, b2 / top, discriminant / top / top
-        level, missed, power = measured(b0, b1, b2, discriminant, k1, k2, k3, table, at + FINE_SIZE)
+        height, missed, power = measured(b0, b1, b2, discriminant, k1, k2, k3, table, at + FINE_SIZE)
         if missed < residual:
             h0, h1, h2, square = b0 - 0.5 * b1 + 0.25 * b2, b1 - b2, b2, discriminant
-            peak, residual, whole, pairing = level * size, missed, power, (b0 * n0 + b1 * n1 + b2 * n2) * size
+            peak, residual, whole, pairing = height, missed, power, b0 * n0 + b1 * n1 + b2 * n2
         if residual <= EXACT * (20.0 + p):
             break
     if whole == 0.0 or pairing == 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
-    l1, l2, l3 = 2.0 * h2 / pairing / T / T / T, h1 / pairing / T / T, h0 / pairing / T
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
     mean = (T * whole) ** (1.0 / p)
-    return (
-        h0,
-        h1,
-        h2,
-        square,
-        l1,
-        l2,
-        l3,
-        peak,
-        residual,
-        fabs(peak) * (T * whole / mean),
-        pairing * (T / mean),
-    )
+    norm, bound = fabs(peak) * (level * (T * whole / mean)), pairing * (level * (T / mean))
+    return h0, h1, h2, square, peak * level, residual, in_range(norm), bound

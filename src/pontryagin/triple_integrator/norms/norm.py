@@ -5,7 +5,7 @@ that attains the maximum in (1.14). The solver measures the time to go as a shar
 """
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from numbers import Real
 from struct import Struct
 from typing import Any
@@ -22,11 +22,11 @@ from pontryagin.triple_integrator.norms.power_rules import table
 from pontryagin.triple_integrator.norms.quadratic_programme import BLOCK, Profile, QuadraticProgramme
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.programme import numbers_of, over_stack
+from pontryagin.triple_integrator.problem.programme import normalise, numbers_of, over_stack
 from pontryagin.validation import vectors
 from pontryagin.value import Packed, value_class
 
-solve_stack = batched(solve_norm, outputs=11, groups=(4,), packed=True, tables=1)
+solve_stack = batched(solve_norm, outputs=8, groups=(4,), packed=True, tables=1)
 
 LAST_THREE = Struct("3d")
 """Residual, norm and bound at the end of the numbers of one problem."""
@@ -46,8 +46,6 @@ class NormSolution(Packed, QuadraticProgramme):
         The problem that is solved.
     q : float
         Exponent of the norm, 1 < q < infinity.
-    multipliers : (..., 3) array
-        l0 of the minimal element h0 = l0'h(s), with l0'c = 1; zeros where c = 0.
     peak : (...) array
         max |u|.
     shape : Quadratic
@@ -59,13 +57,18 @@ class NormSolution(Packed, QuadraticProgramme):
 
     maneuver: Maneuver
     q: float
-    multipliers: Array
     peak: Array
     shape: Quadratic
     certificate: Certificate
 
     def _unpacked(self, numbers: Array) -> dict[str, Any]:
         return _answer(numbers[4:])
+
+    @cached_property
+    def multipliers(self) -> Array:
+        """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
+        h0, h1, h2 = np.moveaxis(self.shape.coefficients, -1, 0)
+        return normalise(np.stack([2 * h2, h1, h0], axis=-1), self.maneuver.moments, self.maneuver.duration)
 
     @property
     def _knots(self) -> Array:
@@ -148,12 +151,11 @@ def signed_power(h: Array, power: float) -> Array:
 
 
 def _answer(result: Array) -> dict[str, Any]:
-    """The fields of a solution from the results of `solve_norm`, (..., 11)."""
-    certificate = Certificate(result[..., 8], result[..., 9], result[..., 10])
+    """The fields of a solution from the results of `solve_norm`, (..., 8)."""
+    certificate = Certificate(result[..., 5], result[..., 6], result[..., 7])
     shape = Quadratic(result[..., :3], result[..., 3])
     return {
-        "multipliers": result[..., 4:7],
-        "peak": result[..., 7],
+        "peak": result[..., 4],
         "shape": shape,
         "certificate": certificate,
     }

@@ -22,6 +22,7 @@ from pontryagin.triple_integrator.kernels import (
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import numbers_of, over_stack
+from pontryagin.triple_integrator.problem.scales import level_unit
 from pontryagin.value import Packed, value_class
 
 EDGE = 1e-14
@@ -114,10 +115,11 @@ def place_switches(d: float, m: float, edge: float) -> tuple[float, ...]:
 
 def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
     """Signed level v, switches a >= b (shares of T to go; 1 or 0 if none), scaled residual, lower bound."""
-    k1, k2, k3 = 6.0 * c1 / T / T / T, 2.0 * c2 / T / T, c3 / T
-    scale = max(fabs(k1), fabs(k2), fabs(k3))
-    if scale == 0.0:
+    if c1 == 0.0 and c2 == 0.0 and c3 == 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
+    k1, k2, k3 = 6.0 * (c1 / T / T), 2.0 * (c2 / T), c3
+    scale = max(fabs(k1), fabs(k2), fabs(k3))
+    level = level_unit(scale, T)
     k1, k2, k3 = k1 / scale, k2 / scale, k3 / scale
     t, y = solve_level(k1, k2, k3)
     v = 1.0 / t
@@ -127,7 +129,7 @@ def solve_peak(c1: float, c2: float, c3: float, T: float) -> tuple[float, ...]:
         v = -v
     r1, r2, r3 = bang_bang_moments(v, a, b)
     residual = max(fabs(r1 - k1), fabs(r2 - k2), fabs(r3 - k3))
-    return v * scale, a, b, residual, fabs(peak_bound(k1, k2, k3, a, b)) * scale
+    return v * level, a, b, residual, fabs(peak_bound(k1, k2, k3, a, b)) * level
 
 
 solve_stack = batched(solve_peak, outputs=5, groups=(4,), packed=True)

@@ -11,6 +11,7 @@ from pontryagin.certificate import Certificate
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule, moments_beyond
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import Programme
+from pontryagin.triple_integrator.problem.scales import scaled_moments
 
 BLOCK = 256
 """How many problems are evaluated at once for a certificate."""
@@ -49,25 +50,21 @@ class QuadraticProgramme(Programme):
             return self.peak.reshape(-1)[problem, None] * profile(h)
 
         forced = moments_beyond(quadratic, self._to_go(t), control)
-        return self.maneuver.drift(t) + forced * np.stack([T**3, T**2, T], axis=-1)
+        x1, x2, x3 = np.moveaxis(forced * T[..., None], -1, 0)
+        return np.asarray(self.maneuver.drift(t) + np.stack([x1 * T * T, x2 * T, x3], axis=-1))
 
     def _to_go(self, t: ArrayLike) -> Array:
         m = self.maneuver
         return np.clip((m.tf[..., None] - m.times(t)) / m.duration[..., None], 0.0, 1.0)
 
 
-def scaled_moments(maneuver: Maneuver) -> Array:
-    """(6 c1/T^3, 2 c2/T^2, c3/T), (..., 3): for a constant control each of them is its level."""
-    c1, c2, c3 = np.moveaxis(maneuver.moments, -1, 0)
-    T = maneuver.duration
-    return np.stack([6 * c1 / T / T / T, 2 * c2 / T / T, c3 / T], axis=-1)
-
-
 def certify(
     maneuver: Maneuver, shape: Quadratic, peak: Array, profile: Profile, q: float, bound: Array
 ) -> Certificate:
     """Certificate by a lower bound, and by moments and norm from the graded rule, which no solver uses."""
-    T, targets = maneuver.duration, scaled_moments(maneuver).reshape(-1, 3)
+    T = maneuver.duration
+    moments, impulse = scaled_moments(maneuver.moments, T)
+    targets, level = (moments * [6.0, 2.0, 1.0]).reshape(-1, 3), (impulse / T).reshape(-1, 1)
     flat, unit, size = shape.reshape(-1), np.empty_like(targets), np.empty(len(targets))
     for start in range(0, len(targets), BLOCK):
         part = slice(start, start + BLOCK)
@@ -76,7 +73,8 @@ def certify(
         unit[part] = np.stack([(weights * u * (j + 1) * s**j).sum(axis=(-2, -1)) for j in (2, 1, 0)], axis=-1)
         size[part] = (weights * np.abs(u) ** q).sum(axis=(-2, -1)) ** (1 / q)
     scale = np.abs(targets).max(axis=1)
-    missed = np.abs(unit * peak.reshape(-1, 1) - targets).max(axis=1)
+    shares = np.divide(peak.reshape(-1, 1), level, out=np.zeros_like(level), where=level > 0)
+    missed = np.abs(unit * shares - targets).max(axis=1)
     residual = np.divide(missed, scale, out=np.zeros_like(missed), where=scale > 0)
     norm = np.abs(peak) * size.reshape(T.shape) * T ** (1 / q)
     return Certificate(residual.reshape(T.shape), np.asarray(norm), bound)

@@ -58,8 +58,7 @@ class BangBang(Programme):
     @cached_property
     def multipliers(self) -> Array:
         """l0 of the minimal element h0 = l0'h(s), with l0'c = 1, (..., 3); zeros where c = 0."""
-        start, end = self._interval
-        return normalise(switching_quadratic(self.shares, end - start), self._moments)
+        return normalise(switching_quadratic(self.shares), self._moments, self._motion.duration)
 
     @cached_property
     def switch_condition(self) -> Array:
@@ -124,10 +123,10 @@ def first_sign(levels: Array, shares: Array) -> Array:
     return np.where((a == 1) & (a > b), -1.0, 1.0) * np.sign(levels)
 
 
-def switching_quadratic(shares: Array, duration: Array) -> Array:
-    """Multipliers of (s - aT)(s - bT), whose sign the control has, (..., 3)."""
+def switching_quadratic(shares: Array) -> Array:
+    """Multipliers for T = 1 of (s - a)(s - b), whose sign the control has, (..., 3)."""
     a, b = shares[..., 0], shares[..., 1]
-    return np.stack([np.full(a.shape, 2.0), -duration * (a + b), duration * duration * a * b], axis=-1)
+    return np.stack([np.full(a.shape, 2.0), -(a + b), a * b], axis=-1)
 
 
 def switch_condition(shares: Array) -> Array:

@@ -184,6 +184,6 @@ def _within(edges: Array, start: Array, end: Array) -> Array:
 def _constant(value: Array) -> Integrals:
     def call(elapsed: Array) -> Array:
         level = value[(..., *[None] * (elapsed.ndim - value.ndim))] if value.ndim else value
-        return np.stack([level * elapsed**2 / 2, level * elapsed], axis=-1)
+        return np.stack([level * elapsed * elapsed / 2, level * elapsed], axis=-1)
 
     return call

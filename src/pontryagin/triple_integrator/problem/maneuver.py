@@ -28,7 +28,7 @@ def required_moments(
     T = tf - t0
     if not T > 0.0:
         return inf, inf, inf, inf
-    c1, c2, c3 = moments(x10, x20, x30, x1f, x2f, x3f, T, f * (T * T) / 2.0, f * T)
+    c1, c2, c3 = moments(x10, x20, x30, x1f, x2f, x3f, T, f * T * T / 2.0, f * T)
     return c1, c2, c3, T
 
 

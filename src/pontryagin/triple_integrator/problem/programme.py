@@ -10,10 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.certificate import Certificate
-from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.errors import ArgumentTypeError
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
+from pontryagin.triple_integrator.problem.scales import (
+    ANSWER,
+    beyond_range,
+    require_digits,
+    scaled_moments,
+)
 from pontryagin.validation import times
 
 
@@ -109,11 +115,22 @@ def breakpoints(events: Array) -> Array:
     return np.sort(events[np.isfinite(events)])
 
 
-def normalise(multipliers: Array, moments: Array) -> Array:
-    """Multipliers scaled so that l'c = 1, (1.16); zeros where c = 0, since there no factor gives l'c = 1."""
-    pairing = (multipliers * moments).sum(axis=-1, keepdims=True)
-    scaled = np.divide(multipliers, pairing, out=np.zeros_like(multipliers), where=pairing != 0)
-    return np.asarray(scaled)
+def normalise(multipliers: Array, moments: Array, duration: Array) -> Array:
+    """Multipliers from those of T = 1, scaled so that l'c = 1, (1.16); zeros where c = 0.
+
+    Raises
+    ------
+    ValueError
+        If double precision cannot hold them.
+    """
+    shares, size = scaled_moments(moments, duration)
+    moving = size != 0
+    unit = np.divide(1.0, size, out=np.zeros_like(size), where=moving)
+    require_digits("multipliers", moving, unit, unit / duration, unit / duration / duration)
+    pairing = (multipliers * shares).sum(axis=-1, keepdims=True)
+    ratio = np.divide(multipliers, pairing, out=np.zeros(shares.shape), where=moving[..., None])
+    l1, l2, l3 = np.moveaxis(ratio * unit[..., None], -1, 0)
+    return np.stack([l1 / duration / duration, l2 / duration, l3], axis=-1)
 
 
 def truncated_power(elapsed: Array, order: int) -> Array:
@@ -130,9 +147,14 @@ def response(elapsed: Array, amplitudes: Array, order: int) -> Array:
     The times t - knot are ``elapsed`` (..., k, j), and the amplitudes (..., j). ``order`` is n + 1, the order
     of the truncated power in x3: 0 for impulses, 1 for steps, 2 for ramps.
     """
-    weights = amplitudes[..., :, None]
-    parts = [(truncated_power(elapsed, order + i) @ weights)[..., 0] for i in (2, 1, 0)]
-    return np.stack(parts, axis=-1)
+    past = truncated_power(elapsed, 1)
+    part = truncated_power(elapsed, 0) * amplitudes[..., None, :]
+    for n in range(1, order + 1):
+        part = part * (past / n)
+    parts = [part]
+    for n in (order + 1, order + 2):  # The powers by themselves may overflow where the motion does not.
+        parts.insert(0, parts[0] * (past / n))
+    return np.stack([each.sum(axis=-1) for each in parts], axis=-1)
 
 
 def numbers_of(maneuver: Maneuver) -> bytes | None:
@@ -164,11 +186,5 @@ def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
 
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
-        lost = np.argwhere(~np.isfinite(numbers))[0, :-1].tolist()
-        where = f" at index {lost}" if lost else ""
-        raise ArgumentValueError(
-            "xf must give, with x0 and tf - t0, a control within the range of floating-point numbers, "
-            f"got one beyond it{where}",
-            "xf",
-        )
+        raise beyond_range(ANSWER, np.argwhere(~np.isfinite(numbers))[0, :-1].tolist())
     return numbers

@@ -1,0 +1,1 @@
+"""Mutants of the modules that decide; see `studies.mutation.study`."""

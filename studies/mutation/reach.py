@@ -1,0 +1,105 @@
+"""Which quick tests reach a line of a module that decides, and how long each takes; kept by file of tests."""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from tests.house.dependence import Project
+
+from pontryagin.io import files
+from pontryagin.report.dependencies import digest
+from studies.mutation.laboratory import Laboratory
+
+APART = {"house", "report", "benchmarks", "studies", "cli", "display", "ledger", "terminal", "io"}
+"""Folders of tests that are not about solvers and certificates."""
+SECONDS = 600.0
+"""Processor time that the tests of one file may take."""
+
+
+Reached = tuple[str, float, set[int]]
+"""A test, its seconds, and the lines of a module that it reaches."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """The lines that quick tests reach in a checkout.
+
+    Attributes
+    ----------
+    root : Path
+        The checkout.
+    folder : Path
+        Where the lines are kept, a file for each file of tests, under the hash of all that it depends on.
+    modules : sequence of str
+        The modules whose lines are counted, as paths in the checkout.
+    """
+
+    root: Path
+    folder: Path
+    modules: Sequence[str]
+    _files: dict[Path, frozenset[Path]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def project(self) -> Project:
+        """The sources and tests."""
+        return Project(self.root / "src" / "pontryagin")
+
+    def candidates(self) -> list[Path]:
+        """The files of tests that are looked at."""
+        tests = self.root / "tests"
+        found = (path for path in tests.rglob("test_*.py"))
+        return sorted(path for path in found if path.relative_to(tests).parts[0] not in APART)
+
+    def key(self, test: Path) -> str:
+        """Of a file of tests and all that it depends on."""
+        settings = [self.root / name for name in ("pyproject.toml", "requirements.lock")]
+        known = [path for path in settings if path.is_file()]
+        return digest(*sorted(self._depends(test)), *known, *self.modules, root=self.root)
+
+    def of(self, test: Path, laboratory: Laboratory) -> Mapping[str, Any]:
+        """Tests of a file: {test: [seconds, {module: lines}]}."""
+        name = str(test.relative_to(self.root))
+        place = self.folder / f"{name.replace('/', '-').removesuffix('.py')}-{self.key(test)}.json"
+        if not place.is_file():
+            trace = [str(laboratory.root / module) for module in self.modules]
+            cache = str(self.folder / "cache")
+            answer = laboratory.ask([name], SECONDS, trace=trace, cache=cache)
+            tests = {
+                test: [seconds, {str(Path(file).relative_to(laboratory.root)): lines[file] for file in lines}]
+                for test, (seconds, lines) in answer.get("tests", {}).items()
+            }
+            files.write(place, json.dumps(tests))
+        return dict(json.loads(place.read_text(encoding="utf-8")))
+
+    def may_reach(self, test: Path, module: str) -> bool:
+        """Whether the imports of a file of tests lead to a module."""
+        return self.root / module in self._depends(test)
+
+    def _depends(self, test: Path) -> frozenset[Path]:
+        if test not in self._files:
+            self._files[test] = self.project.files(test)
+        return self._files[test]
+
+    def reaching(self, module: str, laboratory: Laboratory) -> Iterator[Reached]:
+        """The tests that reach a module, each with its seconds and lines."""
+        for candidate in self.candidates():
+            if self.may_reach(candidate, module):
+                for test, (seconds, lines) in self.of(candidate, laboratory).items():
+                    if module in lines:
+                        yield test, seconds, set(lines[module])
+
+
+def chosen(tests: Iterable[Reached], lines: range, budget: float) -> list[tuple[str, float]]:
+    """The tests that reach any of some lines, quickest first, as many as a budget of seconds allows."""
+    found = sorted((seconds, test) for test, seconds, reached in tests if reached & {*lines})
+    kept: list[tuple[str, float]] = []
+    spent = 0.0
+    for seconds, test in found:
+        if kept and spent + seconds > budget:
+            break
+        kept.append((test, seconds))
+        spent += seconds
+    return kept

@@ -1,0 +1,1 @@
+"""The soak: random problems of every solver, certificates on all, foreign solvers on a stratified sample."""
