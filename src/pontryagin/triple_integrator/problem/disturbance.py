@@ -87,7 +87,8 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
     Raises
     ------
     TypeError, ValueError
-        If it is of another kind, or has a wrong shape, an unknown symbol or a value that is not finite.
+        If it is of another kind, or has a wrong shape, an unknown symbol, a value that is not finite, an
+        impulse, or more kinks than can be told apart.
     pontryagin.NotConverged
         If it is not resolved to 1e-13, because of a singularity or after 4096 panels of an interval.
     """
@@ -103,7 +104,7 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
         return _tabulated(Panels(*analytic.on_stretches(clock)), member)
     if not callable(disturbance):
         takes = "None, a number, a callable f(t) or an expression in t"
-        return _constant(finite("disturbance", disturbance, takes))
+        return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
     if isinstance(disturbance, FromStart) and (start == disturbance.start).all():
         disturbance = disturbance.from_start()
         start, end, told = np.zeros_like(start), end - start, np.empty(0)
@@ -130,7 +131,7 @@ def function_of(disturbance: Any) -> Callable[[Any], Array]:
     if hasattr(disturbance, "free_symbols"):
         symbols = sorted(disturbance.free_symbols, key=str)
         compiled = compiler.function("disturbance", symbols, {"f": disturbance})
-        return lambda t: compiled(*[t] * len(symbols))[0] * np.ones(np.shape(t))
+        return partial(values, lambda t: compiled(*[t] * len(symbols))[0] * np.ones(np.shape(t)))
     if callable(disturbance):
         return partial(values, disturbance)
     level = 0.0 if disturbance is None else float(disturbance)
@@ -138,7 +139,7 @@ def function_of(disturbance: Any) -> Callable[[Any], Array]:
 
 
 def expression_of(disturbance: Any) -> Any:
-    """The SymPy expression that a disturbance is; None if it is none, or a formula of which SymPy makes none."""
+    """The SymPy expression that a disturbance is, or that a formula says; None for others."""
     if not isinstance(disturbance, Formula):
         return disturbance if hasattr(disturbance, "free_symbols") else None
     try:
@@ -148,7 +149,7 @@ def expression_of(disturbance: Any) -> Any:
 
 
 def _intervals(start: Array, end: Array, edges: Array) -> tuple[Array, NDArray[np.intp]]:
-    """The ends of the stretches of all intervals that differ, (m, k + 2), and which of them is whose, (..., 1)."""
+    """The ends of the stretches of all intervals that differ, (m, k + 2), and which is whose, (..., 1)."""
     count = edges.shape[-1]
     cuts = np.broadcast_to(edges, (*np.shape(start), count)).reshape(np.size(start), count)
     low, high = np.reshape(start, (-1, 1)), np.reshape(end, (-1, 1))
@@ -173,7 +174,7 @@ def _with(edges: Array, others: Array) -> Array:
 
 
 def _within(edges: Array, start: Array, end: Array) -> Array:
-    """Those of the edges (j,), ascending, that lie within intervals, filled up with their ends, (..., k)."""
+    """Those of the edges (j,), ascending, within intervals, filled up with the intervals' ends, (..., k)."""
     low, high = np.asarray(start)[..., None], np.asarray(end)[..., None]
     first, last = np.searchsorted(edges, low, side="right"), np.searchsorted(edges, high, side="left")
     at = first + np.arange(max(0, int((last - first).max(initial=0))))

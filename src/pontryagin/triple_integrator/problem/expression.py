@@ -19,16 +19,39 @@ from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
 from pontryagin.numerics.discs import Disc
 from pontryagin.numerics.enclosure import enclosure, exact
-from pontryagin.triple_integrator.problem.panels import DEGREE, Function, Proof
+from pontryagin.triple_integrator.problem.chebyshev_series import DEGREE
+from pontryagin.triple_integrator.problem.panels import Function, Proof
 from pontryagin.triple_integrator.problem.pieces import pieces
 from pontryagin.triple_integrator.problem.samples import require_finite
 from pontryagin.triple_integrator.problem.zeros import numeric, t
+
+REWRITTEN = {
+    sp.sec: sp.cos,
+    sp.csc: sp.sin,
+    sp.cot: sp.cos,
+    sp.sech: sp.cosh,
+    sp.csch: sp.sinh,
+    sp.coth: sp.tanh,
+}
+"""Functions written by others, which can be enclosed."""
+
+TINIEST, HUGEST = sp.Float("1e-290"), sp.Float("1e290")
+"""Sizes of numbers that double precision holds."""
+
+PIECES = 4096
+"""Largest number of pieces for an interval."""
 
 DISCS = (3.0, 5.0, 2.2)
 """Radii of the discs about a panel, in halves of its width."""
 
 NEAR = 1e-4
 """Within this share of a stretch, panels beside a singularity at its end are judged by their values."""
+
+SLIVER = 1e-6
+"""Stretches between two singularities that are narrower than this share of the interval are so as well."""
+
+NARROW = 1e-2
+"""Ends of stretches up to this share of their interval are known better than the clock tells."""
 
 APART = 10.0
 """Intervals whose gap is more than so many times the length of those before it are treated apart."""
@@ -59,9 +82,36 @@ def in_time(expression: Any) -> Any:
         expression = expression.doit()  # Integrals and derivatives that are left to be done.
     except NotImplementedError:
         raise _refusal(expression) from None
-    return expression.replace(
-        sp.SingularityFunction, lambda *given: sp.SingularityFunction(*given).rewrite("Heaviside")
-    )
+    expression = expression.replace(sp.SingularityFunction, _by_steps)
+    for kind, simpler in REWRITTEN.items():
+        expression = expression.replace(kind, lambda x, kind=kind, simpler=simpler: kind(x).rewrite(simpler))
+    return _exactly(expression)
+
+
+def _by_steps(*arguments: Any) -> Any:
+    return sp.SingularityFunction(*arguments).rewrite("Heaviside")
+
+
+def _exactly(expression: Any) -> Any:
+    """An expression with rational numbers in place of floats, which SymPy takes out of exponents.
+
+    exp(1e6*(t - 1.0)) is made 3e-434295*exp(1e6*t) by SymPy, which has no value in double precision.
+    """
+    joined = expression.replace(lambda e: e.is_Mul and e.args[0].is_Float and e.has(sp.exp), _into_exponent)
+    floats = {x: sp.Rational(x) for x in joined.atoms(sp.Float) if x.is_finite and TINIEST < abs(x) < HUGEST}
+    return joined.xreplace(floats)
+
+
+def _into_exponent(product: Any) -> Any:
+    """A product in which a number beyond double precision is taken into an exponential."""
+    factor, *others = product.args
+    powers = [part for part in others if isinstance(part, sp.exp)]
+    if not powers or not factor or TINIEST < abs(factor) < HUGEST:
+        return product
+    logarithm = sp.Rational(sp.log(abs(factor)).evalf(40))
+    exponent = _exactly(powers[0].args[0]) + logarithm
+    rest = [_exactly(part) for part in others if part is not powers[0]]
+    return sp.sign(factor) * sp.exp(exponent) * sp.Mul(*rest)
 
 
 def _refusal(expression: Any) -> ArgumentValueError:
@@ -112,8 +162,10 @@ class Analytic:
 
     Attributes
     ----------
-    starts : (n,) array
-        The times at which the pieces begin, ascending.
+    starts, ends : (n,) array
+        The times at which the pieces begin, ascending, and at which they end.
+    rests : (n,) array
+        By how much the true starts exceed these, as far as that is known.
     forms : tuple of Form
     form : (n,) array of int
         Which form each piece has.
@@ -124,6 +176,8 @@ class Analytic:
     """
 
     starts: Array
+    ends: Array
+    rests: Array
     forms: tuple[Form, ...]
     form: NDArray[np.intp]
     values: Array
@@ -134,7 +188,7 @@ class Analytic:
         """An expression taken apart on the intervals of a stack."""
         expression = in_time(expression)
         try:
-            parts = pieces(expression, *_joined(start.ravel(), end.ravel()))
+            parts, rests = pieces(expression, *_joined(start.ravel(), end.ravel()), PIECES * start.size)
             names = sorted({name for part in parts for name in part.values}, key=str)
             order = {form: i for i, form in enumerate(dict.fromkeys(part.expression for part in parts))}
             forms = tuple(_form(form, names) for form in order)
@@ -143,21 +197,29 @@ class Analytic:
         except (NameError, KeyError, NotImplementedError):
             raise _refusal(expression) from None
         values = np.array([[part.values.get(name, np.nan) for name in names] for part in parts])
-        starts, singular = np.array([part.low for part in parts]), np.array([part.singular for part in parts])
+        starts, ends, singular = (
+            np.array([getattr(part, name) for part in parts]) for name in ("low", "high", "singular")
+        )
         which = np.array([order[part.expression] for part in parts])
-        return cls(starts, forms, which, values.reshape(len(parts), -1), singular)
+        exceeding = np.array([rests.get(part.low, 0.0) for part in parts])
+        return cls(starts, ends, exceeding, forms, which, values.reshape(len(parts), -1), singular)
 
     @property
     def edges(self) -> Array:
         """The times at which a piece ends and the next begins, ascending, (n - 1,)."""
         return self.starts[1:]
 
-    def on_stretches(self, clock: Array) -> tuple[Function, Array, Proof]:
-        """The expression on stretches, these, and bounds on the errors of series through its values."""
+    def on_stretches(self, clock: Array) -> tuple[Function, Array, Proof, Array]:
+        """The arguments of `Panels`: values on stretches, these, proofs, and what floats leave out."""
         low, high = clock[:, :-1].ravel(), clock[:, 1:].ravel()
         piece = np.searchsorted(self.starts, low / 2 + high / 2, side="right") - 1
         at_start = self.singular[piece, 0] & (low == self.starts[piece])
-        at_end = self.singular[piece, 1] & (high == np.append(self.starts[1:], np.inf)[piece])
+        at_end = self.singular[piece, 1] & (high == self.ends[piece])
+        sliver = (
+            at_start
+            & at_end
+            & (high - low <= SLIVER * np.repeat(clock[:, -1] - clock[:, 0], clock.shape[1] - 1))
+        )
 
         def value(stretch: NDArray[np.intp], time: Array) -> Array:
             result = self._each(piece[stretch], lambda form, *given: form.value(*given), time)
@@ -168,6 +230,7 @@ class Analytic:
             width, whole = right - left, high[stretch] - low[stretch]
             near = at_start[stretch] & (right <= NEAR * whole)
             near |= at_end[stretch] & (whole - left <= NEAR * whole)
+            near |= sliver[stretch]
             bounds = np.full((2, left.size), np.inf)
             for radius in DISCS:
                 rho = radius + sqrt(radius * radius - 1)
@@ -177,7 +240,20 @@ class Analytic:
                 bounds = np.where(errors >= bounds[0], bounds, [errors, sizes])
             return np.where(near, np.nan, bounds)
 
-        return value, clock, proof
+        return value, clock, proof, self._rests(clock)
+
+    def _rests(self, clock: Array) -> Array:
+        """By how much the true ends of narrow stretches exceed those of the clock, (m, k + 2)."""
+        if not self.edges.size:
+            return np.zeros(clock.shape)
+        at = np.minimum(np.searchsorted(self.edges, clock), self.edges.size - 1) + 1
+        width = np.diff(clock, axis=1)
+        narrow = (width > 0) & (width <= NARROW * (clock[:, -1:] - clock[:, :1]))
+        beside = np.zeros(clock.shape, dtype=bool)
+        beside[:, :-1] |= narrow
+        beside[:, 1:] |= narrow
+        inside = (clock > clock[:, :1]) & (clock < clock[:, -1:])
+        return np.where(beside & inside & (self.starts[at] == clock), self.rests[at], 0.0)
 
     def _each(self, piece: NDArray[np.intp], function: Callable[..., Array], *given: Array) -> Array:
         """A function of forms, arrays (k,) and parameters for pieces (k,)."""

@@ -35,30 +35,37 @@ BITS = 80
 """To so many bits, relative to the interval's ends, zeros of polynomials are isolated."""
 
 
-def zeros(expression: sp.Expr, low: Array, high: Array) -> Array:
+def zeros(expression: sp.Expr, low: Array, high: Array, rests: dict[float, float] | None = None) -> Array:
     """The zeros of an expression on disjoint intervals, to the rounding of their values, ascending, (j,).
 
     No sign change is missed: zeros of polynomials are isolated exactly; other expressions are enclosed with
     their derivatives, on cells that are halved until each holds no zero, or the expression is monotone on it.
-    What is left of a zero without a sign change is a few narrow cells, whose middles are returned. Expressions
-    that cannot be enclosed are sampled.
+    What is left of a zero without a sign change is a few narrow cells, whose middles are returned.
+    Expressions that cannot be enclosed are sampled at 4096 times of each interval.
 
     Parameters
     ----------
     expression : sympy.Expr in `t` alone
     low, high : (n,) arrays
         Ends of the intervals; they belong to them.
+    rests : dict, optional
+        Here it is noted by how much zeros of polynomials exceed the floats that stand for them.
 
     Raises
     ------
     ValueError
         If there are so many zeros that they cannot be told apart.
     """
-    if t not in expression.free_symbols:
+    if t not in expression.free_symbols or expression.is_zero is False:
         return np.empty(0)
     value = numeric(expression)
-    near = _of_polynomial(expression, float(np.abs([low, high]).max()))
-    found = _by_enclosures(expression, value, low, high) if near is None else _polished(value, near)
+    roots = _of_polynomial(expression, float(np.abs([low, high]).max()))
+    if roots is None:
+        found = _by_enclosures(expression, value, low, high)
+    else:
+        found = _polished(value, np.array(list(map(float, roots))))
+        exceeding = (float(root - sp.Rational(x)) for root, x in zip(roots, found.tolist(), strict=True))
+        (rests if rests is not None else {}).update(zip(found.tolist(), exceeding, strict=True))
     inside = (
         (found[:, None] >= low) & (found[:, None] <= high) if len(low) < CELLS else _in_any(found, low, high)
     )
@@ -73,20 +80,47 @@ def _in_any(x: Array, low: Array, high: Array) -> Any:
 
 @lru_cache(maxsize=256)
 def numeric(expression: sp.Expr, *parameters: sp.Symbol) -> Callable[..., Array]:
-    """An expression as a function of times and parameters, (k,) each, to (k,)."""
-    compiled = compiler.function("disturbance", [t, *parameters], {"f": expression})
+    """An expression as a function of times and parameters, (k,) each, to (k,).
+
+    Its parts b t + c are computed as b (t + c/b), which keeps their digits near their zeros.
+    """
+    parts: dict[Any, Any] = {}
+    reduced = expression.replace(_is_linear, lambda part: parts.setdefault(part, sp.Dummy(real=True)))
+    linear = [(float(slope), *_parts(-constant / slope)) for slope, _, constant in map(_linear, parts)]
+    compiled = compiler.function("disturbance", [t, *parameters, *parts.values()], {"f": reduced})
 
     def value(*arguments: Array) -> Array:
+        given = [*arguments, *(slope * ((arguments[0] - zero) - rest) for slope, zero, rest in linear)]
         try:
-            return compiled(*arguments)[0]
+            with np.errstate(all="ignore"):
+                return compiled(*given)[0]
         except TypeError:  # Some functions take numbers only.
-            return np.array([compiled(*numbers)[0] for numbers in zip(*arguments, strict=True)], dtype=float)
+            return np.array([compiled(*numbers)[0] for numbers in zip(*given, strict=True)], dtype=float)
 
     return value
 
 
-def _of_polynomial(expression: sp.Expr, size: float) -> Array | None:
-    """The real zeros of a polynomial with rational coefficients; None for other expressions."""
+def _parts(number: Any) -> tuple[float, float]:
+    """The float nearest to a rational number, and what is left."""
+    nearest = float(number)
+    return nearest, float(number - sp.Rational(nearest))
+
+
+def _linear(part: Any) -> tuple[Any, Any, Any]:
+    """Slope, variable and constant of a sum of a constant and another term."""
+    constant, rest = part.as_coeff_Add()
+    return (*rest.as_coeff_Mul(), constant)
+
+
+def _is_linear(part: Any) -> bool:
+    if not part.is_Add:
+        return False
+    slope, base, constant = _linear(part)
+    return bool(base == t and constant.is_Rational and slope.is_Rational)
+
+
+def _of_polynomial(expression: sp.Expr, size: float) -> list[Any] | None:
+    """The real zeros of a polynomial with rational coefficients, as such; None for other expressions."""
     poly = expression.as_poly(t)
     if (
         poly is None
@@ -96,12 +130,12 @@ def _of_polynomial(expression: sp.Expr, size: float) -> Array | None:
         return None
     exact = sp.Poly([sp.Rational(c) for c in poly.all_coeffs()], t, domain="QQ")
     if exact.degree() <= 0:
-        return np.empty(0)
+        return []
     if exact.degree() == 1:
         slope, constant = exact.all_coeffs()
-        return np.array([float(-constant / slope)])
+        return [-constant / slope]
     eps = sp.Rational(size or 1.0) / 2**BITS
-    return np.array([float((a + b) / 2) for (a, b), _ in exact.sqf_part().intervals(eps=eps)])
+    return [(a + b) / 2 for (a, b), _ in exact.sqf_part().intervals(eps=eps)]
 
 
 def _polished(value: Callable[..., Array], near: Array) -> Array:
