@@ -142,6 +142,8 @@ def expression_of(disturbance: Any) -> Any:
     """The SymPy expression that a disturbance is, or that a formula says; None for others."""
     if not isinstance(disturbance, Formula):
         return disturbance if hasattr(disturbance, "free_symbols") else None
+    if formula.is_broad(disturbance):
+        return None
     try:
         return formula.expression(disturbance.text, disturbance.variable)
     except ValueError:  # Powers that SymPy would expand without end.

@@ -22,6 +22,7 @@ from pontryagin.triple_integrator.problem.chebyshev_series import (
     fitted,
     panel_integrals,
 )
+from pontryagin.value import freeze
 
 COARSEST = 9
 """An interval is cut into at least so many panels, whose nodes lie less than 0.8 % of it apart. An odd number
@@ -117,11 +118,11 @@ class Panels:
     def _widths(self) -> Array:
         """The lengths of the stretches, (m, k + 1)."""
         width = np.diff(self.clock, axis=1)
-        return (
-            width
-            if self.rest is None
-            else np.where(width > 0, np.maximum(width + np.diff(self.rest, axis=1), width / 4), 0.0)
-        )
+        if self.rest is not None:
+            exceeding = np.maximum(width + np.diff(self.rest, axis=1), width / 4)
+            width = np.where(width > 0, exceeding, 0.0)
+        freeze((width, self.rest))
+        return width
 
     def _member(self, stretch: NDArray[np.intp]) -> NDArray[np.intp]:
         """The intervals of stretches."""
