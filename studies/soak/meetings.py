@@ -21,7 +21,7 @@ from studies.soak.outcome import Input, Outcome, text
 WANTED = 150
 """Meetings of each kind; a chunk is one of them."""
 PATIENCE = 300.0
-"""Seconds after which a search counts as one that does not end."""
+"""Seconds of processor time after which a search counts as one that does not end."""
 ALLOWED = 1e-6
 """Largest disagreement that is no failure: the spline of the thrust has such errors."""
 DIRECTLY = 15
@@ -84,21 +84,21 @@ def line(given: Input) -> str:
 
 @contextmanager
 def patience(seconds: float) -> Iterator[None]:
-    """Raise `TimeoutError` in what takes longer, where the system has alarms."""
+    """Raise `TimeoutError` in what takes more processor time, where the system has such alarms."""
     if not hasattr(signal, "setitimer"):
         yield
         return
 
     def over(number: int, frame: FrameType | None) -> None:
-        raise TimeoutError(f"no answer in {seconds:.0f} s")
+        raise TimeoutError(f"no answer in {seconds:.0f} s of processor time")
 
-    before = signal.signal(signal.SIGALRM, over)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGPROF, over)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def chunk(free: bool, rng: np.random.Generator, number: int) -> Found:

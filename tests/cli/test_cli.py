@@ -240,15 +240,15 @@ class TestRefusals:
             (["--x0"], "Option '--x0' requires an argument"),
             (
                 options(xf="1e308,0,0", duration="1e-200"),
-                "--xf must give, with x0 and tf - t0, a control",
+                "--xf must give with x0 and tf - t0 a control",
             ),
             (
                 options(xf="1e308,0,0", duration="1e-200", norm="3"),
-                "--xf must give, with x0 and tf - t0, a control",
+                "--xf must give with x0 and tf - t0 a control",
             ),
             (
                 options(xf="1e308,0,0", peak="1e-300", norm=None, duration=None),
-                "--xf must give, with x0 and peak, a motion",
+                "--xf must give with x0 and peak a motion",
             ),
         ],
     )
@@ -346,7 +346,7 @@ class TestBatch:
         problems = self.write(tmp_path, [*self.ROWS, hopeless])
         result = solve("--norm", "inf", "--batch", problems)
         assert result.exit_code == 1
-        reason = "xf must give, with x0 and tf - t0, a control"
+        reason = "xf must give with x0 and tf - t0 a control"
         assert result.stderr.startswith(
             f"Error: --batch: {problems}, 1 of 4 rows, the first of them in line 5: {reason}"
         )

@@ -10,9 +10,9 @@ TABLE = """# title: Soak
 # note: Problems and failures.
 # seed: 1
 # version: 0.9
-part,problems,worst gap,depends on,key
-energy,1000,4e-16,studies.soak.energy,{energy}
-peak,2000,5e-16,studies.soak.peak,{peak}
+part,problems,worst gap,peers not installed,depends on,key
+energy,1000,4e-16,,studies.soak.energy,{energy}
+peak,2000,5e-16,,studies.soak.peak,{peak}
 """
 
 
@@ -42,10 +42,10 @@ def test_the_table_is_shown_with_its_seconds_and_without_its_keys(studied):
     text = chapter(studied.workspace)
     assert "## Soak {#study-soak}" in text and "Problems and failures." in text
     assert "Seed 1, version 0.9, 30 seconds in all, on Python 3.12." in text
-    assert "studies.soak.energy" not in text
+    assert "studies.soak.energy" not in text and "not installed" not in text
     assert rows(studied) == [
-        ["energy", "1000", "4e-16", "10", "today's"],
-        ["peak", "2000", "5e-16", "20", "today's"],
+        ["energy", "1000", r"$4\times 10^{-16}$", "10", "today's"],
+        ["peak", "2000", r"$5\times 10^{-16}$", "20", "today's"],
     ]
 
 

@@ -1,6 +1,7 @@
 """The chapter of the long studies: their committed tables, and which rows are of sources since changed."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from pontryagin.display.tables import markdown_table
@@ -27,10 +28,12 @@ def chapter(workspace: Workspace) -> str:
 def _section(checkout: Checkout, path: Path) -> str:
     kept, taken = read(path), read(path.with_name(TAKEN))
     seconds = {row["part"]: row["seconds"] for row in taken.rows}
-    shown: dict[str, Sequence[str]] = {
-        heading: [row[heading] for row in kept.rows] for heading in kept.headings if heading not in NOT_SHOWN
+    shown: dict[str, Sequence[str | float]] = {
+        heading: [_entry(row[heading]) for row in kept.rows]
+        for heading in kept.headings
+        if heading not in NOT_SHOWN and any(row[heading] for row in kept.rows)
     }
-    shown["seconds"] = [f"{float(seconds[row['part']]):.0f}" for row in kept.rows]
+    shown["seconds"] = [round(float(seconds[row["part"]])) for row in kept.rows]
     shown["sources"] = ["changed" if stale(checkout, row) else "today's" for row in kept.rows]
     name = path.parent.name
     return f"""## {kept.facts["title"]} {{#study-{name}}}
@@ -41,6 +44,14 @@ def _section(checkout: Checkout, path: Path) -> str:
 
 {_run(kept, taken, sum(map(float, seconds.values())))} The cases that are kept with their exact inputs are in
 `figures/studies/{name}`."""
+
+
+def _entry(text: str) -> str | float:
+    """A cell: a number where it is one."""
+    for read_as in (int, float):
+        with suppress(ValueError):
+            return read_as(text)
+    return text
 
 
 def _run(kept: StudyTable, taken: StudyTable, seconds: float) -> str:

@@ -419,3 +419,21 @@ def test_a_start_between_two_targets_reaches_one_of_them():
     for start in (2.5, 2.4, 2.7):
         found = solve_averaged(system, [start])
         assert float(found.cost) == pytest.approx(2 * min(start - 2, 3 - start), rel=1e-12)
+
+
+@pytest.mark.parametrize("end", [(-1.5, 0.5625), (1.5, -0.0625)])
+def test_rates_that_have_a_corner(end):
+    """Under s = cos x (p + 2 q sin x) the mean of |s| does not depend on q where |p| > 2 |q|.
+
+    Elsewhere it is 2 |q| (1 + k^2) / pi with k = p / 2 q: the rates are 2 k / pi and 2 (1 - k^2) / pi.
+    """
+    target = [a - end[0], b - end[1]]
+    turning = [u * sp.cos(x), u * sp.sin(2 * x)]
+    system = PhaseSystem(
+        f=turning, omega=1, control_set=Ball(1), slow=[a, b], control=[u], phase=x, target=target
+    )
+    far, up = abs(end[0]), abs(end[1])
+    k = max(np.roots([far, up, -far]))
+    solution = solve_averaged(system, [0.0, 0.0])
+    assert solution.cost == pytest.approx(far * np.pi / (2 * k), rel=1e-10)
+    assert solution.certificate.holds(1e-10)

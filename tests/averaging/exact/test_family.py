@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from pontryagin.averaging import kepler, smooth_example
+from pontryagin.averaging import kepler, smooth_example, spin_down
 from pontryagin.averaging.exact import family as families
 from pontryagin.averaging.exact.shooting import shooting
 
@@ -76,3 +76,30 @@ def test_no_extremal_is_left_out_between_solved_turns(epsilon):
         every = RIPPLED.exact(epsilon)
     assert_allclose([one.ending_anomaly for one in found], [one.ending_anomaly for one in every], atol=1e-7)
     assert_allclose([one.cost for one in found], [one.cost for one in every], rtol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("v1", "ripple", "epsilon", "phase"),
+    [(1.2, 0.7, 0.9, 0.0), (1.25, 0.6, 1.5, 0.5), (1.1, 0.7, 1.8, 0.0), (1.3, 0.6, 0.35, -1.1)],
+)
+def test_an_extremal_that_ends_shortly_after_the_start_is_found(v1, ripple, epsilon, phase):
+    """Over so short a way the force is nearly c = ripple cos x, and the best control nearly constant.
+
+    For speeds that change at the rate w the cost is (1 + (w - c)^2)/w for each unit of speed, at least
+    2 (sqrt(1 + c^2) - c). Extremals are minima and maxima in turn, and the first one is a minimum.
+    """
+    found = smooth_example(1.0, v1, ripple=ripple).exact(epsilon, phase=phase)
+    best = found[0]
+    c = ripple * np.cos((phase + best.ending_anomaly) / 2)
+    assert best.cost == pytest.approx(2 * (v1 - 1) * (np.sqrt(1 + c**2) - c), rel=0.03)
+    assert all(one.certificate.holds(1e-9) for one in found)
+    kinds = [one.kind for one in sorted(found, key=lambda one: one.ending_anomaly)]
+    assert kinds == [("minimum", "maximum")[i % 2] for i in range(len(found))]
+
+
+@pytest.mark.slow
+def test_extremals_that_end_within_the_first_turn_change_smoothly_with_the_body():
+    ratios = (0.68, 0.69, 0.70, 0.71)
+    costs = [spin_down([0.3, 0.4, 1.2], [1.0, 0.5, 0.4], d).exact(0.2)[0].cost for d in ratios]
+    assert_allclose(np.diff(costs, 3), 0, atol=1e-5)
+    assert np.all(np.diff(costs) > 0.003)

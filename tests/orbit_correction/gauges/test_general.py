@@ -150,3 +150,14 @@ def test_an_open_proof_is_not_handed_out_however_small_the_gauge():
         with pytest.raises(NotConverged, match="the gauge could not be proved"):
             require_closed(Certificate(*map(np.array, (residual, upper, lower))), "the gauge")
     require_closed(Certificate(np.zeros(2), np.array([0.0, 1e-20]), np.array([0.0, 1e-20])), "the gauge")
+
+
+@pytest.mark.parametrize(
+    ("state", "weight"), [(1e-200, 1e-300), (1e160, 1e300), (1e-310, 1.0), (1e300, 1e20)]
+)
+def test_a_gauge_that_doubles_do_not_hold_is_refused(state, weight):
+    """Controls with (u, weight u) <= 1 have lengths up to 1/sqrt(weight)."""
+    system = DiscreteSystem(np.eye(2), np.eye(2) * weight)
+    with pytest.raises(ValueError, match=r"^x0 must give with the system a gauge within the range") as caught:
+        gauge(system, [[1.0, 1.0], [state, 0.5 * state]], steps=3)
+    assert caught.value.argument == "x0"

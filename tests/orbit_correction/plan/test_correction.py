@@ -178,3 +178,18 @@ def test_impulses_hold_every_instant_and_the_count_those_that_fire():
     plan = correct([0.0, 0.004, 0.0], thrust="ball")
     assert len(plan.impulses) == int(plan.instants)
     assert int(plan.impulse_count) == np.count_nonzero(plan.impulses.any(axis=1))
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
+def test_states_and_peaks_of_any_size_have_the_same_plan_or_are_refused(thrust):
+    state, peak = np.array([0.001, 0.002, -0.0015]), 0.0035
+    usual = correct(state, peak=peak, thrust=thrust)
+    for power in (-1000, -600, -300, 300, 600, 1000):
+        plan = correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
+        assert plan.steps == usual.steps
+        assert_allclose(plan.gauge, usual.gauge, rtol=1e-14)
+        assert_allclose(plan.impulses, usual.impulses * 2.0**power, rtol=1e-12, atol=1e-15 * 2.0**power)
+    for power in (-1050, -1016):
+        with pytest.raises(ValueError, match=r"^z0 must give with interval and peak a plan within") as caught:
+            correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
+        assert caught.value.argument == "z0"

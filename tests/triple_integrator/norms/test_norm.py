@@ -344,3 +344,27 @@ def test_an_empty_stack_has_empty_states(times):
     solution = minimum_norm(Maneuver(np.zeros((0, 3)), np.zeros((0, 3)), 1.0), 3.0)
     assert solution.state(times).shape == (0, len(times), 3)
     assert solution.control(times).shape == (0, len(times))
+
+
+@pytest.mark.parametrize("q", [1.5, 3.0, 4.0, 10.0, 100.0, 1e4])
+@pytest.mark.parametrize("at_end", [True, False])
+def test_a_double_zero_at_either_end(q, at_end):
+    """h = s^2 or (1 - s)^2: the control is a power of the time to go or since the start, and known."""
+    a = 2 / (q - 1)
+    first = 1 / (a + 2) if at_end else 1 / (a + 1) / (a + 2)
+    second = 1 / (a + 3) if at_end else 2 / (a + 1) / (a + 2) / (a + 3)
+    solution = minimum_norm(Maneuver(np.zeros(3), [second / 2, first, 1 / (a + 1)], 1.0), q)
+    assert_allclose(solution.norm, (1 / (a * q + 1)) ** (1 / q), rtol=1e-12)
+    assert solution.certificate.holds(1e-11)
+
+
+def test_reversals_as_narrow_as_one_over_q():
+    flips = [
+        [0.1666568814886584, 0.49992528275361203, 0.9997147386056217],
+        [-0.1666625016938592, -0.4999606491380296, -0.9998141055855253],
+        [0.16658401479119486, 0.4997908043095213, 0.9997352580521166],
+        [0.1666009517172364, 0.4998316641076139, 0.9997843947765604],
+    ]
+    solution = minimum_norm(Maneuver(np.zeros(3), flips, 1.0), 1e4)
+    assert solution.certificate.holds(1e-12)
+    assert (solution.norm <= minimum_peak(solution.maneuver).norm * (1 + 1e-12)).all()

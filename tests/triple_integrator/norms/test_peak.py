@@ -165,7 +165,7 @@ def test_no_moments_no_control():
 
 def test_what_overflows_is_refused():
     with pytest.raises(
-        ValueError, match="xf must give, with x0 and tf - t0, a control, a norm and a motion within the range"
+        ValueError, match="xf must give with x0 and tf - t0 a control, a norm and a motion within the range"
     ):
         minimum_peak(Maneuver([0, 0, 0], [1e300, 0, 0], 1e-3))
 

@@ -1,6 +1,6 @@
 """Averaged extremals by collocation: Newton's method, further guesses where it fails, mesh refinement."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certificate import certify
 from pontryagin.averaging.averaged.collocation import CLOSE, Problem, Trajectories, newton
-from pontryagin.averaging.averaged.guess import Guess, shot, straight
+from pontryagin.averaging.averaged.guess import Guess, shot, straight, towards_target
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
@@ -120,7 +120,14 @@ def _stack(
 
 def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
     """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
-    for guess in (straight(problem, FINE).path, shot(problem, FINE), straight(problem, GRADED).path):
+    guesses: tuple[Callable[[], Trajectories | None], ...] = (
+        lambda: straight(problem, FINE).path,
+        lambda: shot(problem, FINE),
+        lambda: straight(problem, GRADED).path,
+        lambda: towards_target(problem, FINE),
+    )
+    for make in guesses:
+        guess = make()
         if guess is not None:
             path, closeness = newton(problem, guess)
             if closeness[0] <= CLOSE:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.aim import aimed
 from pontryagin.averaging.averaged.collocation import Problem, Trajectories
 from pontryagin.numerics.collocation import Mesh, derivative, evaluate
 
@@ -46,14 +47,16 @@ class Guess:
     stuck: NDArray[np.bool_]
 
 
-def straight(problem: Problem, mesh: Mesh) -> Guess:
+def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Guess:
     """A trajectory along the straight line to the target's nearest point, at the mesh's points of slow time.
 
-    The costate has the direction of the target's gradient and the length that makes H0 vanish.
+    The costate has the given direction (s, n), or that of the target's gradient, and the length that makes H0
+    vanish.
     """
     model = problem.model
     start = problem.start
-    end, direction = _nearest(problem)
+    end, along_gradient = _nearest(problem)
+    direction = along_gradient if direction is None else direction
     slow = start[:, None] + mesh.points[:, None] * (end - start)[:, None]
     length, stuck = _level(problem, slow, direction)
     eta = length[..., None] * direction[:, None]
@@ -68,6 +71,19 @@ def straight(problem: Problem, mesh: Mesh) -> Guess:
     z = _at_even_times(mesh, clock / clock[:, -1:], z)
     alpha = _multipliers(problem, z[:, -1])
     return Guess(Trajectories(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+
+
+def towards_target(problem: Problem, mesh: Mesh) -> Trajectories | None:
+    """The guess `straight` of one problem (1) with the costate that `aimed` finds; None if it finds none."""
+    end, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    first = length * direction
+    idle = problem.hamiltonian(np.concatenate([problem.start, IDLE * first], axis=-1)[:, None]).value[0, 0]
+    target, _ = problem.model.ends(end, problem.numbers)
+    found = None
+    if not stuck.any():
+        found = aimed(problem, (end - problem.start)[0], target.gradient[0], first[0], float(idle))
+    return straight(problem, mesh, found[None] / np.linalg.norm(found)).path if found is not None else None
 
 
 def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:

@@ -43,6 +43,8 @@ PATIENCE = 2
 """After a turn that was too far ahead, so many are found before the distance grows again."""
 PREDICTED = 0.02
 """The distance to the next turn is doubled where y1 was predicted to this share of its range."""
+HALVINGS = 8
+"""How often the distance to the start is halved in search of a root before the first member."""
 EXTRAPOLATED = 3
 """Number of turns from which the next one is extrapolated."""
 
@@ -103,6 +105,8 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, theta, size, 1)
     solved_turns = resolved(problem, [*reversed(below), first, *above], size)
     every = MemberTable.joined([turn.members for turn in filled(solved_turns, size)])
+    if lower == "start" and every.y[0] >= 0:
+        every = _towards_start(problem, every)
     return _unbroken(_family(every, theta, (lower, upper)), float(problem.parameters[0]))
 
 
@@ -119,6 +123,20 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn,
         size *= 2
     angles = _angles(problem, theta, size, 0)
     return _turn_about(problem, theta, unknowns, angles, "start" if len(angles) < size else ""), size
+
+
+def _towards_start(problem: Shooting, every: MemberTable) -> MemberTable:
+    """The members and others below them, down to a negative y1.
+
+    As the duration vanishes, J grows without limit and y1 falls: a positive y1 has a root below it.
+    """
+    first, below = every[[0]], list[MemberTable]()
+    gap = float(first.theta[0]) - problem.anomaly
+    for member in march(problem, first, problem.anomaly + gap * 0.5 ** np.arange(1, HALVINGS + 1)):
+        below.append(member)
+        if member.y[0] < 0:
+            break
+    return MemberTable.joined([*reversed(below), every])
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:

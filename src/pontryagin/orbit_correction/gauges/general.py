@@ -14,7 +14,7 @@ from pontryagin.orbit_correction.gauges.ellipsoids import gauge_stack
 from pontryagin.orbit_correction.gauges.long_sums import gauge_rows
 from pontryagin.orbit_correction.gauges.proof import require_closed, unit
 from pontryagin.orbit_correction.system.discrete import DiscreteSystem
-from pontryagin.validation import vectors
+from pontryagin.validation import require_digits, vectors
 from pontryagin.value import value_class
 
 SIGNATURE = "void(float64[:,:,::1],float64[:,::1],float64[:,::1],float64[:,::1])"
@@ -33,6 +33,9 @@ FLAT = 1e-13
 
 Widths are measured in units of the reach of the controls along each coordinate.
 """
+
+ANSWER = "with the system a gauge"
+"""What a state must give within the range of floating-point numbers."""
 
 VANISHING = 1e-100
 """Steps that add less than this share of the reach are set to zero, because their squares would underflow."""
@@ -114,8 +117,11 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
     scaled[np.abs(scaled).max(axis=(1, 2)) < VANISHING] = 0.0
     rows = -x0.reshape(int(np.prod(shape)), n)
     size = np.abs(rows).max(axis=1, initial=0.0)
-    targets = rows / np.where(size > 0, size, 1.0)[:, None] / reach
-    longest = np.abs(targets).max(axis=1, initial=0.0)
+    with np.errstate(over="ignore", under="ignore"):
+        targets = rows / np.where(size > 0, size, 1.0)[:, None] / reach
+        longest = np.abs(targets).max(axis=1, initial=0.0)
+        scale = size * longest
+    require_digits("x0", ANSWER, (size > 0).reshape(shape), scale.reshape(shape))
     targets /= np.where(longest > 0, longest, 1.0)[:, None]
     axes, widths, _ = np.linalg.svd(np.moveaxis(scaled, 0, 1).reshape(n, -1), full_matrices=False)
     thick = widths > FLAT * widths[0]
@@ -134,8 +140,8 @@ def gauge_of_factors(factors: Array, x0: Array) -> Gauge:
             costates,
             results,
         )
-        scale = size * longest
         lower, upper = (results[:, i].reshape(shape) * scale.reshape(shape) for i in range(2))
+    require_digits("x0", ANSWER, (size > 0).reshape(shape), upper)
     proof = Certificate(results[:, 2].reshape(shape), upper, lower)
     require_closed(proof, "the gauge")
     return Gauge(lower, unit(costates @ whitening / reach).reshape(*shape, n), proof)

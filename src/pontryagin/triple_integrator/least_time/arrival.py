@@ -25,7 +25,7 @@ from pontryagin.triple_integrator.least_time.quartic import (
     upper_bound,
 )
 from pontryagin.triple_integrator.norms.peak import EDGE, place_switches
-from pontryagin.triple_integrator.problem.scales import TINY
+from pontryagin.validation import TINY
 
 ACCEPT = 2e-15
 """Largest residual of the moments, relative to the size of the data, with which a root is accepted."""

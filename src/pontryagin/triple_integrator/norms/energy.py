@@ -20,7 +20,8 @@ from pontryagin.triple_integrator.problem.programme import (
     over_stack,
     response,
 )
-from pontryagin.triple_integrator.problem.scales import in_range, level_unit, require_digits, scaled_moments
+from pontryagin.triple_integrator.problem.scales import in_range, level_unit, scaled_moments
+from pontryagin.validation import require_digits
 from pontryagin.value import Packed, value_class
 
 
@@ -81,7 +82,7 @@ class EnergySolution(Packed, Programme):
     def coefficients(self) -> Array:
         """u0, u1, u2 of u = u0 + u1 s + u2 s^2 in the time to go s, (..., 3)."""
         T, size = self.maneuver.duration, np.abs(self.parabola).max(axis=-1)
-        require_digits("coefficients of the control", size != 0, size, size / T, size / T / T)
+        require_digits("xf", "coefficients of the control", size != 0, size, size / T, size / T / T)
         p0, p1, p2 = np.moveaxis(self.parabola, -1, 0)
         return np.stack([p0, p1 / T, p2 / T / T], axis=-1)
 

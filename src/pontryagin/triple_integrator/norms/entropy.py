@@ -27,7 +27,8 @@ from pontryagin.triple_integrator.norms.quadrature import (
 )
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import normalise, numbers_of
-from pontryagin.triple_integrator.problem.scales import require_digits, require_levels
+from pontryagin.triple_integrator.problem.scales import require_levels
+from pontryagin.validation import require_digits
 from pontryagin.value import value_class
 
 CONVERGED = 1e-10
@@ -70,7 +71,7 @@ class EntropySolution(QuadraticProgramme):
     def coefficients(self) -> Array:
         """k0, k1, k2, (..., 3); where c = 0 k0 is -inf."""
         T = self.maneuver.duration
-        require_digits("coefficients of the exponent", self.peak != 0, 1 / T / T)
+        require_digits("xf", "coefficients of the exponent", self.peak != 0, 1 / T / T)
         with np.errstate(divide="ignore"):
             level = np.log(np.abs(self.peak))
         k0, k1, k2 = np.moveaxis(self.exponent.coefficients, -1, 0)

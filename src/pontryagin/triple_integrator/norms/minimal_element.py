@@ -38,7 +38,7 @@ this share of the trace is added to both curvatures."""
 SMALL = 1e-3
 """Relative change of the coefficients from which the discriminant is computed anew."""
 
-STEPS = 100
+STEPS = 1000
 """Largest number of evaluations at one stage."""
 
 

@@ -28,6 +28,10 @@ FAR = 2.0
 """Where a piece begins farther from its zero or vertex than this many of its lengths, its lower end is the
 origin: there h has lost no digits."""
 
+AT_VERTEX = 1e-3
+"""A piece that begins with a smaller slope, relative to b2, begins at the vertex but for rounding: there h
+follows from the discriminant, since the rounded coefficients contradict it next to a double zero."""
+
 NEVER = 1e300
 """The distance of a zero that there is not."""
 
@@ -204,4 +208,6 @@ def power_integrals(
     side = -1.0 if b1 * b2 < 0.0 else 1.0
     start = -0.5 * side
     h, slope = b0 + start * (b1 + start * b2), side * (b1 + 2.0 * start * b2)
+    if fabs(slope) < AT_VERTEX * fabs(b2):
+        h = 0.25 * (slope * slope - discriminant) / b2
     return from_vertex(start, side, 1.0, h, slope, b2, discriminant, rule, at)

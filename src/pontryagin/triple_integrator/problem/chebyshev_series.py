@@ -33,6 +33,11 @@ def _derivatives(degree: int) -> tuple[Array, Array]:
     return np.asarray(first), np.asarray(second)
 
 
+def _product(rows: Array, matrix: Array) -> Array:
+    """Rows times a transposed matrix, each alike: BLAS rounds the last digit by the number of rows."""
+    return np.asarray(np.einsum("pn,cn->pc", rows, matrix))
+
+
 def fitted(sample: Array, late: Array) -> Array:
     """Coefficients of series from values (p, degree+1) at nodes that are late by so much, in [-1, 1].
 
@@ -41,14 +46,14 @@ def fitted(sample: Array, late: Array) -> Array:
     """
     _, invert = chebyshev_fit(DEGREE)
     first, second = _derivatives(DEGREE)
-    coefficients: Array = sample @ invert.T
-    moved = late * (coefficients @ first)
+    coefficients = _product(sample, invert)
+    moved = late * _product(coefficients, first.T)
     most = np.abs(late).max(axis=1, initial=0.0)
     at = np.flatnonzero((np.abs(moved).max(axis=1) > LATE * np.abs(sample).max(axis=1)) & (most < TOO_LATE))
     for _ in range(3 if at.size else 0):
         given = coefficients[at]
-        moved = late[at] * (given @ first + late[at] / 2 * (given @ second))
-        coefficients[at] = (sample[at] - moved) @ invert.T
+        moved = late[at] * (_product(given, first.T) + late[at] / 2 * _product(given, second.T))
+        coefficients[at] = _product(sample[at] - moved, invert)
     return coefficients
 
 

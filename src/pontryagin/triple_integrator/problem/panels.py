@@ -179,7 +179,7 @@ class Panels:
             np.maximum.at(area, member, mass)
             coefficients = fitted(sample, 2 * late / width[:, None])
             tail = np.abs(coefficients[:, -3:]).max(axis=1)
-            slope = np.abs(coefficients) @ np.arange(DEGREE + 1) * 2 / width
+            slope = np.einsum("pc,c->p", np.abs(coefficients), np.arange(DEGREE + 1.0)) * 2 / width
             blurred = self._blur(stretch, (low, high), (slope, largest))
             small = SHARE * area[member] / width
         own = np.maximum(1e-14 * largest, blurred)

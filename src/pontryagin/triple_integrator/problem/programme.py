@@ -14,13 +14,8 @@ from pontryagin.errors import ArgumentTypeError
 from pontryagin.numerics.jit import Batched
 from pontryagin.triple_integrator import kernels
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.triple_integrator.problem.scales import (
-    ANSWER,
-    beyond_range,
-    require_digits,
-    scaled_moments,
-)
-from pontryagin.validation import times
+from pontryagin.triple_integrator.problem.scales import ANSWER, scaled_moments
+from pontryagin.validation import beyond_range, require_digits, times
 
 
 class Programme(ABC):
@@ -126,7 +121,7 @@ def normalise(multipliers: Array, moments: Array, duration: Array) -> Array:
     shares, size = scaled_moments(moments, duration)
     moving = size != 0
     unit = np.divide(1.0, size, out=np.zeros_like(size), where=moving)
-    require_digits("multipliers", moving, unit, unit / duration, unit / duration / duration)
+    require_digits("xf", "multipliers", moving, unit, unit / duration, unit / duration / duration)
     pairing = (multipliers * shares).sum(axis=-1, keepdims=True)
     ratio = np.divide(multipliers, pairing, out=np.zeros(shares.shape), where=moving[..., None])
     l1, l2, l3 = np.moveaxis(ratio * unit[..., None], -1, 0)
@@ -186,5 +181,5 @@ def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
 
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
-        raise beyond_range(ANSWER, np.argwhere(~np.isfinite(numbers))[0, :-1].tolist())
+        raise beyond_range("xf", ANSWER, ~np.isfinite(numbers).all(axis=-1))
     return numbers

@@ -7,16 +7,12 @@ of the largest of them every manoeuvre is of size one; the answers are then give
 from math import inf, nan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import ArgumentValueError
+from pontryagin.validation import TINY, require_digits
 
-TINY = 2.0**-1022
-"""The smallest number with all digits of double precision. Smaller ones are multiples of 2^-1074."""
-
-ANSWER = "a control, a norm and a motion"
-"""What the solvers give and must be able to hold."""
+ANSWER = "with x0 and tf - t0 a control, a norm and a motion"
+"""What the target of a manoeuvre must give within the range of floating-point numbers."""
 
 
 def in_range(unit: float) -> float:
@@ -52,33 +48,9 @@ def scaled_moments(c: Array, T: Array) -> tuple[Array, Array]:
     return moments / np.where(size == 0, 1.0, size)[..., None], size
 
 
-def require_digits(what: str, moving: NDArray[np.bool_], *units: Array) -> None:
-    """Refuse answers that are too large or too small for double precision, where the control is not 0.
-
-    Raises
-    ------
-    ValueError
-        If one of the units of the answer, (...), is not a number with all digits.
-    """
-    for unit in units:
-        lost = moving & ~((unit >= TINY) & (unit < np.inf))
-        if lost.any():
-            raise beyond_range(what, np.argwhere(lost)[0].tolist())
-
-
-def beyond_range(what: str, index: list[int], given: str = "tf - t0") -> ArgumentValueError:
-    """The error for a manoeuvre, at this index of a stack, whose answer double precision cannot hold."""
-    where = f" at index {index}" if index else ""
-    message = (
-        f"xf must give, with x0 and {given}, {what} within the range of floating-point numbers, "
-        f"{TINY:.1e} to {np.finfo(float).max:.1e} in modulus, got one beyond it{where}"
-    )
-    return ArgumentValueError(message, "xf")
-
-
 def require_levels(c: Array, T: Array) -> None:
     """Refuse moments (..., 3) whose control double precision cannot hold, as `level_unit` does for one."""
     _, size = scaled_moments(c, T)
     with np.errstate(over="ignore"):
         units = size, size * T * T, size / T
-    require_digits(ANSWER, (c != 0).any(axis=-1), *units)
+    require_digits("xf", ANSWER, (c != 0).any(axis=-1), *units)
