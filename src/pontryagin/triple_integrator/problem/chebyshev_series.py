@@ -1,9 +1,11 @@
 """Chebyshev series through values at the nodes of panels, and their integrals."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 
@@ -64,3 +66,20 @@ def panel_integrals(coefficients: Array, x: Array, width: Array) -> Array:
     g2 = chebyshev.chebval(x, first.T, tensor=False) * width / 2
     g1 = chebyshev.chebval(x, second.T, tensor=False) * (width / 2) ** 2
     return np.stack([g1, g2], axis=-1)
+
+
+def running_integrals(
+    first: NDArray[np.intp], owner: NDArray[np.intp], width: Array, coefficients: Array
+) -> Array:
+    """g1 and g2 from the start of each interval to the left ends of its panels, (p, 2)."""
+    over = panel_integrals(coefficients, np.ones(len(width)), width)
+    place = np.arange(len(width)) - first[owner]
+    order = np.argsort(place, kind="stable")
+    bounds = np.searchsorted(place[order], np.arange(1, place.max(initial=0) + 2))
+    found = np.zeros_like(over)
+    for begin, end in pairwise(bounds):
+        here = order[begin:end]
+        before = here - 1
+        found[here] = found[before] + over[before]
+        found[here, 0] += found[before, 1] * width[before]
+    return found

@@ -6,7 +6,6 @@ Every interval is judged by its own values, so that its panels and integrals do 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from math import inf
 from typing import Any
 
@@ -21,7 +20,9 @@ from pontryagin.triple_integrator.problem.chebyshev_series import (
     chebyshev_fit,
     fitted,
     panel_integrals,
+    running_integrals,
 )
+from pontryagin.triple_integrator.problem.panel_table import Table, chosen, halved, joined
 from pontryagin.value import freeze
 
 COARSEST = 9
@@ -62,9 +63,6 @@ PANELS = 4096
 Function = Callable[[NDArray[np.intp], Array], Array]
 """A function of the numbers of stretches, and of times within these, to values, each (k,)."""
 
-
-Table = dict[str, Any]
-"""Panels by columns, (p,) or (p, ...) each."""
 
 Proof = Callable[[NDArray[np.intp], Array, Array], Array]
 """A function of the numbers of stretches, and of both ends of panels, each (k,), to (2, k): bounds on the
@@ -233,19 +231,19 @@ class Panels:
         while True:
             while len(open_["stretch"]):
                 judged, resolved, waits = self._judged(open_, area)
-                done.append(_chosen(judged, resolved))
+                done.append(chosen(judged, resolved))
                 rough = ~(resolved | waits)
                 np.add.at(count, self._member(open_["stretch"][rough]), 1)
-                self._require_hope(_chosen(judged, rough), count)
-                open_ = _joined([_halved(_chosen(open_, rough)), _chosen(open_, waits)])
-            table = _joined(done)
+                self._require_hope(chosen(judged, rough), count)
+                open_ = joined([halved(chosen(open_, rough)), chosen(open_, waits)])
+            table = joined(done)
             area = np.bincount(self._member(table["stretch"]), table["mass"], len(self.clock)).astype(float)
             width = table["high"] - table["low"]
             small = SHARE * area[self._member(table["stretch"])] / width
             poor = table["error"] > np.maximum.reduce([table["own"], OVERRATED * small, 0 * small + LEAST])
             if not poor.any():
                 break
-            done, open_ = [_chosen(table, ~poor)], _chosen(table, poor)
+            done, open_ = [chosen(table, ~poor)], chosen(table, poor)
         return self._in_order(table)
 
     def _require_hope(self, rough: Table, count: NDArray[np.intp]) -> None:
@@ -270,7 +268,7 @@ class Panels:
         owner, width = self._member(stretch), np.asarray(high - low)
         left = low + (self.clock[:, :-1] - self.clock[:, :1]).ravel()[stretch]
         first = np.searchsorted(owner, np.arange(len(self.clock) + 1))
-        return first, left, width, _running(first, owner, width, coefficients), coefficients
+        return first, left, width, running_integrals(first, owner, width, coefficients), coefficients
 
     def integrals(self, elapsed: Array, member: NDArray[np.intp]) -> Array:
         """g1 and g2 from the starts of the intervals with these numbers, both broadcast, (..., 2)."""
@@ -287,37 +285,3 @@ class Panels:
         inside += running[low]
         inside[:, 0] += running[low, 1] * past
         return inside.reshape(*times.shape, 2)
-
-
-def _chosen(table: Table, which: NDArray[np.bool_]) -> Table:
-    return {name: column[which] for name, column in table.items()}
-
-
-def _joined(tables: list[Table]) -> Table:
-    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
-
-
-def _halved(panels: Table) -> Table:
-    """The halves of panels."""
-    halves = {
-        name: np.repeat(panels[name], 2) for name in ("stretch", "low", "high", "low_inside", "high_inside")
-    }
-    middle = (panels["low"] + panels["high"]) / 2
-    halves["low"][1::2], halves["high"][::2] = middle, middle
-    halves["low_inside"][1::2], halves["high_inside"][::2] = True, True
-    return halves
-
-
-def _running(first: NDArray[np.intp], owner: NDArray[np.intp], width: Array, coefficients: Array) -> Array:
-    """g1 and g2 from the start of each interval to the left ends of its panels, (p, 2)."""
-    over = panel_integrals(coefficients, np.ones(len(width)), width)
-    place = np.arange(len(width)) - first[owner]
-    order = np.argsort(place, kind="stable")
-    bounds = np.searchsorted(place[order], np.arange(1, place.max(initial=0) + 2))
-    found = np.zeros_like(over)
-    for begin, end in pairwise(bounds):
-        here = order[begin:end]
-        before = here - 1
-        found[here] = found[before] + over[before]
-        found[here, 0] += found[before, 1] * width[before]
-    return found
