@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from pontryagin.triple_integrator.problem.piece import Piece
+from pontryagin.triple_integrator.problem.piece import AnalyticPiece
 
 LARGEST = 20.0
 """Exponents up to this are left as they are."""
@@ -17,7 +17,7 @@ TRIED = 17
 """At so many times of a piece exponents are compared with it."""
 
 
-def unbalanced(piece: Piece) -> Any:
+def unbalanced(piece: AnalyticPiece) -> Any:
     """A negative power of a sum whose exponentials become too large within a piece; None if there is none."""
     for node in sp.preorder_traversal(piece.expression):
         if isinstance(node, sp.Pow) and node.exp.is_negative and node.base.has(sp.exp, sp.cosh, sp.sinh):
@@ -35,7 +35,7 @@ def deciding(node: Any) -> list[Any]:
     return [a - b for i, a in enumerate(exponents) for b in exponents[:i]]
 
 
-def form(node: Any, piece: Piece) -> Any:
+def form(node: Any, piece: AnalyticPiece) -> Any:
     """The power with the sum divided by its largest term within a piece."""
     terms = _terms(node.base)
     largest = max((exponent for _, exponent in terms), key=piece.at_inside)

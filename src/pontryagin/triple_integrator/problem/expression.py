@@ -121,7 +121,7 @@ def _refusal(expression: Any) -> ArgumentValueError:
 
 
 @dataclass(frozen=True)
-class Form:
+class AnalyticForm:
     """An analytic expression in t and parameters, which pieces may share.
 
     Attributes
@@ -166,7 +166,7 @@ class Analytic:
         The times at which the pieces begin, ascending, and at which they end.
     rests : (n,) array
         By how much the true starts exceed these, as far as that is known.
-    forms : tuple of Form
+    forms : tuple of AnalyticForm
     form : (n,) array of int
         Which form each piece has.
     values : (n, q) array
@@ -178,7 +178,7 @@ class Analytic:
     starts: Array
     ends: Array
     rests: Array
-    forms: tuple[Form, ...]
+    forms: tuple[AnalyticForm, ...]
     form: NDArray[np.intp]
     values: Array
     singular: NDArray[np.bool_]
@@ -266,12 +266,12 @@ class Analytic:
         return result
 
 
-def _form(expression: Any, names: list[Any]) -> Form:
+def _form(expression: Any, names: list[Any]) -> AnalyticForm:
     own = [name for name in names if name in expression.free_symbols]
-    return Form(expression, own, [names.index(name) for name in own])
+    return AnalyticForm(expression, own, [names.index(name) for name in own])
 
 
-def _modulus(form: Form, middle: Array, reach: Array, *parameters: Array) -> Array:
+def _modulus(form: AnalyticForm, middle: Array, reach: Array, *parameters: Array) -> Array:
     """Bounds of the modulus on discs of times; nan for a form that cannot be enclosed."""
     if not form.known:
         return np.full_like(middle, np.nan)

@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from pontryagin.errors import ArgumentValueError
-from pontryagin.triple_integrator.problem.piece import Piece
+from pontryagin.triple_integrator.problem.piece import AnalyticPiece
 
 KINKED = (
     *(sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min, sp.Piecewise),
@@ -54,7 +54,7 @@ def _counted(node: Any) -> Any:
     return node.args[0] / node.args[1] if isinstance(node, sp.Mod) else node.args[0]
 
 
-def form(node: Any, piece: Piece, symbols: dict[Any, Any]) -> tuple[Any, dict[Any, float]]:
+def form(node: Any, piece: AnalyticPiece, symbols: dict[Any, Any]) -> tuple[Any, dict[Any, float]]:
     """The analytic form of a function with kinks within a piece, and the values of its parameters."""
     if isinstance(node, sp.Max | sp.Min):
         values = [piece.at_inside(a) for a in node.args]
@@ -78,7 +78,7 @@ def form(node: Any, piece: Piece, symbols: dict[Any, Any]) -> tuple[Any, dict[An
     return (sp.Integer(int(side > 0)) if side else node.func(0, *node.args[1:])), {}
 
 
-def _valid(node: Any, piece: Piece) -> Any:
+def _valid(node: Any, piece: AnalyticPiece) -> Any:
     """The value of a Piecewise within a piece."""
     for value, condition in node.args:
         decided = condition.xreplace({atom: _holds(atom, piece) for atom in condition.atoms(Relational)})
@@ -95,13 +95,13 @@ def _valid(node: Any, piece: Piece) -> Any:
     )
 
 
-def _holds(comparison: Any, piece: Piece) -> Any:
+def _holds(comparison: Any, piece: AnalyticPiece) -> Any:
     """Whether a comparison holds within a piece."""
     left, right = (piece.at_inside(side) for side in (comparison.lhs, comparison.rhs))
     return sp.sympify(COMPARISONS[comparison.rel_op](left, right))
 
 
-def _sector(y: Any, x: Any, piece: Piece) -> Any:
+def _sector(y: Any, x: Any, piece: AnalyticPiece) -> Any:
     """The angle of (x, y) by an inverse tangent that is analytic also beyond the sector of a piece."""
     at_y, at_x = piece.at_inside(y), piece.at_inside(x)
     if at_x > abs(at_y):

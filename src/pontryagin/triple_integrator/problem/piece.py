@@ -14,7 +14,7 @@ INSIDE = 0.43301270189
 
 
 @dataclass(frozen=True)
-class Piece:
+class AnalyticPiece:
     """An expression between two times that is analytic there.
 
     Attributes
@@ -45,7 +45,7 @@ class Piece:
         arguments = (np.array([x]) for x in (time, *(self.values[name] for name in names)))
         return float(numeric(expression, *names)(*arguments)[0])
 
-    def parts(self, cuts: Array) -> Iterator["Piece"]:
+    def parts(self, cuts: Array) -> Iterator["AnalyticPiece"]:
         """The piece cut at those of the times (k,), ascending, that lie inside."""
         inner = cuts[(cuts > self.low) & (cuts < self.high)].tolist()
         for low, high in zip([self.low, *inner], [*inner, self.high], strict=True):

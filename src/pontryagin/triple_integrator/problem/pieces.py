@@ -10,11 +10,13 @@ import sympy as sp
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.triple_integrator.problem import balance, kinks
-from pontryagin.triple_integrator.problem.piece import Piece
+from pontryagin.triple_integrator.problem.piece import AnalyticPiece
 from pontryagin.triple_integrator.problem.zeros import t, zeros
 
 
-def pieces(expression: Any, low: Array, high: Array, most: int) -> tuple[list[Piece], dict[float, float]]:
+def pieces(
+    expression: Any, low: Array, high: Array, most: int
+) -> tuple[list[AnalyticPiece], dict[float, float]]:
     """The pieces of an expression on disjoint intervals, in order, and the rests of `zeros`.
 
     Parameters
@@ -40,7 +42,7 @@ def pieces(expression: Any, low: Array, high: Array, most: int) -> tuple[list[Pi
     rests: dict[float, float] = {}
     symbols: dict[Any, Any] = {}
 
-    def zeros_of(g: Any, piece: Piece) -> Array:
+    def zeros_of(g: Any, piece: AnalyticPiece) -> Array:
         """The zeros of g in a piece, its ends included."""
         if piece.values.keys() & g.free_symbols:
             ends = (np.array([piece.low]), np.array([piece.high]))
@@ -49,11 +51,11 @@ def pieces(expression: Any, low: Array, high: Array, most: int) -> tuple[list[Pi
             known[g] = zeros(g, low, high, rests)
         return known[g][slice(*np.searchsorted(known[g], [piece.low, np.nextafter(piece.high, np.inf)]))]
 
-    def cuts_of(deciding: list[Any], piece: Piece) -> Array:
+    def cuts_of(deciding: list[Any], piece: AnalyticPiece) -> Array:
         return np.unique(np.concatenate([np.empty(0), *(zeros_of(g, piece) for g in deciding)]))
 
-    todo = [Piece(a, b, expression, {}) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
-    done: list[Piece] = []
+    todo = [AnalyticPiece(a, b, expression, {}) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
+    done: list[AnalyticPiece] = []
     while todo:
         if len(todo) + len(done) > most:
             message = f"disturbance must have at most {most} kinks, got {expression}"
@@ -75,7 +77,9 @@ def pieces(expression: Any, low: Array, high: Array, most: int) -> tuple[list[Pi
     return sorted(done, key=lambda piece: piece.low), rests
 
 
-def _between_singularities(piece: Piece, zeros_of: Callable[[Any, Piece], Array]) -> list[Piece]:
+def _between_singularities(
+    piece: AnalyticPiece, zeros_of: Callable[[Any, AnalyticPiece], Array]
+) -> list[AnalyticPiece]:
     """A piece cut where the base of a power that is not whole and positive, or such an argument, is zero."""
     bases = [(base, pole) for node in sp.preorder_traversal(piece.expression) for base, pole in _bases(node)]
     found = [(zeros_of(base, piece), pole) for base, pole in bases if t in base.free_symbols]
