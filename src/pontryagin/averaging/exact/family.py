@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.members import FAR, MemberTable, chord, close_chord, march, members
@@ -43,8 +44,8 @@ PATIENCE = 2
 """After a turn that was too far ahead, so many are found before the distance grows again."""
 PREDICTED = 0.02
 """The distance to the next turn is doubled where y1 was predicted to this share of its range."""
-HALVINGS = 8
-"""How often the distance to the start is halved in search of a root before the first member."""
+NEARER, STEPS = 0.75, 60
+"""Ratio of the distances to the start, and number, of members sought before the first one."""
 EXTRAPOLATED = 3
 """Number of turns from which the next one is extrapolated."""
 
@@ -105,9 +106,10 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, theta, size, 1)
     solved_turns = resolved(problem, [*reversed(below), first, *above], size)
     every = MemberTable.joined([turn.members for turn in filled(solved_turns, size)])
-    if lower == "start" and every.y[0] >= 0:
-        every = _towards_start(problem, every)
-    return _unbroken(_family(every, theta, (lower, upper)), float(problem.parameters[0]))
+    traced, small = _family(every, theta, (lower, upper)), float(problem.parameters[0])
+    if lower == "start" and (every.y[0] >= 0 or _too_steep(traced, small)):
+        traced = _towards_start(problem, traced, small)
+    return _unbroken(traced, small)
 
 
 def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn, int]:
@@ -125,18 +127,34 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn,
     return _turn_about(problem, theta, unknowns, angles, "start" if len(angles) < size else ""), size
 
 
-def _towards_start(problem: Shooting, every: MemberTable) -> MemberTable:
-    """The members and others below them, down to a negative y1.
+def _too_steep(traced: Family, small: float) -> bool:
+    """Whether y1 rises through zero between the first two members so steeply that they look broken apart."""
+    return len(traced.y) > 1 and traced.y[0] < 0 <= traced.y[1] and bool(_broken(traced, small)[0])
 
-    As the duration vanishes, J grows without limit and y1 falls: a positive y1 has a root below it.
+
+def _towards_start(problem: Shooting, traced: Family, small: float) -> Family:
+    """The family with members before the first positive y1, closer and closer, down to a negative one.
+
+    As the duration vanishes, J grows without limit and y1 falls, steeply at the end: a positive y1 has a root
+    below it. The step across the root is halved until both its ends are seen to be of one family.
     """
-    first, below = every[[0]], list[MemberTable]()
-    gap = float(first.theta[0]) - problem.anomaly
-    for member in march(problem, first, problem.anomaly + gap * 0.5 ** np.arange(1, HALVINGS + 1)):
-        below.append(member)
+    rest: MemberTable = traced[1:] if traced.y[0] < 0 else traced
+    gap = float(rest.theta[0]) - problem.anomaly
+    for member in march(problem, rest[[0]], problem.anomaly + gap * NEARER ** np.arange(1, STEPS + 1)):
+        rest = MemberTable.joined([member, rest])
         if member.y[0] < 0:
             break
-    return MemberTable.joined([*reversed(below), every])
+    for _ in range(STEPS):
+        found = traced.with_columns(rest)
+        if not _too_steep(found, small):
+            break
+        middle = float(rest.theta[:2].mean())
+        between = [*march(problem, rest[[1]], [middle])]
+        if not _complete(between, np.array([middle])):
+            break
+        across = between[-1:] if between[-1].y[0] < 0 else [rest[[0]], between[-1]]
+        rest = MemberTable.joined([*across, rest[1:]])
+    return found
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
@@ -283,13 +301,19 @@ def local_range(theta: Array, y: Array) -> Array:
     return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
 
 
-def _unbroken(traced: Family, small: float) -> Family:
-    """The part about the centre along which dJ = p_x dtheta holds."""
+def _broken(traced: Family, small: float) -> NDArray[np.bool_]:
+    """Whether dJ = p_x dtheta fails between neighbours, (s - 1,)."""
     step = np.diff(traced.theta)
     expected = small * step * (traced.y[:-1] + traced.y[1:]) / 2
     size = local_range(traced.theta, traced.y)
     size = np.maximum(size[:-1], size[1:]) + 1e-3 * np.abs(traced.y[:-1])
-    broken = np.abs(np.diff(traced.cost) - expected) > BROKEN * small * step * size
+    failed: NDArray[np.bool_] = np.abs(np.diff(traced.cost) - expected) > BROKEN * small * step * size
+    return failed
+
+
+def _unbroken(traced: Family, small: float) -> Family:
+    """The part about the centre along which dJ = p_x dtheta holds."""
+    broken = _broken(traced, small)
     below = traced.theta[1:][broken & (traced.theta[:-1] < traced.centre)]
     above = traced.theta[:-1][broken & (traced.theta[:-1] >= traced.centre)]
     return traced.cut(below.max(initial=-np.inf), above.min(initial=np.inf))
