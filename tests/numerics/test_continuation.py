@@ -145,3 +145,14 @@ def test_slopes_by_differences():
     for parameter in (0.0, 0.6):
         _, slope = family(np.array([0.8]), parameter)
         assert slope[0] == pytest.approx(2 * parameter, abs=1e-10)
+
+
+def test_steps_are_halved_down_to_the_least_one_itself():
+    seen = []
+
+    def never(parameter, guess):
+        seen.append(parameter)
+        raise NotConverged("none here", 1.0)
+
+    points = list(march(never, Point(np.ones(1), 0.0, None), 4.0, first=1.0, least=0.25))
+    assert seen == [1.0, 0.5, 0.25] and len(points) == 1

@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import pytest
 from studies.mutation.mutants import mutants
+from studies.mutation.reach import Reach
 from studies.mutation.sample import KILLED, SURVIVED, TIMED_OUT, UNREACHED, Sample
 from studies.mutation.study import SAMPLE, equivalent
 
 from pontryagin.io import files
 
-MODULE, TESTS = "src/pontryagin/toy.py", "tests/numerics/test_toy.py"
+MODULE, TESTS = "src/pontryagin/toy.py", "tests/test_toy.py"
 TOY = """
     LIMIT = 3
 
@@ -81,6 +82,9 @@ def test_a_mutant_outlives_weak_tests_and_is_killed_by_a_strong_one(sample, chec
     assert outcome(sample, "halvings", "x / 2", "(x * 2)")["outcome"] == TIMED_OUT
     assert outcome(sample, "alone", "-x", "x")["outcome"] == UNREACHED
     assert (sample.laboratory.root / MODULE).read_text() == sample.text(MODULE) == textwrap.dedent(TOY)
+
+    known = Reach(checkout, sample.folder / "reach", [MODULE])
+    assert len(list(known.reaching(MODULE, laboratory=None))) == 2, "the lines are kept, and not traced again"
 
     path = checkout / TESTS
     path.write_text(path.read_text() + textwrap.dedent(STRONG))

@@ -20,7 +20,8 @@ def certify(
     """Residuals of extremals between the collocation points.
 
     The derivatives of the series are compared with the means of f under the control u* itself, not with the
-    derivatives of h0, and all means are taken by rules with other nodes than the solver's.
+    derivatives of h0, and all means are taken by rules with other nodes than the solver's. A violation of the
+    equations of motion is measured by the change that it makes over a panel.
 
     Raises
     ------
@@ -50,9 +51,10 @@ def certify(
         return np.asarray(np.abs(values).reshape(len(z), -1).max(axis=1))
 
     slow_time = duration[:, None, None]
-    states = slope[..., :n] - slow_time * rate.reshape(-1, count, n)
+    lengths = np.repeat(np.diff(edges), len(inside))[:, None]
+    states = lengths * (slope[..., :n] - slow_time * rate.reshape(-1, count, n))
     force = (h.gradient + kappa[:, None] * omega.gradient)[:, :n].reshape(-1, count, n)
-    costates = slope[..., n:] + slow_time * force
+    costates = lengths * (slope[..., n:] + slow_time * force)
     start, end = path.z[:, 0], path.z[:, -1]
     target, terminal = model.ends(end[:, :n], problem.numbers)
     normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)

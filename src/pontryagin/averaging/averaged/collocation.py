@@ -183,13 +183,15 @@ def _norm(path: Trajectories, residual: Array) -> Array:
 def _residual(problem: Problem, path: Trajectories, h: Jet) -> Array:
     """Residuals (s, unknowns): start, collocation, target, transversality (2.12), H0 = 0 at the end."""
     z, n = path.z, problem.model.slow
-    displacement = path.mesh.integrals @ _hamiltonian_flow(h.gradient, -1)
+    displacement = path.mesh.panel_integrals @ _hamiltonian_flow(h.gradient, -1)
     target, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
     normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
     return np.concatenate(
         [
             z[:, 0, :n] - problem.start,
-            (z - z[:, :1] - path.duration[:, None, None] * displacement)[:, 1:].reshape(len(z), -1),
+            (z - z[:, path.mesh.starts] - path.duration[:, None, None] * displacement)[:, 1:].reshape(
+                len(z), -1
+            ),
             target.value - problem.level,
             z[:, -1, n:] + normal,
             h.value[:, -1:],
@@ -202,7 +204,7 @@ def _matrix(problem: Problem, path: Trajectories, h: Jet) -> Array:
     """Derivatives of the residual (s, unknowns, unknowns) in z by points, the duration and alpha."""
     stack, points, width = path.z.shape
     n, r = width // 2, path.multipliers.shape[-1]
-    weights = path.mesh.integrals
+    weights, starts = path.mesh.panel_integrals, path.mesh.starts
     size = points * width
     result = np.zeros((stack, size + 1 + r, size + 1 + r))
     result[:, np.arange(n), np.arange(n)] = 1
@@ -211,7 +213,7 @@ def _matrix(problem: Problem, path: Trajectories, h: Jet) -> Array:
     index = np.arange(points)
     for i in range(width):
         block[:, index, i, index, i] += 1
-        block[:, :, i, 0, i] -= 1
+        block[:, index, i, starts, i] -= 1
     row = size - n
     result[:, n:row, :size] = block[:, 1:].reshape(stack, size - width, size)
     result[:, n:row, size] = -(weights @ _hamiltonian_flow(h.gradient, -1))[:, 1:].reshape(stack, -1)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.certificate import certify
 from pontryagin.averaging.averaged.collocation import CLOSE, Problem, Trajectories, newton
+from pontryagin.averaging.averaged.followed import followed
 from pontryagin.averaging.averaged.guess import Guess, shot, straight, towards_target
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
@@ -19,7 +20,7 @@ COARSE, FINE = Mesh((0.0, 1.0), 12), Mesh((0.0, 1.0), 24)
 GRADED = Mesh((0.0, *(2.0**-k for k in range(8, 0, -1)), *(1 - 2.0**-k for k in range(2, 9)), 1.0), 12)
 TAIL = 1e-13
 """A panel is halved while its last coefficients, relative to the variable, exceed this."""
-LAST_TAIL, MOST_PANELS = 1e-9, 40
+LAST_TAIL, MOST_PANELS = 1e-9, 64
 """Largest last coefficients accepted when refinement ends, and number of panels at which it must end."""
 LEAST_SHARE = 1e-3
 """Shortest step of the continuation, as a share of the distance to the target."""
@@ -110,29 +111,40 @@ def _stack(
         path, closeness = newton(problem[moving], guess.path[moving])
         failed = closeness > CLOSE
         rest = moving[~failed]
-        paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
+        try:
+            paths += [(rest[own], p) for own, p in _resolved(problem[rest], path[~failed], rest + first)]
+        except NotConverged:
+            failed[:] = True
         for member in moving[failed]:
-            one = problem[[member]]
-            again = _from_other_guesses(one, names, first + int(member))
-            paths += [(np.array([member]), p) for _, p in _resolved(one, again, np.array([first + member]))]
+            one, number = problem[[member]], first + int(member)
+            paths += [(np.array([member]), p) for p in _from_other_guesses(one, names, number)]
     return [(members, _extremals(problem[members], path, names, first + members)) for members, path in paths]
 
 
-def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> Trajectories:
-    """Solve one problem (1) from better guesses, Newton's method having failed from the first."""
+def _from_other_guesses(problem: Problem, names: Sequence[str], member: int) -> list[Trajectories]:
+    """Solve one problem (1) from better guesses, where the first one failed or was not fine enough."""
     guesses: tuple[Callable[[], Trajectories | None], ...] = (
+        lambda: straight(problem, COARSE).path,
         lambda: straight(problem, FINE).path,
         lambda: shot(problem, FINE),
+        lambda: followed(problem, COARSE.degree),
         lambda: straight(problem, GRADED).path,
         lambda: towards_target(problem, FINE),
     )
+    unresolved: NotConverged | None = None
     for make in guesses:
         guess = make()
         if guess is not None:
             path, closeness = newton(problem, guess)
             if closeness[0] <= CLOSE:
-                return path
-    return _continued(problem, names, member)
+                try:
+                    return [found for _, found in _resolved(problem, path, np.array([member]))]
+                except NotConverged as error:
+                    unresolved = unresolved or error
+    if unresolved is not None:
+        raise unresolved
+    path = _continued(problem, names, member)
+    return [found for _, found in _resolved(problem, path, np.array([member]))]
 
 
 def _extremals(

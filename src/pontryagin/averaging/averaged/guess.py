@@ -69,7 +69,7 @@ def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Gu
     pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
     clock = pace @ mesh.integrals.T
     z = _at_even_times(mesh, clock / clock[:, -1:], z)
-    alpha = _multipliers(problem, z[:, -1])
+    alpha = multipliers_at(problem, z[:, -1])
     return Guess(Trajectories(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
@@ -86,6 +86,13 @@ def towards_target(problem: Problem, mesh: Mesh) -> Trajectories | None:
     return straight(problem, mesh, found[None] / np.linalg.norm(found)).path if found is not None else None
 
 
+def initial_costate(problem: Problem) -> Array | None:
+    """The costate (s, n) of `straight` at the start; None where no control moves along its direction."""
+    _, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    return None if stuck.any() else length * direction
+
+
 def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     """The averaged extremal with the initial costate of `straight`, up to the target's level.
 
@@ -93,9 +100,8 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     target. The result is None if an extremal does not approach the target.
     """
     model, n = problem.model, problem.model.slow
-    _, direction = _nearest(problem)
-    length, stuck = _level(problem, problem.start[:, None], direction)
-    if stuck.any():
+    costate = initial_costate(problem)
+    if costate is None:
         return None
 
     def flow(z: Array) -> Array:
@@ -106,7 +112,7 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
         target, _ = model.ends(z[:, :n], problem.numbers)
         return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
 
-    z = np.concatenate([problem.start, length * direction], axis=-1)
+    z = np.concatenate([problem.start, costate], axis=-1)
     far, _ = distance(z)
     states, times = [z], [np.zeros(len(z))]
     for _ in range(STEPS):
@@ -131,7 +137,7 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
         np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
         for c, own in zip(clock, values, strict=True)
     ]
-    return Trajectories(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
+    return Trajectories(mesh, np.stack(at), duration, multipliers_at(problem, values[:, -1]))
 
 
 def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
@@ -196,7 +202,7 @@ def _level(
     return np.where(stuck, 1.0, length), stuck
 
 
-def _multipliers(problem: Problem, end: Array) -> Array:
+def multipliers_at(problem: Problem, end: Array) -> Array:
     """alpha from eta_1 = -(g' + alpha M'), by least squares."""
     n = problem.model.slow
     target, terminal = problem.model.ends(end[:, :n], problem.numbers)

@@ -13,7 +13,7 @@ from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.system.model import Model
 from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentTypeError
-from pontryagin.validation import common_shape, finite, vectors
+from pontryagin.validation import angles, common_shape, finite, vectors
 
 if TYPE_CHECKING:
     from pontryagin.averaging.averaged.reference import ReferenceExtremal
@@ -92,7 +92,7 @@ def solved(
 ) -> AveragedSolution:
     """Solve a problem given by its kernels; start (..., n) and the numbers broadcast."""
     family = finite("kappa", kappa, "a number or an array (...)")
-    phase = np.asarray(initial_phase, dtype=float)
+    phase = angles("initial_phase", initial_phase, "a number or an array (...)")
     shape = common_shape(
         start=start.shape[:-1],
         numbers=np.broadcast_shapes(*(number.shape for number in numbers)),

@@ -19,7 +19,7 @@ from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
 from pontryagin.rendezvous.laps.power import PowerCost
 from pontryagin.rendezvous.laps.start import least_energy_guesses
-from pontryagin.rendezvous.laps.transcription import NODES_PER_LAP, ROUGH, Path, extremal, switching
+from pontryagin.rendezvous.laps.transcription import NODES_PER_LAP, ROUGH, Path, extremal, refined, switching
 
 LEAST_ENERGY = RunningCost(0.0, 1.0, math.inf)
 SHARES = (1.0, 0.5, 0.2, 0.05)
@@ -189,8 +189,10 @@ def bounded(ends: Ends, path: Path, cost: RunningCost, duration: float | None) -
     return Path.of(last.unknowns)
 
 
-def least_time(ends: Ends, path: Path, peak: float) -> Path:
-    """The extremal of least time under a bound, from one of least energy.
+def least_time(ends: Ends, path: Path, peak: float, least: float = LEAST, doublings: int = 0) -> Path:
+    """The extremal of least time under a bound, from one of least energy, by steps down to ``least``.
+
+    At its end the number of intervals is doubled so many times.
 
     First the duration is changed until the mean thrust is the bound. It is kept there by the duration, while
     the exponent of the mean grows. Then the exponent grows without limit, while the meeting's time is free.
@@ -207,9 +209,10 @@ def least_time(ends: Ends, path: Path, peak: float) -> Path:
         return ends, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
 
     path = _of_mean_thrust(ends, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
-    path = continued(posed, path, 0.5, LATE)
+    path = continued(posed, path, 0.5, LATE, least)
     end = float(switching(ends, path)[-1])
-    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0)
+    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0, least)
+    path = refined(ends, PowerCost(0.0, peak, end), None, path, doublings)
     return _scaled(path, 1 / (peak * end))
 
 

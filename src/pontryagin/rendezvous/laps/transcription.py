@@ -6,7 +6,7 @@ length of s and the duration. Newton's step eliminates the nodes one by one, so 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,8 +18,9 @@ from pontryagin.rendezvous.laps.hamiltonian import Cost, Hamiltonian
 
 NODES_PER_LAP, FEWEST = 32, 32
 """Intervals of s for each turn, and the fewest intervals."""
-ACCURACY, ROUGH = 1e-7, 1e-2
-"""Relative correction at which Newton's method ends, and the one that suffices along a continuation."""
+ACCURACY, FINELY, ROUGH = 1e-7, 1e-4, 1e-2
+"""Relative correction at which Newton's method ends, and those that suffice for a guess of a flight and
+along a continuation."""
 ITERATIONS = 8
 """Largest number of steps of Newton's method."""
 LARGEST, CONTRACTION = 0.8, 0.7
@@ -176,6 +177,22 @@ def extremal(ends: Ends, cost: Cost, duration: float | None, guess: Path, accura
             return path
         last = correction
     raise NotConverged("no extremal was reached on this lap", last)
+
+
+def refined(ends: Ends, cost: Cost, duration: float | None, path: Path, doublings: int) -> Path:
+    """The transcribed extremal on more nodes, the number of whose intervals is doubled so many times.
+
+    Raises
+    ------
+    NotConverged
+        If it is not reached.
+    """
+    for _ in range(doublings):
+        nodes = np.empty((12, 2 * path.nodes.shape[1] - 1))
+        nodes[:, ::2] = path.nodes
+        nodes[:, 1::2] = (path.nodes[:, 1:] + path.nodes[:, :-1]) / 2
+        path = extremal(ends, cost, duration, replace(path, nodes=nodes), FINELY)
+    return path
 
 
 def distance(one: Path, other: Path) -> float:

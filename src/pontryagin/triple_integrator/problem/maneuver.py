@@ -78,8 +78,8 @@ class Maneuver(Packed):
 
     >>> pulse = lambda t: np.where(abs(t - 1.0628) < 1e-7, 1e7, 0.0)
     >>> edges = 1.0628 + np.array([-1e-7, 1e-7])
-    >>> Maneuver([0, 0, 0], [0, 0, 0], tf=2.0, disturbance=pulse, edges=edges).moments.round(8)
-    array([-1.8744, -2.    , -0.    ])
+    >>> Maneuver([0, 0, 0], [0, 0, 0], tf=2.0, disturbance=pulse, edges=edges).moments[:2].round(8)
+    array([-1.8744, -2.    ])
     """
 
     x0: Array

@@ -152,9 +152,10 @@ class Panels:
             largest = np.abs(sample).max(axis=1)
             with np.errstate(over="ignore"):
                 np.maximum.at(area, member, (np.abs(sample) / sample.shape[1]).sum(axis=1) * width)
-                coefficients = sample @ invert.T
+                # A product of matrices rounds the last digit by the number of panels, einsum does not.
+                coefficients = np.einsum("pn,cn->pc", sample, invert)
                 tail = np.abs(coefficients[:, -3:]).max(axis=1)
-                slope = np.abs(coefficients) @ np.arange(DEGREE + 1) * 2 / width
+                slope = np.einsum("pc,c->p", np.abs(coefficients), np.arange(DEGREE + 1.0)) * 2 / width
                 blurred = self._blur(stretch, (low, high), (slope, largest))
                 allowed = np.maximum.reduce([1e-14 * largest, 1e-15 * area[member] / width, blurred])
             smooth = (largest < 1e300) & (tail <= allowed)
