@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.exact.beginning import broken, from_the_start
 from pontryagin.averaging.exact.members import FAR, MemberTable, chord, close_chord, march, members
 from pontryagin.averaging.exact.shooting import Shooting
 from pontryagin.averaging.exact.turns import Turn, at, excess, filled, means_at, resolved
@@ -34,8 +34,6 @@ BETWEEN = 0.06
 
 For a sine wave with eight members in a turn it is (1 - cos(pi/8))/2 = 0.04.
 """
-BROKEN = 0.25
-"""Neighbours whose dJ differs from p_x dtheta by more than this share of y1's range are not of one family."""
 QUIET_TURNS = 2
 """The search ends after this many turns without a root."""
 TURNS = 100_000
@@ -44,8 +42,6 @@ PATIENCE = 2
 """After a turn that was too far ahead, so many are found before the distance grows again."""
 PREDICTED = 0.02
 """The distance to the next turn is doubled where y1 was predicted to this share of its range."""
-NEARER, STEPS = 0.75, 60
-"""Ratio of the distances to the start, and number, of members sought before the first one."""
 EXTRAPOLATED = 3
 """Number of turns from which the next one is extrapolated."""
 
@@ -106,10 +102,10 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, theta, size, 1)
     solved_turns = resolved(problem, [*reversed(below), first, *above], size)
     every = MemberTable.joined([turn.members for turn in filled(solved_turns, size)])
-    traced, small = _family(every, theta, (lower, upper)), float(problem.parameters[0])
-    if lower == "start" and (every.y[0] >= 0 or _too_steep(traced, small)):
-        traced = _towards_start(problem, traced, small)
-    return _unbroken(traced, small)
+    small = float(problem.parameters[0])
+    if lower == "start":
+        every = from_the_start(problem, every, small)
+    return _unbroken(_family(every, theta, (lower, upper)), small)
 
 
 def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn, int]:
@@ -125,36 +121,6 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn,
         size *= 2
     angles = _angles(problem, theta, size, 0)
     return _turn_about(problem, theta, unknowns, angles, "start" if len(angles) < size else ""), size
-
-
-def _too_steep(traced: Family, small: float) -> bool:
-    """Whether y1 rises through zero between the first two members so steeply that they look broken apart."""
-    return len(traced.y) > 1 and traced.y[0] < 0 <= traced.y[1] and bool(_broken(traced, small)[0])
-
-
-def _towards_start(problem: Shooting, traced: Family, small: float) -> Family:
-    """The family with members before the first positive y1, closer and closer, down to a negative one.
-
-    As the duration vanishes, J grows without limit and y1 falls, steeply at the end: a positive y1 has a root
-    below it. The step across the root is halved until both its ends are seen to be of one family.
-    """
-    rest: MemberTable = traced[1:] if traced.y[0] < 0 else traced
-    gap = float(rest.theta[0]) - problem.anomaly
-    for member in march(problem, rest[[0]], problem.anomaly + gap * NEARER ** np.arange(1, STEPS + 1)):
-        rest = MemberTable.joined([member, rest])
-        if member.y[0] < 0:
-            break
-    for _ in range(STEPS):
-        found = traced.with_columns(rest)
-        if not _too_steep(found, small):
-            break
-        middle = float(rest.theta[:2].mean())
-        between = [*march(problem, rest[[1]], [middle])]
-        if not _complete(between, np.array([middle])):
-            break
-        across = between[-1:] if between[-1].y[0] < 0 else [rest[[0]], between[-1]]
-        rest = MemberTable.joined([*across, rest[1:]])
-    return found
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
@@ -295,25 +261,9 @@ def _vanishes(seen: Array, y: Array) -> bool:
     return bool(seen.min() <= reach and seen.max() >= -reach)
 
 
-def local_range(theta: Array, y: Array) -> Array:
-    """Range of y within a turn on either side of each member."""
-    low, high = np.searchsorted(theta, theta - 2 * np.pi), np.searchsorted(theta, theta + 2 * np.pi)
-    return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
-
-
-def _broken(traced: Family, small: float) -> NDArray[np.bool_]:
-    """Whether dJ = p_x dtheta fails between neighbours, (s - 1,)."""
-    step = np.diff(traced.theta)
-    expected = small * step * (traced.y[:-1] + traced.y[1:]) / 2
-    size = local_range(traced.theta, traced.y)
-    size = np.maximum(size[:-1], size[1:]) + 1e-3 * np.abs(traced.y[:-1])
-    failed: NDArray[np.bool_] = np.abs(np.diff(traced.cost) - expected) > BROKEN * small * step * size
-    return failed
-
-
 def _unbroken(traced: Family, small: float) -> Family:
     """The part about the centre along which dJ = p_x dtheta holds."""
-    broken = _broken(traced, small)
-    below = traced.theta[1:][broken & (traced.theta[:-1] < traced.centre)]
-    above = traced.theta[:-1][broken & (traced.theta[:-1] >= traced.centre)]
+    apart = broken(traced, small)
+    below = traced.theta[1:][apart & (traced.theta[:-1] < traced.centre)]
+    above = traced.theta[:-1][apart & (traced.theta[:-1] >= traced.centre)]
     return traced.cut(below.max(initial=-np.inf), above.min(initial=np.inf))
