@@ -34,7 +34,7 @@ def aimed(problem: Problem, towards: Array, normals: Array, first: Array, idle: 
     idle : float
         H0 at a zero costate, negative.
     """
-    from scipy.optimize import linprog
+    from scipy.optimize import linprog  # few problems need it, and it takes longer to import than to solve
 
     n = len(towards)
     multipliers: Array = np.asarray(np.linalg.lstsq(normals.T, first, rcond=None)[0])
