@@ -74,6 +74,7 @@ def outcome(sample, function, before, after):
     return sample.attempt(MODULE, changes.index((function, before, after)))
 
 
+@pytest.mark.slow
 def test_a_mutant_outlives_weak_tests_and_is_killed_by_a_strong_one(sample, checkout):
     flipped = outcome(sample, "larger", "x > y", "(x <= y)")
     assert flipped["outcome"] == outcome(sample, "", "3", "4")["outcome"] == SURVIVED
