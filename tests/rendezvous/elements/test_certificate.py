@@ -83,3 +83,8 @@ def test_the_worst_moment_counts(monkeypatch):
     place = "pontryagin.rendezvous.elements.certificate.maximality"
     monkeypatch.setattr(place, lambda *given: 1e-5 * running * np.eye(201)[77])
     assert_allclose(certify(root, free=False).maximality, 1e-5, rtol=1e-9)
+
+
+def test_a_flight_with_coasts_agrees_with_newton_s_law_arc_by_arc(fuel):
+    again = certify(fuel.root, free=False)
+    assert len(fuel.flight.pieces) > 1 and again.agreement < 1e-9 and again.holds(1e-8)
