@@ -43,7 +43,9 @@ def test_an_extremal_that_newton_loses_is_found_between_closer_members(monkeypat
         lost = roots.Roots(reached.shot[1:], reached.slope[1:])
         return lost, np.isin(np.arange(len(good)), kept)
 
+    plainly, between = roots.with_members, []
+    monkeypatch.setattr(roots, "with_members", lambda *given: between.append(given[2]) or plainly(*given))
     monkeypatch.setattr(roots, "_polished", losing)
     again = smooth_example(1.0, 2.0, ripple=0.5).exact(0.1)
-    assert len(calls) > 1
+    assert len(calls) > 1 and [len(theta) for theta in between] == [1], "one member more where one was lost"
     assert_allclose([one.cost for one in again], [one.cost for one in plain], rtol=1e-12)
