@@ -64,7 +64,7 @@ class Quadratic:
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """s' R^-1 s / 4."""
         row = sp.Matrix(vector("s", s))
-        return sp.expand((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
+        return _expanded((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """R^-1 s / 2."""
@@ -73,7 +73,7 @@ class Quadratic:
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """u'Ru."""
         row = sp.Matrix(vector("u", u))
-        return sp.expand((row.T * self._matrix(len(u)) * row)[0])
+        return _expanded((row.T * self._matrix(len(u)) * row)[0])
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """R must be symmetric positive definite."""
@@ -276,6 +276,11 @@ def _entries(name: str, values: Any) -> tuple[Number, ...]:
     for i, value in enumerate(entries):
         expression(f"{name}[{i}]", value, argument)
     return entries
+
+
+def _expanded(square: sp.Expr) -> sp.Expr:
+    """Products multiplied out, but no exponential divided into factors, which may overflow by themselves."""
+    return sp.expand(square, power_exp=False)
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:
