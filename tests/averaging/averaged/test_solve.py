@@ -465,3 +465,14 @@ def test_a_pendulum_is_sped_up_from_beside_its_upper_equilibrium(gap):
         solution = rotor(first, last, potential=-sp.cos(sp.Symbol("x")), peak=1.0)
         assert_allclose(solution.duration, expected, rtol=1e-10)
         assert solution.certificate.holds(1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-100, 1e-60, 1e60, 1e100])
+def test_slow_variables_of_any_size(size):
+    """A rotor takes sqrt(2) (sqrt(a1) - sqrt(a0)) from the energy a0 to a1, Kepler's orbit (3.8)."""
+    assert_allclose(smooth_example(size, 2 * size).cost, 2 * size, rtol=1e-9)
+    assert_allclose(rotor(size, 4 * size, peak=1.0).duration, np.sqrt(2 * size), rtol=1e-9)
+    if size != 1e-100:
+        duration = np.sqrt(20 * size) * (np.sqrt(0.5) - 0.5)
+        solution = kepler(-0.5 * size, 0.95 / np.sqrt(size), -0.25 * size, 0.1)
+        assert_allclose(solution.duration, duration, rtol=1e-9)

@@ -67,5 +67,8 @@ def test_numbers_beyond_double_precision_are_refused():
     for other in (Orbit(1e150, 0, [1, 0, 0, 0], 0), Orbit(1e-150, 0, [1, 0, 0, 0], 0)):
         with pytest.raises(ValueError, match="must be of sizes that double precision holds"):
             replace(LEAP, target=other)
+    for changes in ({"peak": 1e-320}, {"time_weight": 1e-200, "energy_weight": 1e200}):
+        with pytest.raises(ValueError, match="must be of sizes that double precision holds"):
+            replace(LEAP, **{"duration": None, "peak": 0.1} | changes)
     with pytest.raises(ValueError, match="chaser must start on an ellipse"):
         replace(LEAP, chaser=Chaser(1, 1e200, 1, [1, 0, 0, 0]))

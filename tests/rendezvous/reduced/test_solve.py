@@ -19,7 +19,7 @@ from pontryagin.rendezvous import (
     solve_in_elements,
 )
 from pontryagin.rendezvous.problem.cases import cases, chaser_on
-from rendezvous_problems import LEAP, beside, problem
+from rendezvous_problems import LEAP, beside, in_units, problem
 
 
 @pytest.mark.slow
@@ -159,3 +159,15 @@ def test_an_angle_that_has_no_place_on_the_turn_is_refused(given):
     with pytest.raises(ValueError, match=rf"^{given} must be a number, at most 9.0e\+15 rad") as caught:
         Orbit.from_angles(1.2, 0.05, **angles)
     assert caught.value.argument == given
+
+
+@pytest.mark.parametrize(("length", "gravity"), [(1.0, 1e20), (1e100, 1e35), (1e-60, 1e-20)])
+def test_units_of_any_size_have_the_same_solution(length, gravity):
+    """The square of the unit of acceleration, 1e-165 in the second case, is beyond double precision."""
+    time = math.sqrt(length**3 / gravity)
+    unit = length / time**2
+    usual = solve(in_units(peak=0.2, duration=None, time_weight=1.0, energy_weight=2.0))
+    given = {"peak": 0.2, "duration": None, "time_weight": 1e-100, "energy_weight": 2e-100 / unit / unit}
+    solution = solve(in_units(length=length, gravity=gravity, **given))
+    np.testing.assert_allclose(solution.duration / time, usual.duration, rtol=1e-9)
+    np.testing.assert_allclose(solution.cost / 1e-100 / time, usual.cost, rtol=1e-9)

@@ -10,8 +10,14 @@ from pontryagin.averaging.averaged.aim import aimed
 from pontryagin.averaging.averaged.collocation import Problem, Trajectories
 from pontryagin.numerics.collocation import Mesh, derivative, evaluate
 
-GROWTHS = 40
-"""Largest number of Newton steps for a costate's length; each may multiply it by eight."""
+GROWTHS, FAR = 40, 10
+"""Largest number of Newton steps for a costate's length. Each of the first may multiply it by eight, each one
+after ten by eight times more than the one before. Then the root is also sought in the logarithms of length and
+H0, which are all but linear far from it."""
+KNOWN = 1e-6
+"""Growth of H0, relative to its value at a zero costate, that rounding leaves digits of."""
+FARTHEST = 1e280
+"""Largest length of a costate that is tried, and its inverse the least."""
 NEAR = 1e-3
 """A costate's length is accepted once a Newton step changes it by at most this fraction."""
 
@@ -184,27 +190,41 @@ def _nearest(problem: Problem) -> tuple[Array, Array]:
 
 
 def _level(
-    problem: Problem, slow: Array, direction: Array, length: Array | float = 1.0
+    problem: Problem, slow: Array, direction: Array, first: Array | float = 1.0
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Lengths (s, k) of the costate along `direction` at which H0 = 0; H0 is convex along it.
 
-    Newton's method with bounded steps. Where it does not settle, the length is 1 and marked as stuck, (s, k).
+    Newton's method with bounded steps from the first length. Where it does not settle, the length is 1 and marked as stuck, (s, k).
     """
-    n = problem.model.slow
-    length = np.broadcast_to(length, slow.shape[:-1])
-    for _ in range(GROWTHS):
-        eta = length[..., None] * direction[:, None]
-        h = problem.hamiltonian(np.concatenate([slow, eta], axis=-1))
-        slope = np.einsum("ski,si->sk", h.gradient[..., n:], direction)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            root = np.where(slope > 0, length - h.value / slope, np.inf)
-        following = np.clip(root, length / 8, 8 * length)
-        settled = np.abs(following - length) <= NEAR * length
+    length: Array = np.broadcast_to(first, slow.shape[:-1])
+    idle, _ = _along(problem, slow, direction, np.full(slow.shape[:-1], 1 / FARTHEST))
+    for k in range(GROWTHS):
+        value, slope = _along(problem, slow, direction, length)
+        with np.errstate(all="ignore"):
+            root = np.where(slope > 0, length - value / slope, np.inf)
+            following = np.clip(root, length / 8, length * 8.0 ** max(1, k + 1 - FAR))
+            if k >= FAR:
+                grown = value - idle
+                power = length * slope / grown
+                far = length * (-idle / grown) ** (1 / power)
+                known = (grown > KNOWN * np.abs(idle)) & (power >= 1) & (idle < 0)
+                following = np.where(known, far, following)
+            following = np.clip(following, 1 / FARTHEST, FARTHEST)
+        settled = (np.abs(following - length) <= NEAR * length) & (following < FARTHEST)
         length = following
         if (settled | np.isnan(root)).all():
             break
     stuck = ~settled
     return np.where(stuck, 1.0, length), stuck
+
+
+def _along(problem: Problem, slow: Array, direction: Array, length: Array) -> tuple[Array, Array]:
+    """H0 at costates of these lengths along the direction, and its derivative by the length, (s, k) each."""
+    eta = length[..., None] * direction[:, None]
+    with np.errstate(all="ignore"):
+        h = problem.hamiltonian(np.concatenate([slow, eta], axis=-1))
+        slope = np.einsum("ski,si->sk", h.gradient[..., problem.model.slow :], direction)
+    return h.value, slope
 
 
 def multipliers_at(problem: Problem, end: Array) -> Array:

@@ -11,6 +11,7 @@ from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.checks import number
 from pontryagin.rendezvous.problem.orbit import Orbit
 from pontryagin.rendezvous.problem.scaled import Scaled
+from pontryagin.validation import TINY
 from pontryagin.value import value_class
 
 
@@ -104,7 +105,9 @@ class Rendezvous:
         try:
             scaled = self.scaled
             units = [scaled.time, scaled.acceleration, scaled.value, *scaled.start, scaled.duration or 1.0]
-            sound = all(0 < abs(x) < math.inf or x == self.chaser.v1 == 0 for x in units)
+            units += [] if self.peak == math.inf else [scaled.peak]
+            units += [scaled.ratio] if self.time_weight and self.energy_weight else []
+            sound = all(TINY <= abs(x) < math.inf or x == self.chaser.v1 == 0 for x in units)
         except (OverflowError, ZeroDivisionError):
             sound = False
         if not sound:

@@ -69,7 +69,7 @@ class Scaled:
         time = math.sqrt(length**3 / gravity)
         speed = length / time
         acceleration = speed / time
-        time_cost, energy_cost = time_weight * time, energy_weight * acceleration**2 * time
+        time_cost, energy_cost = time_weight * time, energy_weight * acceleration * speed
         return cls(
             length=length,
             time=time,
