@@ -56,7 +56,9 @@ def points(
 
     def at(parameter: float, guess: Array) -> Point[None]:
         near = Path.of(guess)
-        return Point(extremal(*posed(parameter, near), near, ROUGH).unknowns, parameter, None)
+        with np.errstate(invalid="ignore"):  # a guess by the secant may not be an ellipse; Newton's method tells
+            ends, cost, duration = posed(parameter, near)
+        return Point(extremal(ends, cost, duration, near, ROUGH).unknowns, parameter, None)
 
     return march(
         at,
