@@ -20,8 +20,9 @@ from pontryagin.rendezvous.reduced.shape_search import paths_of_fixed_duration
 from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
-INCLINED, ECCENTRIC = math.radians(30), 0.3
-"""Inclination and eccentricity from which on extremals of a fixed duration are also sought from shapes."""
+INCLINED, STEEP, ECCENTRIC = math.radians(35), math.radians(66), 0.3
+"""Inclination from which on a few paths in space show whether more are worth while; inclination from which on
+they are always sought, as from this eccentricity on if the duration is fixed."""
 Means = Callable[[Setting, SearchLog, float], Iterator[Root[Flight]]]
 """A search, given the cost of the best extremal known."""
 SAMPLES = 200
@@ -31,8 +32,6 @@ RADIAL = 0.1
 IDLE, LESS = 0.85, 0.97
 """Root mean square of the thrust of a path in space, in units of p_max, and its cost, in units of that of the
 best extremal of the same duration, below which a better one is likely."""
-FREE_INCLINED = math.radians(66)
-"""Inclination from which on extremals of free duration are also sought from shapes, which takes longer."""
 
 
 def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
@@ -64,14 +63,14 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
 
 
 def _improvable(setting: Setting, best: Root[Flight]) -> bool:
-    """Whether paths in space of the best extremal's own duration, if that is free, need much less thrust."""
-    if not setting.free or Transfer(setting.scaled).inclination <= INCLINED:
+    """Whether paths in space of the best extremal's duration need much less thrust, or cost less."""
+    if Transfer(setting.scaled).inclination <= INCLINED:
         return False
     duration = best.flight.duration
     least = least_energy_in_space(setting.scaled, duration)
     if setting.bang:
         return least < (IDLE * setting.peak) ** 2 * duration
-    return setting.ratio * duration + least < LESS * cost(setting, best)
+    return setting.scaled.weights[0] * duration + least < LESS * cost(setting, best)
 
 
 def _in_order(setting: Setting, demanding: bool) -> tuple[Means, Means]:
@@ -113,7 +112,6 @@ def _lap(setting: Setting, flight: Flight) -> int:
 def _demanding(setting: Setting) -> bool:
     """Whether the search lap by lap may miss good extremals."""
     scaled = setting.scaled
-    inclination = Transfer(scaled).inclination
-    if setting.free:
-        return inclination > FREE_INCLINED
-    return inclination > INCLINED or max(eccentricity(scaled.start), scaled.eccentricity) > ECCENTRIC
+    if Transfer(scaled).inclination > STEEP:
+        return True
+    return not setting.free and max(eccentricity(scaled.start), scaled.eccentricity) > ECCENTRIC
