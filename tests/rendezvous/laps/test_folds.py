@@ -69,11 +69,11 @@ def test_points_of_the_walk_satisfy_the_equations_of_an_extremal():
 
 def test_a_duration_is_reached_where_steps_of_the_duration_end_before(monkeypatch):
     start = least_energy_by_way_of(LAP, DURATION, DURATION / 2)
-    found = stretched(LAP, start, 3 * DURATION)
+    found = stretched(LAP, start, 3 * DURATION, True)
     assert found.duration == pytest.approx(3 * DURATION, rel=1e-12)
     monkeypatch.setattr(folds, "STEPS", 0)
     with pytest.raises(NotConverged, match="the walk over the duration broke off at"):
-        stretched(LAP, start, 3 * DURATION)
+        stretched(LAP, start, 3 * DURATION, True)
 
 
 def test_scales_make_the_length_independent_of_the_number_of_nodes():

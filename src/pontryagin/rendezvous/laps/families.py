@@ -92,8 +92,8 @@ def continued(posed: Posed, path: Path, begin: float, end: float, name: str, lea
     return Path.of(last.unknowns)
 
 
-def stretched(ends: Ends, path: Path, duration: float) -> Path:
-    """The extremal of least energy of another duration; where the duration turns back, the walk goes on.
+def stretched(ends: Ends, path: Path, duration: float, round_folds: bool) -> Path:
+    """The extremal of least energy of another duration; if wanted, the walk goes on round folds.
 
     Raises
     ------
@@ -107,7 +107,8 @@ def stretched(ends: Ends, path: Path, duration: float) -> Path:
     passed = [Path.of(point.unknowns) for point in walk]
     if walk[-1].parameter == end:
         return passed[-1]
-    beyond = folds.along(ends, LEAST_ENERGY, *passed[-2:]) if len(passed) > 1 else iter(())
+    onward = round_folds and len(passed) > 1
+    beyond = folds.along(ends, LEAST_ENERGY, *passed[-2:]) if onward else iter(())
     for one, other in pairwise(chain(passed[-1:], beyond)):
         if (one.duration - duration) * (other.duration - duration) <= 0:
             share = (duration - one.duration) / (other.duration - one.duration)
@@ -157,7 +158,12 @@ def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
 
 
 def least_energy_by_way_of(
-    lap: Lap, duration: float, other: float, share: float = 1.0, per_lap: int = NODES_PER_LAP
+    lap: Lap,
+    duration: float,
+    other: float,
+    share: float = 1.0,
+    per_lap: int = NODES_PER_LAP,
+    round_folds: bool = False,
 ) -> Path:
     """The extremal of least energy, without a bound, of a fixed duration, continued from another duration.
 
@@ -174,7 +180,7 @@ def least_energy_by_way_of(
     if not guesses.durations.size:
         raise NotConverged("the meeting is not ahead of the craft", math.inf)
     path = extremal(lower, LEAST_ENERGY, other, guesses.path(0), ROUGH)
-    path = stretched(lower, path, duration)
+    path = stretched(lower, path, duration, round_folds)
     if share == 1.0:
         return path
     way = "the inclination"
