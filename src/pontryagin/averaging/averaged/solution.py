@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.certificate import AveragedCertificate
 from pontryagin.averaging.system.anomaly import anomaly_at, phase_at
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
-from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.collocation import evaluate as evaluate_series
 from pontryagin.numerics.rotation import within_a_turn
@@ -45,8 +45,9 @@ class AveragedSolution:
         alpha, the multipliers of the target's r conditions.
     kappa : (...) array
         Minus the mean of the phase's costate over epsilon; zero at the optimum.
-    certificate : MaximumPrinciple
-        Residuals of the maximum principle between the collocation points, by other quadratures.
+    certificate : AveragedCertificate
+        Residuals of the maximum principle between the collocation points, by other quadratures, and whether
+        the system can have features between them.
     names : tuple of str
         The slow variables, in the order of `slow` and `costate`. They are the system's own: the cost, which
         the paper counts among them, has the costate -1 and is left out.
@@ -72,7 +73,7 @@ class AveragedSolution:
     start: Array
     multipliers: Array
     kappa: Array
-    certificate: MaximumPrinciple
+    certificate: AveragedCertificate
     names: tuple[str, ...]
     initial_phase: Array
     numbers: tuple[Array, ...]

@@ -112,7 +112,8 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
     if isinstance(disturbance, FromStart) and (start == disturbance.start).all():
         disturbance = disturbance.from_start()
         start, end, told = np.zeros_like(start), end - start, np.empty(0)
-    own = np.asarray(getattr(disturbance, "edges", ()), dtype=float).ravel()
+    own = getattr(disturbance, "edges", ())
+    own = finite("disturbance", own, "a function of time whose edges are times").ravel()
     clock, member = _intervals(start, end, _with(told, own))
     return _tabulated(Panels(lambda _, time: values(disturbance, time), clock), member)
 
