@@ -9,7 +9,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 import sympy as sp
@@ -245,7 +244,7 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
         scale_p,
         np.abs(jacobian) @ scale_a,
         abs(float(reference.cost / reference.duration)),
-        2 * min((b - a for a, b in pairwise(reference.turn)), default=math.inf),
+        2 * float(min(np.diff(reference.turn), default=math.inf)),
     )
 
 
