@@ -12,6 +12,12 @@ CORES := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 export PYTHONHASHSEED := 0
 export RERUN_ANALYTICS := 0
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
+# Images of containers often set it; every process would then compile all modules that it imports.
+unexport PYTHONDONTWRITEBYTECODE
+
+# Each core begins with a contiguous part of the tests: files, and papers, are shared by few of them, so that
+# what their tests have in common is made once.
+PARALLEL := $(if $(filter-out 1,$(CORES)),-n $(CORES) --dist worksteal)
 
 # A venv is good for one lock and one pyproject: their checksum is the stamp's name.
 stamp = $(VENV)/.installed-$(1)-$(firstword $(shell cat requirements.lock $(2) pyproject.toml | cksum))
@@ -35,7 +41,7 @@ report: $(READY) ## the whole report: build/report/index.html, pontryagin.pdf an
 test: $(READY) ## the tests and the examples in the docstrings; slow tests of what did not change only with ALL=1
 	@echo "== tests on $(CORES) core(s)"
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest -p tests.house.kept $(if $(ALL),,--kept) \
-	  $(if $(filter-out 1,$(CORES)),-n $(CORES))
+	  $(PARALLEL)
 
 .PHONY: notebooks
 notebooks: $(READY) ## execute the notebooks that changed, into build/notebooks
@@ -92,7 +98,7 @@ check: lint ## lint and the quick tests of the core, or of one paper: make check
 	@echo "== quick tests of $(or $(PAPER),the core)"
 	@folders=$$($(PY) -m tests.house.selection $(PAPER)); \
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest -m "not slow" \
-	  $(if $(filter-out 1,$(CORES)),-n $(CORES)) $$folders
+	  $(PARALLEL) $$folders
 
 .PHONY: mutation
 mutation: $(READY) ## change the modules that decide, and see whether tests notice: make mutation SECONDS=3600
@@ -105,7 +111,7 @@ wheel: $(READY) ## the wheel passes its tests on Python 3.11 to 3.13: VERSION= E
 
 .PHONY: coverage
 coverage: $(READY) ## which statements the tests reach, into build/coverage
-	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest $(if $(filter-out 1,$(CORES)),-n $(CORES)) \
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(PY) -m pytest $(PARALLEL) \
 	  --cov=pontryagin --cov-report=term:skip-covered --cov-report=html:build/coverage
 
 .PHONY: play

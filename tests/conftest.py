@@ -3,6 +3,7 @@
 The profiles: fixed examples by default, and `HYPOTHESIS_PROFILE=deep` for a long random run.
 """
 
+import gc
 import os
 from importlib import metadata
 
@@ -25,3 +26,11 @@ def pytest_runtest_setup(item):
             metadata.version(EXTRAS[mark.kwargs["name"]])
         except metadata.PackageNotFoundError:
             pytest.skip(f"needs the extra {mark.kwargs['name']!r}")
+
+
+def pytest_collection_finish():
+    """Let the garbage collector pass over what was loaded and collected: that lives to the end.
+
+    It would be looked through again and again, and copied page by page in every process that a test forks.
+    """
+    gc.freeze()

@@ -17,6 +17,8 @@ from pontryagin.errors import ArgumentTypeError, ArgumentValueError, Infeasible,
         (Infeasible("4 steps are too few", argument="steps"), "4 steps are too few"),
         (Infeasible("no control exists"), "no control exists"),
         (NotConverged("stopped", 0.25), "stopped (residual 2.500e-01)"),
+        (NotConverged("stopped", 0.25, (3, 5)), "stopped (residual 2.500e-01)"),
+        (ArgumentValueError("tf must be later than t0", "tf", (2,)), "tf must be later than t0"),
     ],
 )
 def test_what_an_error_says_and_carries_survives(error, text, again):

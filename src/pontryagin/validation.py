@@ -16,6 +16,9 @@ BARE = frozenset({float, int, bool, str, type(None), np.float64, np.float32, np.
 TINY = 2.0**-1022
 """The smallest number with all digits of double precision. Smaller ones are multiples of 2^-1074."""
 
+LARGEST_ANGLE = 2.0**53
+"""Neighbouring numbers beyond this are two radians or more apart, so that they say little of a phase."""
+
 FEW = 16
 """Up to so many numbers are checked faster one by one than by NumPy."""
 
@@ -146,6 +149,30 @@ def positive(name: str, value: ArrayLike) -> Array:
     return array
 
 
+def angles(name: str, value: ArrayLike, takes: str) -> Array:
+    """`value` as finite angles in radians.
+
+    Raises
+    ------
+    ValueError
+        If an angle is so large that double precision does not hold its place on the turn.
+
+    Examples
+    --------
+    >>> angles("anomaly", 0.5, "a number")
+    array(0.5)
+    """
+    array = finite(name, value, takes)
+    large = np.abs(array) > LARGEST_ANGLE
+    if large.any():
+        message = (
+            f"{name} must be {takes}, at most {LARGEST_ANGLE:.1e} rad, beyond which neighbouring numbers are "
+            f"2 rad or more apart, got {array[large].flat[0]}"
+        )
+        raise ArgumentValueError(message, name)
+    return array
+
+
 def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
     """`value` (k,) or (..., k) broadcast against the intervals [start, end] (...), as (..., k).
 
@@ -169,6 +196,17 @@ def times(name: str, value: ArrayLike, start: Array, end: Array) -> Array:
             f"{name} must lie between the start and the end of the manoeuvre, got {bad}", name
         )
     return inside
+
+
+def members_of(fault: NDArray[np.bool_]) -> tuple[int, ...]:
+    """Which problems of a stack are at fault, as errors carry it: their places in the flattened stack.
+
+    Examples
+    --------
+    >>> members_of(np.array([[False, True], [False, True]]))
+    (1, 3)
+    """
+    return tuple(np.flatnonzero(fault).tolist()) if fault.ndim else ()
 
 
 def common_shape(**shapes: tuple[int, ...]) -> tuple[int, ...]:
@@ -217,14 +255,15 @@ def require_digits(name: str, gives: str, moving: ArrayLike, *units: ArrayLike) 
         size = np.asarray(unit)
         lost = np.asarray(moving) & ~((size >= TINY) & (size < np.inf))
         if lost.any():
-            raise beyond_range(name, gives, np.argwhere(lost)[0].tolist())
+            raise beyond_range(name, gives, lost)
 
 
-def beyond_range(name: str, gives: str, index: list[int]) -> ArgumentValueError:
-    """The error for an argument whose answer, at this index of a stack, double precision cannot hold."""
+def beyond_range(name: str, gives: str, lost: NDArray[np.bool_]) -> ArgumentValueError:
+    """The error for an argument whose answer, where a stack is `lost`, double precision cannot hold."""
+    index = np.argwhere(lost)[0].tolist()
     where = f" at index {index}" if index else ""
     message = (
         f"{name} must give {gives} within the range of floating-point numbers, {TINY:.1e} to "
         f"{np.finfo(float).max:.1e} in modulus, got one beyond it{where}"
     )
-    return ArgumentValueError(message, name)
+    return ArgumentValueError(message, name, members_of(lost))

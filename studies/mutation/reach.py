@@ -13,8 +13,16 @@ from pontryagin.io import files
 from pontryagin.report.dependencies import digest
 from studies.mutation.laboratory import Laboratory
 
-APART = {"house", "report", "benchmarks", "studies", "cli", "display", "ledger", "terminal", "io"}
-"""Folders of tests that are not about solvers and certificates."""
+APART = {
+    "derivation",
+    "figures",
+    "judge",
+    "test_claims.py",
+    "test_derivation.py",
+    "test_figures.py",
+    "test_playback.py",
+}
+"""Folders and files of tests that are about something else than solvers and certificates."""
 SECONDS = 600.0
 """Processor time that the tests of one file may take."""
 
@@ -47,11 +55,18 @@ class Reach:
         """The sources and tests."""
         return Project(self.root / "src" / "pontryagin")
 
-    def candidates(self) -> list[Path]:
-        """The files of tests that are looked at."""
+    def candidates(self, module: str) -> list[Path]:
+        """The files of tests of a module's paper or room whose imports lead to the module."""
+        room = Path(module).relative_to("src/pontryagin").parts[0]
         tests = self.root / "tests"
-        found = (path for path in tests.rglob("test_*.py"))
-        return sorted(path for path in found if path.relative_to(tests).parts[0] not in APART)
+        found = sorted(tests.glob("test_*.py") if room.endswith(".py") else (tests / room).rglob("test_*.py"))
+        solving = (test for test in found if not APART & {*test.relative_to(tests).parts})
+        return [test for test in solving if self.root / module in self._depends(test)]
+
+    def _depends(self, test: Path) -> frozenset[Path]:
+        if test not in self._files:
+            self._files[test] = self.project.files(test)
+        return self._files[test]
 
     def key(self, test: Path) -> str:
         """Of a file of tests and all that it depends on."""
@@ -59,37 +74,38 @@ class Reach:
         known = [path for path in settings if path.is_file()]
         return digest(*sorted(self._depends(test)), *known, *self.modules, root=self.root)
 
+    def _traced(self, name: str, environment: dict[str, str], laboratory: Laboratory) -> dict[str, Any]:
+        trace = [str(laboratory.root / module) for module in self.modules]
+        answer = laboratory.ask([name], SECONDS, trace=trace, environment=environment)
+        return {
+            test: [seconds, {str(Path(file).relative_to(laboratory.root)): lines[file] for file in lines}]
+            for test, (seconds, lines) in answer.get("tests", {}).items()
+        }
+
     def of(self, test: Path, laboratory: Laboratory) -> Mapping[str, Any]:
-        """Tests of a file: {test: [seconds, {module: lines}]}."""
+        """Tests of a file: {test: [seconds, {module: lines}]}.
+
+        Kernels run as plain Python, and once more by the native code that the user's cache holds: lines that
+        deal with its answers are reached then.
+        """
         name = str(test.relative_to(self.root))
         place = self.folder / f"{name.replace('/', '-').removesuffix('.py')}-{self.key(test)}.json"
         if not place.is_file():
-            trace = [str(laboratory.root / module) for module in self.modules]
-            cache = str(self.folder / "cache")
-            answer = laboratory.ask([name], SECONDS, trace=trace, cache=cache)
-            tests = {
-                test: [seconds, {str(Path(file).relative_to(laboratory.root)): lines[file] for file in lines}]
-                for test, (seconds, lines) in answer.get("tests", {}).items()
-            }
-            files.write(place, json.dumps(tests))
+            plain, native = {"XDG_CACHE_HOME": str(self.folder / "cache")}, dict[str, str]()
+            found: dict[str, Any] = {}
+            for environment in (plain, native):
+                for one, (seconds, lines) in self._traced(name, environment, laboratory).items():
+                    known = found.setdefault(one, [seconds, {}])[1]
+                    known |= {module: sorted({*known.get(module, ()), *lines[module]}) for module in lines}
+            files.write(place, json.dumps(found))
         return dict(json.loads(place.read_text(encoding="utf-8")))
-
-    def may_reach(self, test: Path, module: str) -> bool:
-        """Whether the imports of a file of tests lead to a module."""
-        return self.root / module in self._depends(test)
-
-    def _depends(self, test: Path) -> frozenset[Path]:
-        if test not in self._files:
-            self._files[test] = self.project.files(test)
-        return self._files[test]
 
     def reaching(self, module: str, laboratory: Laboratory) -> Iterator[Reached]:
         """The tests that reach a module, each with its seconds and lines."""
-        for candidate in self.candidates():
-            if self.may_reach(candidate, module):
-                for test, (seconds, lines) in self.of(candidate, laboratory).items():
-                    if module in lines:
-                        yield test, seconds, set(lines[module])
+        for candidate in self.candidates(module):
+            for test, (seconds, lines) in self.of(candidate, laboratory).items():
+                if module in lines:
+                    yield test, seconds, set(lines[module])
 
 
 def chosen(tests: Iterable[Reached], lines: range, budget: float) -> list[tuple[str, float]]:

@@ -15,7 +15,7 @@ from studies.mutation.mutants import Mutant, mutants
 from studies.mutation.reach import Reach, Reached, chosen
 from studies.part import Found
 
-BUDGET = 20.0
+BUDGET = 5.0
 """Seconds of the unchanged tests that a mutant meets at most."""
 SLOWER, SPARE = 4.0, 20.0
 """A mutant may take so many times as long as the unchanged tests, and so many seconds to load them."""
@@ -109,8 +109,7 @@ class Sample:
     def _hash_of_tests(self, module: str, outcome: str, by: str) -> str:
         if outcome in {SURVIVED, UNREACHED}:
             if module not in self._hashes:
-                tests = (path for path in self.reach.candidates() if self.reach.may_reach(path, module))
-                self._hashes[module] = _hash(*tests)
+                self._hashes[module] = _hash(*self.reach.candidates(module))
             return self._hashes[module]
         path = self.root / by.partition("::")[0]
         return _hash(path) if path.is_file() else ""

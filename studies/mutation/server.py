@@ -36,6 +36,8 @@ MEMORY = 8 << 30
 """Bytes that a fork may ask for; more is a `MemoryError` in its tests."""
 WALL = 10
 """A fork that sleeps ends after so many times its processor time."""
+SLOW = 30
+"""Seconds after which a test is left out: its kernels need their native code."""
 ALL = "*"
 """Stands for every test of a file: what a fixture of the file does is done for all of them."""
 
@@ -167,11 +169,11 @@ def _traced(request: dict[str, Any]) -> dict[str, Any]:
 
     A test that reaches a file also reaches what ran when the file was imported.
     """
-    os.environ["XDG_CACHE_HOME"] = request["cache"]
+    os.environ |= request["environment"]
     measured = coverage.Coverage(data_file=None, include=request["trace"], config_file=False)
     tracer = _Tracer(measured)
     measured.start()
-    _run(request["tests"], plugin=tracer)
+    _run(request["tests"], f"--timeout={SLOW}", "--timeout-method=signal", plugin=tracer)
     measured.stop()
     data = measured.get_data()
     lines: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))

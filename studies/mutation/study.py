@@ -95,10 +95,10 @@ STUDY = Study(
         "A mutant is a module with one small change: a comparison flipped or its boundary moved, a sum for a "
         "difference, a product for a quotient, a constant one larger or twice as large, a sign, a `not`, an "
         "`and`, a minimum for a maximum, a sine for a cosine, a statement left out. A seeded sample of each "
-        "module's mutants runs, as plain Python, the quick tests that reach the changed line, the quickest "
-        f"first, {BUDGET:.0f} seconds of them at most. The score is the share of the sample, "
-        "equivalent mutants apart, in which a test fails or does not end; equivalent is what has a reason "
-        "why no test can tell it from the module. Slow tests are not run."
+        "module's mutants runs, as plain Python, the quick tests of its paper (of its room in the core) that "
+        f"reach the changed line, quickest first, {BUDGET:.0f} seconds of them. The score is the share "
+        "of the sample, equivalent mutants apart, in which a test fails or does not end; equivalent is what "
+        "has a reason why no test can tell it from the module. Slow tests are not run."
     ),
     seed=SEED,
     parts=[_part(module) for module in SAMPLE.modules],

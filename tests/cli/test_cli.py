@@ -112,6 +112,13 @@ class TestSolutions:
         assert printed["problem"]["moments"] == pytest.approx(maneuver.moments.tolist(), abs=1e-13)
         assert printed["problem"]["disturbance"] == "0.1*sin(3*t) + t^2"
 
+    def test_a_narrow_feature_of_a_formula_is_found(self):
+        bump = "exp(-((t - 1.0628)/1e-6)^2)*1e6"
+        printed = answer("--norm", "2", *ENDS, "--duration", "2", "--disturbance", bump)
+        moved = Maneuver(X0, XF, 2.0).moments - np.sqrt(np.pi) * np.array([2 - 1.0628, 1, 0])
+        assert printed["problem"]["moments"] == pytest.approx(moved.tolist(), rel=1e-11)
+        assert printed["problem"]["disturbance"] == bump
+
     def test_samples_are_the_solution_at_even_times(self):
         printed = answer("--norm", "2", *ENDS, "--duration", "2", "--samples", "5")["samples"]
         solution = minimum_energy(Maneuver(X0, XF, 2.0))

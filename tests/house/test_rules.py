@@ -33,13 +33,15 @@ EVALUATING = ("pontryagin.numerics.compile", "pontryagin.numerics.native", "pont
 
 
 @cache
+def written() -> dict[str, Path]:
+    """The file of every module of the package that is not generated, by dotted name."""
+    return {dotted(path): path for path in sorted(SOURCE.rglob("*.py")) if path.name != "kernels.py"}
+
+
+@cache
 def trees() -> dict[str, ast.Module]:
     """The syntax tree of every module of the package that is not generated, by dotted name."""
-    found = {}
-    for path in sorted(SOURCE.rglob("*.py")):
-        if path.name != "kernels.py":
-            found[dotted(path)] = ast.parse(path.read_text(encoding="utf-8"))
-    return found
+    return {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in written().items()}
 
 
 def dotted(path: Path) -> str:
@@ -85,7 +87,7 @@ def test_no_two_files_import_each_other_even_in_a_circle():
     assert not tied
 
 
-@pytest.mark.parametrize("name", [*trees()])
+@pytest.mark.parametrize("name", written())
 def test_a_module_is_one_step_and_says_in_one_line_what_it_holds(name):
     assert len(text_of(name).splitlines()) <= LONGEST
     words = ast.get_docstring(trees()[name])

@@ -156,7 +156,7 @@ def test_rows_at_fault_are_known_and_the_others_read(tmp_path):
         3: "has 3 entries, but the header has 2",
     }
     assert block.columns["E"][[0, 4]].tolist() == [1, 8] and block.columns["K"][4] == np.pi
-    part = block.part(2, 5)
+    part = block.part([2, 3, 4])
     assert (part.lines, sorted(part.faults)) == ([5, 6, 7], [0, 1])
     assert part.columns["K"][2] == np.pi
     assert rows.unanswered(part) == ["4,", "5,6", "8,pi"]

@@ -123,7 +123,14 @@ def height(of, t, z, p):
 def test_switches_without_end_are_given_up():
     flow = relay()
     few = SwitchedFlow(flow.arc, flow.following, jumps=True, most=5)
-    with pytest.raises(NotConverged, match="switches more than 5 times"):
+    quarter = np.sqrt(2 * 0.01)
+    fifth, sixth = 9 * quarter, 11 * quarter
+    whole, between = start(flow, 1.0, [0.01, 0.0]), (fifth + sixth) / 2
+    assert len(follow(few, whole, 1.0, 0.0, between)[0]) == 6, "five switches are allowed"
+    assert follow_on_grid(few, whole, 1.0, np.array([0.0, between])).shape == (2, 2)
+    with pytest.raises(NotConverged, match="switches more than 5 times") as held:
         follow(few, start(flow, 1.0, [0.01, 0.0]), 1.0, 0.0, 50.0)
-    with pytest.raises(NotConverged, match="switches more than 5 times"):
-        follow_on_grid(few, start(flow, 1.0, [0.01, 0.0]), 1.0, np.array([0.0, 50.0]))
+    assert_allclose(held.value.residual, 50 - sixth, rtol=1e-12)
+    with pytest.raises(NotConverged, match="switches more than 5 times") as held:
+        follow_on_grid(few, start(flow, 1.0, [0.01, 0.0]), 1.0, np.array([0.0, 1e-9, 50.0]))
+    assert_allclose(held.value.residual, 50 - sixth, rtol=1e-12)

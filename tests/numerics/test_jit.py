@@ -130,3 +130,13 @@ def test_the_identity_of_a_kernel_is_what_it_computes(monkeypatch):
     before = defined(kernels[0])
     monkeypatch.undo()
     assert defined(kernels[0]) != before
+
+
+def power_and_sum(p):
+    return p**1.5, p + 1.0
+
+
+def test_a_root_of_a_negative_number_is_nan_as_in_compiled_code():
+    plain = jit.batched(power_and_sum, outputs=2)
+    np.testing.assert_array_equal(plain(np.array([4.0, -4.0])), [[8.0, 5.0], [np.nan, -3.0]])
+    np.testing.assert_array_equal(plain.one(-4.0), [np.nan, -3.0])

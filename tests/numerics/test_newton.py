@@ -144,3 +144,19 @@ def test_a_singular_system_of_a_stack_is_solved_by_least_squares():
     result = solved(matrices, np.array([[1.0, 2.0], [2.0, 2.0], [1.0, 1.0]]))
     assert_allclose(result[:2], [[1, 2], [1, 1]])
     assert np.isnan(result[2]).all()
+
+
+def test_a_step_that_reduces_nothing_is_halved_and_halved_again():
+    """Beyond 1.4, Newton's step for atan goes further away."""
+    seen = []
+
+    def equations(x):
+        seen.append(float(x[0]))
+        return Linear(np.arctan(x), np.array([[1 / (1 + x[0] ** 2)]]))
+
+    newton(equations, np.array([3.0]))
+    full = -10 * np.arctan(3.0)
+    first = [3.0 + full / 2**k for k in range(4)]
+    better = next(k for k, x in enumerate(first) if abs(np.arctan(x)) < np.arctan(3.0))
+    assert_allclose(seen[1 : better + 2], first[: better + 1], rtol=1e-14)
+    assert better > 0

@@ -1,6 +1,8 @@
 """Quaternions against SciPy's rotations and against their defining identities."""
 
+import mpmath as mp
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
@@ -40,3 +42,11 @@ def test_turns_about_the_third_axis_add_their_angles():
     both = rotation.product(rotation.about_third(a), rotation.about_third(b))
     assert_allclose(both, rotation.about_third(a + b), atol=1e-14)
     assert_allclose(rotation.about_third(a), rotation.quaternion(np.stack([0 * a, 0 * a, a], axis=-1)))
+
+
+@pytest.mark.parametrize("angle", [1e5, -123456789.125, 1e12, -1e15, 9007199254740991.0])
+def test_angles_of_any_size_are_reduced_as_in_sixty_digits(angle):
+    with mp.workdps(60):
+        exact = mp.atan2(mp.sin(mp.mpf(angle)), mp.cos(mp.mpf(angle)))
+        assert abs(exact - mp.mpf(float(rotation.within_a_turn(angle)))) <= 1e-15
+    assert float(rotation.within_a_turn(-6.25)) == -6.25

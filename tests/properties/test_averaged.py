@@ -1,6 +1,7 @@
 """Invariances of averaged problems and of their exact extremals: units, origin of the phase, coordinates."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -98,6 +99,19 @@ def test_exact_extremals_in_other_units_and_from_another_origin(shift, money, pa
     assert_allclose([one.cost / money for one in found], [one.cost for one in base], rtol=1e-8)
     assert_allclose([one.duration * pace for one in found], [one.duration for one in base], rtol=1e-6)
     assert [one.kind for one in found] == [one.kind for one in base]
+
+
+@some
+@given(st.floats(1.02, 3.0), st.floats(0.0, 0.9), st.floats(-1.3, 0.0), phases)
+def test_exact_extremals_are_minima_and_maxima_in_turn(v1, ripple, decade, phase):
+    """J grows without limit as the duration vanishes and as it grows: a minimum is the first extremal."""
+    found = smooth_example(1.0, v1, ripple=ripple).exact(10.0**decade, phase=phase)
+    in_turn = sorted(found, key=lambda one: one.ending_anomaly)
+    assert all(one.certificate.holds() for one in found)
+    if found.traced.limits[0] == "start":
+        assert in_turn[0].kind == "minimum"
+    assert all(one.kind != other.kind for one, other in pairwise(in_turn))
+    assert all((one.cost < other.cost) == (one.kind == "minimum") for one, other in pairwise(in_turn))
 
 
 @few

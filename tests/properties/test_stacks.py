@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -174,6 +174,7 @@ def test_a_stack_of_transfers_is_its_members(members):
         assert_array_equal(together.shares[i], alone.shares)
 
 
+@settings(max_examples=10)
 @given(
     members=st.lists(
         st.tuples(

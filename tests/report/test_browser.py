@@ -87,6 +87,7 @@ def turning_box(path):
         turn.curve("angle/a", t, 2 * t, "angle", "red")
 
 
+@pytest.mark.slow
 def test_a_browser_reads_every_formula_and_plays_the_recording(checkout, tmp_path):
     program = browser.find()
     if program is None:

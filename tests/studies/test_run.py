@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import pytest
 from studies.part import Part, Study
@@ -134,6 +135,18 @@ def test_a_damaged_record_is_done_again(root):
     run(records.study, records, 60.0)
     assert written(records) == whole
     assert json.loads(broken.read_text())["chunk"] == 3
+
+
+def test_what_does_not_hold_any_more_is_done_again(root):
+    whole, times = all_at_once(root), []
+    plain = study(lambda: times.append(1))
+    doubted = [replace(part, holds=lambda found: found["sum"] > 0) for part in plain.parts]
+    records = Records(replace(plain, parts=doubted), root)
+    left = sum(len(records.read(part)) for part in doubted)
+    assert 0 < left < 2 * CHUNKS
+    run(records.study, records, 60.0)
+    assert len(times) == 2 * CHUNKS - left
+    assert written(Records(study(), root)) == whole
 
 
 class Clock:

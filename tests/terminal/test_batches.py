@@ -10,12 +10,15 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from command_line import assert_refused, read_table, run, write_table
 from pontryagin import triple_integrator
+from pontryagin.errors import NotConverged
 from pontryagin.io import rows
 from pontryagin.terminal import batches
+from pontryagin.validation import members_of
 
 SOLVE = ("solve", "triple-integrator", "--norm", "2")
 HEADER = ("name", "x10", "x20", "x30", "x1f", "x2f", "x3f", "tf")
@@ -150,6 +153,45 @@ class TestFaults:
         found = [json.loads(line) for line in result.stdout.splitlines()]
         assert ["error" in row for row in found] == [True, *[False] * 5, True, True]
         assert ["norm" in row for row in found] == [False, *[True] * 5, False, False]
+
+    def test_each_row_gets_the_reason_that_it_has_alone(self, tmp_path, monkeypatch):
+        """And the others are solved as one stack, however many are at fault."""
+        plain, stacks = triple_integrator.Maneuver, []
+        monkeypatch.setattr(
+            triple_integrator, "Maneuver", lambda *given: stacks.append(len(given[0])) or plain(*given)
+        )
+        bad = [row for row, _ in self.FAULTS]
+        mixed = [row for good in problems(8) for row in (good, *bad)]
+        for norm in ("1", "2", "inf"):
+            command, reasons = ("solve", "triple-integrator", "--norm", norm), []
+            for row in bad:
+                table = write_table(tmp_path / "in.csv", HEADER, [*problems(1), row])
+                reasons.append(read_table(run(*command, "--batch", table).stdout)[1]["error"])
+            stacks.clear()
+            table = write_table(tmp_path / "in.csv", HEADER, mixed)
+            found = read_table(run(*command, "--batch", table).stdout)
+            assert [row["error"] for row in found] == [*["", *reasons] * 8]
+            assert all(bool(row["norm"]) == (not row["error"]) for row in found)
+            assert stacks == [16, *[1] * 8, 8]
+
+    @pytest.mark.parametrize(("goal", "solver"), [("--peak", "minimum_time"), ("--norm", "minimum_norm")])
+    def test_what_is_not_solved_is_tried_alone_and_the_others_together(
+        self, tmp_path, monkeypatch, goal, solver
+    ):
+        plain, stacks = getattr(triple_integrator, solver), []
+
+        def unsure(first, *others):
+            lost = np.abs((first.xf if hasattr(first, "xf") else others[0])[:, 0] - 1 - 2 / 7) < 1e-9
+            stacks.append(len(lost))
+            if lost.any():
+                raise NotConverged("nothing was found", 0.5, members_of(lost))
+            return plain(first, *others)
+
+        monkeypatch.setattr(triple_integrator, solver, unsure)
+        table = write_table(tmp_path / "in.csv", HEADER, problems(9))
+        found = read_table(run("solve", "triple-integrator", goal, "3", "--batch", table).stdout)
+        assert [row["error"] for row in found if row["error"]] == ["nothing was found (residual 5.000e-01)"]
+        assert found[2]["error"] and stacks == [9, 1, 8]
 
     @pytest.mark.parametrize(("row", "reason"), FAULTS)
     def test_without_any_answer_nothing_is_written(self, tmp_path, small_blocks, row, reason):

@@ -170,6 +170,30 @@ def _symbolic(node: ast.expr, text: str) -> "sp.Expr":
     raise AssertionError(ast.dump(node))
 
 
+def is_broad(formula: Formula) -> bool:
+    """Whether a formula has no kink, and nothing in it is narrow that does not recur.
+
+    It is then made of sums, products, whole powers up to `HIGHEST`, sines and cosines.
+
+    Examples
+    --------
+    >>> [is_broad(read(text, "t")) for text in ("0.1*sin(3*t) + t^2", "exp(-1e6*t^2)", "abs(t - 1)")]
+    [True, False, False]
+    """
+    return all(map(_is_broad, ast.walk(formula.tree)))
+
+
+def _is_broad(node: ast.AST) -> bool:
+    match node:
+        case ast.BinOp(op=ast.Pow(), right=exponent):
+            return not _varies(exponent) and _value(exponent, {}) in range(HIGHEST + 1)
+        case ast.BinOp(op=ast.Div(), right=divisor):
+            return not _varies(divisor)
+        case ast.Call(func=ast.Name(id=name)):
+            return name in ("sin", "cos")
+    return True
+
+
 def number(text: str) -> float:
     """Parse a text into a finite number.
 

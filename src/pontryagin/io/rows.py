@@ -3,7 +3,7 @@
 import csv
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice, zip_longest
+from itertools import zip_longest
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -12,7 +12,7 @@ import numpy as np
 import orjson
 
 from pontryagin.arrays import Array
-from pontryagin.io import files, formula
+from pontryagin.io import csv_lines, files, formula
 
 DECIMAL = b"0123456789+-.eE,"
 """The characters of decimal numbers in a list."""
@@ -20,6 +20,8 @@ BLOCK = 2048
 """Number of rows that are held at a time: the solvers are as fast as on larger stacks."""
 SEPARATORS = ";\t|"
 """Characters other than the comma by which programs separate columns."""
+WORDS = ("no", "yes")
+"""How truth values are written."""
 ERROR = "error"
 """The column that says why a row has no answer."""
 
@@ -51,11 +53,14 @@ class Rows(NamedTuple):
         """Columns side by side, (n, len(names))."""
         return np.stack([self.columns[name] for name in names], axis=-1)
 
-    def part(self, start: int, end: int) -> "Rows":
-        """The rows from one index to another one."""
-        faults = {i - start: fault for i, fault in self.faults.items() if start <= i < end}
-        columns = {name: column[start:end] for name, column in self.columns.items()}
-        return Rows(self.header, self.rows[start:end], self.lines[start:end], columns, faults)
+    def part(self, places: Sequence[int]) -> "Rows":
+        """The rows with these indices, which grow."""
+        if len(places) == len(self.rows):
+            return self
+        faults = {k: self.faults[i] for k, i in enumerate(places) if i in self.faults}
+        columns = {name: column[list(places)] for name, column in self.columns.items()}
+        rows, lines = [self.rows[i] for i in places], [self.lines[i] for i in places]
+        return Rows(self.header, rows, lines, columns, faults)
 
 
 def read(path: Path, required: Sequence[str], possible: Sequence[str] = (), holds: str = "problem") -> Rows:
@@ -95,20 +100,14 @@ def blocks(
         If the file cannot be read.
     """
     with files.reading(path) as file:
-        reader = csv.reader(file)
-        try:
-            header = [name.strip() for name in next(reader, [])]
-            _check_header(header, required)
-            wanted = [*required, *(name for name in possible if name in header)]
-            filled = ((row, reader.line_num) for row in reader if row)
-            empty = True
-            while block := list(islice(filled, BLOCK if size == 0 else size)):
-                rows, lines = map(list, zip(*block, strict=True))
-                del block
-                yield Rows(header, rows, lines, *_columns(rows, header, wanted))
-                empty = False
-        except (csv.Error, UnicodeDecodeError) as reason:
-            raise ValueError(f"near line {reader.line_num}: {reason}") from None
+        names, number = csv_lines.header_of(file)
+        header = [name.strip() for name in names]
+        _check_header(header, required)
+        wanted = [*required, *(name for name in possible if name in header)]
+        empty = True
+        for rows, lines in csv_lines.rows_of(file, number, BLOCK if size == 0 else size):
+            yield Rows(header, rows, lines, *_columns(rows, header, wanted))
+            empty = False
     if empty:
         raise ValueError(f"line 2: the file holds no {holds}")
 
@@ -129,18 +128,25 @@ def _check_header(header: list[str], required: Sequence[str]) -> None:
 def _columns(
     rows: list[list[str]], header: list[str], wanted: Sequence[str]
 ) -> tuple[dict[str, Array], dict[int, str]]:
-    """The numbers in the wanted columns, and the faults; row by row only where there are some."""
-    if set(map(len, rows)) == {len(header)}:
-        texts = list(zip(*rows, strict=True))
+    """The numbers in the wanted columns, nan in rows at fault, and the faults."""
+    width, faults = len(header), {}
+    if set(map(len, rows)) != {width}:
+        has = {i: len(row) for i, row in enumerate(rows) if len(row) != width}
+        faults = {i: f"has {count} entries, but the header has {width}" for i, count in has.items()}
+        rows = [["0"] * width if i in faults else row for i, row in enumerate(rows)]
+    texts = list(zip(*rows, strict=True))
+    columns = {}
+    for name in wanted:
+        column = texts[header.index(name)]
         try:
-            return {name: _numbers(texts[header.index(name)]) for name in wanted}, {}
+            columns[name] = _numbers(column)
         except ValueError:
-            pass
-    found = [_row(row, header, wanted) for row in rows]
-    faults = {i: numbers for i, numbers in enumerate(found) if isinstance(numbers, str)}
-    none = [math.nan] * len(wanted)
-    table = np.array([none if isinstance(numbers, str) else numbers for numbers in found])
-    return {name: table[:, i] for i, name in enumerate(wanted)}, faults
+            columns[name], wrong = _one_by_one(column)
+            said = {i: f"{name} takes a number, got {column[i]!r}" for i in wrong}
+            faults = said | faults
+    for numbers in columns.values():
+        numbers[list(faults)] = math.nan
+    return columns, dict(sorted(faults.items()))
 
 
 def _numbers(texts: Sequence[str]) -> Array:
@@ -168,18 +174,15 @@ def _decimals(texts: Sequence[str]) -> Array | None:
     return numbers if len(numbers) == len(texts) else None
 
 
-def _row(row: list[str], header: list[str], wanted: Sequence[str]) -> list[float] | str:
-    """The wanted numbers of a row, or what is wrong with it."""
-    if len(row) != len(header):
-        return f"has {len(row)} entries, but the header has {len(header)}"
-    numbers = []
-    for name in wanted:
-        text = row[header.index(name)]
+def _one_by_one(texts: Sequence[str]) -> tuple[Array, list[int]]:
+    """The numbers that texts stand for, and the indices of the texts that are no numbers."""
+    numbers, wrong = np.full(len(texts), math.nan), []
+    for i, text in enumerate(texts):
         try:
-            numbers.append(formula.number(text))
+            numbers[i] = formula.number(text)
         except ValueError:
-            return f"{name} takes a number, got {text!r}"
-    return numbers
+            wrong.append(i)
+    return numbers, wrong
 
 
 def to_csv(read: Rows, answers: Mapping[str, Any]) -> str:
@@ -264,16 +267,21 @@ def _as_written(rows: Sequence[Sequence[str]]) -> list[str]:
 
 def _texts(column: Any) -> list[str]:
     """The cells of one column of answers."""
+    if column.dtype == bool:
+        return list(map(WORDS.__getitem__, column.tolist()))
+    if column.dtype.kind in "iU":
+        return list(map(str, column.tolist()))
     if column.dtype != float:
         return list(map(_cell, column.tolist()))
     written = orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)
     texts = written[1:-1].decode().split(",")
-    for i in np.flatnonzero(~np.isfinite(column)).tolist():
-        texts[i] = _cell(float(column[i]))
+    lost = np.flatnonzero(~np.isfinite(column))
+    for i, value in zip(lost.tolist(), column[lost].tolist(), strict=True):
+        texts[i] = "" if value != value else str(value)
     return texts
 
 
 def _cell(value: Any) -> str:
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return WORDS[value]
     return "" if isinstance(value, float) and math.isnan(value) else str(value)

@@ -138,7 +138,7 @@ def follow(
         if reached.event is None:
             return tuple(pieces), reached.whole
         pieces.append(flow.crossed(piece.mode, reached))
-        if len(pieces) > flow.most:
+        if len(pieces) - 1 > flow.most:
             raise NotConverged(
                 f"the right-hand side switches more than {flow.most} times", abs(end - reached.time)
             )

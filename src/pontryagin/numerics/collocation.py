@@ -51,6 +51,22 @@ class Mesh:
             result[own.stop :, own] += part[-1]
         return result
 
+    @functools.cached_property
+    def panel_integrals(self) -> Array:
+        """Matrix from values at the points to integrals from the start of each point's panel."""
+        count = len(self.points)
+        result = np.zeros((count, count))
+        for p, length in enumerate(np.diff(self.edges)):
+            own = slice(p * self.degree, (p + 1) * self.degree + 1)
+            result[own.start + 1 : own.stop, own] = length * _integrals(self.degree)[1:]
+        return result
+
+    @functools.cached_property
+    def starts(self) -> NDArray[np.intp]:
+        """Which point the panel of each point starts at; edges belong to the panel that ends there."""
+        index = np.arange(len(self.points))
+        return np.maximum((index - 1) // self.degree * self.degree, 0)
+
     def series(self, values: Array) -> Array:
         """Chebyshev coefficients (..., panels, degree + 1, w) of values (..., points, w)."""
         starts = np.arange(self.panels)[:, None] * self.degree

@@ -84,11 +84,15 @@ class Batched:
             raise ArithmeticError(f"{self.kernel.__name__} failed on a problem of the stack")
 
     def _plain(self, *values: float | list[float]) -> tuple[float, ...]:
-        """Solve one problem in plain Python; overflow and division by zero give nan, as in compiled code."""
+        """Solve one problem in plain Python.
+
+        Overflow, division by zero and roots of negative numbers give nan, as in compiled code.
+        """
         try:
-            return self.kernel(*values)
+            found = self.kernel(*values)
         except ArithmeticError:
             return (np.nan,) * self.outputs
+        return tuple(np.nan if isinstance(number, complex) else number for number in found)
 
     def one(self, *values: float, tables: tuple[bytes, ...] = ()) -> Array:
         """Solve one problem, as (outputs,); by native code where there is some."""

@@ -80,6 +80,19 @@ def about_third(angle: ArrayLike) -> Array:
     return np.stack([np.cos(half), still, still, np.sin(half)], axis=-1)
 
 
+def within_a_turn(angle: ArrayLike) -> Array:
+    """The same angles between -pi and pi, to rounding however large they are; those of up to a turn stay.
+
+    Examples
+    --------
+    >>> within_a_turn([3.0, 1e15]).round(9).tolist()
+    [3.0, 2.107981379]
+    """
+    given = np.asarray(angle, dtype=float)
+    reduced = np.arctan2(np.sin(given), np.cos(given))
+    return np.asarray(np.where(np.abs(given) <= 2 * np.pi, given, reduced))
+
+
 def twist(attitude: Array) -> float:
     """The angle about e3, in (-pi, pi], when a turn is split into (turn about an axis normal to e3) o it."""
     angle = 2 * math.atan2(attitude[3], attitude[0])

@@ -9,11 +9,10 @@ import re
 import signal
 import sys
 import threading
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator
 from contextlib import closing, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import typer
 
@@ -23,10 +22,8 @@ from pontryagin.io import files
 from pontryagin.io.rows import Rows
 from pontryagin.progress import report
 from pontryagin.terminal import bar, console
-from pontryagin.terminal.spool import Spool, rows_done
+from pontryagin.terminal.spool import Answers, Part, Spool, rows_done
 
-Answers = Mapping[str, Any]
-"""The columns of the answers of a block, (n,) or (n, k) each."""
 Solver = Callable[[Rows], tuple[Answers, Certificate | None]]
 """Returns the answers of a block and, if it is to hold in every row, their certificate."""
 Unsolved = (console.Refusal, ArgumentTypeError, ArgumentValueError, Infeasible, NotConverged)
@@ -53,7 +50,7 @@ def run(
     blocks : iterator of Rows
         What `pontryagin.io.rows.blocks` returned.
     solve : function of Rows
-        See `Solver`. Where it raises for a block of several rows, it is called for each half.
+        See `Solver`. Where it raises for several rows, it is called for parts of them.
     as_json : bool
         Whether a JSON object is written for each row, in place of CSV.
     shared : collection of str
@@ -94,7 +91,7 @@ def run(
 def _solved(
     path: Path,
     blocks: Iterator[Rows],
-    parts: Callable[[Rows], Iterator[tuple[Rows, Answers | None, dict[int, str], int]]],
+    parts: Callable[[Rows], Iterator[Part]],
     spool: Spool,
     as_json: bool,
     out: str,
@@ -110,9 +107,9 @@ def _solved(
                     _tell(spool)
                     solved = list(parts(block))
                     with console.reading("--batch", path):
-                        pieces = [rows_done(*part, as_json) for part in solved]
+                        done = rows_done(block, solved, as_json)
                     with console.writable("--out", Path(out)):
-                        spool.keep(block, pieces)
+                        spool.keep(block, done)
                 report("rows done", block.lines[-1], total)
                 if pressed():
                     return True
@@ -133,32 +130,43 @@ def _read(path: Path, blocks: Iterator[Rows]) -> Iterator[Rows]:
         yield from blocks
 
 
-def _parts(
-    solve: Solver, shared: frozenset[str], block: Rows
-) -> Iterator[tuple[Rows, Answers | None, dict[int, str], int]]:
-    """A block in parts that are solved whole, and the rows that are not: answers, errors and the exit code.
+def _parts(solve: Solver, shared: frozenset[str], block: Rows) -> Iterator[Part]:
+    """A block in parts: the rows that cannot be read, and the others with their answers or errors."""
+    if block.faults:
+        faults = list(block.faults.values())
+        yield Part(list(block.faults), None, dict(enumerate(faults)), 2)
+    good = [i for i in range(len(block.rows)) if i not in block.faults]
+    if good:
+        yield from _answers(solve, shared, block, good)
 
-    An error in a stack of problems does not tell which of them it is about: it is halved until one is left.
+
+def _answers(solve: Solver, shared: frozenset[str], block: Rows, places: list[int]) -> Iterator[Part]:
+    """The rows at some places of a block, in parts that are solved whole, and those that are not.
+
+    Where an error in a stack of problems does not tell which of them it is about, the stack is halved until
+    one is left. Those that it is about are solved each for itself, which gives the reason for each.
     """
-    reason: Exception | None = None
-    if not block.faults:
-        try:
-            answers, proof = solve(block)
-        except Unsolved as raised:
-            if _about(raised) in shared:
-                raise
-            reason = raised
+    part = block.part(places)
+    try:
+        answers, proof = solve(part)
+    except Unsolved as reason:
+        if _about(reason) in shared:
+            raise
+        lost = set(reason.members) & set(range(len(places)))
+        if len(places) == 1:
+            infeasible = isinstance(reason, Infeasible | NotConverged)
+            yield Part(places, None, {0: _of_row(reason)}, 1 if infeasible else 2)
+        elif lost:
+            for i in sorted(lost):
+                yield from _answers(solve, shared, block, [places[i]])
+            if others := [place for i, place in enumerate(places) if i not in lost]:
+                yield from _answers(solve, shared, block, others)
         else:
-            yield block, answers, {} if proof is None else console.unproved(proof), 1
-            return
-    count = len(block.rows)
-    if count > 1:
-        yield from _parts(solve, shared, block.part(0, count // 2))
-        yield from _parts(solve, shared, block.part(count // 2, count))
-    elif reason is None:
-        yield block, None, dict(block.faults), 2
+            half = len(places) // 2
+            yield from _answers(solve, shared, block, places[:half])
+            yield from _answers(solve, shared, block, places[half:])
     else:
-        yield block, None, {0: _of_row(reason)}, 1 if isinstance(reason, Infeasible | NotConverged) else 2
+        yield Part(places, answers, {} if proof is None else console.unproved(proof), 1)
 
 
 def _about(reason: Exception) -> str:

@@ -6,7 +6,7 @@ Every `Refusal` begins with the name of an option; `pontryagin.cli` prints it in
 import csv
 import io
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -42,12 +42,15 @@ UNPROVED = f"the certificate does not hold to {ACCEPTED:g}: rounding errors are 
 
 
 class Refusal(typer.TyperException):
-    """An error about an option; its message begins with the option's name."""
+    """An error about an option; its message begins with the option's name.
+
+    Its `members` are those of the error about an argument that it stands for.
+    """
 
     exit_code = 2
 
-    def __init__(self, option: str, message: str) -> None:
-        self.option = option
+    def __init__(self, option: str, message: str, members: Sequence[int] = ()) -> None:
+        self.option, self.members = option, members
         super().__init__(f"{option}{'' if message.startswith(':') else ' '}{message}")
 
 
@@ -132,7 +135,8 @@ def refusing(options: Mapping[str, str]) -> Iterator[None]:
         name = reason.argument
         if name is None or name not in options:
             raise
-        raise Refusal(options[name], str(reason).removeprefix(name).lstrip()) from reason
+        message = str(reason).removeprefix(name).lstrip()
+        raise Refusal(options[name], message, reason.members) from reason
 
 
 @contextmanager

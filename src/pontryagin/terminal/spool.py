@@ -11,12 +11,12 @@ import os
 import stat
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 from zlib import crc32
 
 import numpy as np
@@ -32,22 +32,44 @@ LENGTH, SUM = 8, 4
 """Numbers of bytes in which the length of a frame's content and its own checksum are written."""
 
 
+Answers = Mapping[str, Any]
+"""The columns of answers, (n,) or (n, k) each."""
+
+
+class Part(NamedTuple):
+    """Some rows of a block, by their places in it, which grow.
+
+    Attributes
+    ----------
+    places : list of int
+    answers : mapping or None
+        None if the rows have no answer.
+    errors : mapping of int to str
+        What is to be said of rows, by their index in `places`.
+    status : int
+        The exit code if these errors are the first and no row of the batch has an answer.
+    """
+
+    places: list[int]
+    answers: Answers | None
+    errors: Mapping[int, str]
+    status: int
+
+
 @dataclass(frozen=True)
 class RowsDone:
-    """Some rows done: their lines of text, and the errors of rows by their index."""
+    """The rows of a block done: their lines of text, and the errors of rows by their index."""
 
     header: list[str]
     lines: list[str]
-    answered: bool
+    answered: int
     errors: list[tuple[int, str]] = field(default_factory=list)
     first: tuple[int, str, int] | None = None
     """The line of the first row with an error, the error, and the exit code if no row has an answer."""
 
 
-def rows_done(
-    block: Rows, answers: Mapping[str, Any] | None, errors: Mapping[int, str], status: int, as_json: bool
-) -> RowsDone:
-    """Rows with their answers if they have some, and with errors by the index of their row.
+def rows_done(block: Rows, parts: Sequence[Part], as_json: bool) -> RowsDone:
+    """The rows of a block with their answers if they have some, and with their errors.
 
     Raises
     ------
@@ -55,22 +77,36 @@ def rows_done(
         If an answer has the name of a column that was read.
     """
     rows.require_new(block.header, [rows.ERROR])
-    header = block.header
+    written = [_written(block, part, as_json) for part in parts]
+    header = max((columns for columns, _ in written), key=len)
+    lines = [""] * len(block.rows)
+    errors: dict[int, tuple[str, int]] = {}
+    for part, (columns, texts) in zip(parts, written, strict=True):
+        empty = "" if as_json else "," * (len(header) - len(columns))
+        for place, text in zip(part.places, texts, strict=True):
+            lines[place] = text + empty
+        errors |= {part.places[i]: (error, part.status) for i, error in part.errors.items()}
+    said = sorted((place, error) for place, (error, _) in errors.items())
+    first = (block.lines[said[0][0]], *errors[said[0][0]]) if said else None
+    answered = sum(len(part.places) for part in parts if part.answers is not None)
+    return RowsDone(header, lines, answered, said, first)
+
+
+def _written(block: Rows, part: Part, as_json: bool) -> tuple[list[str], list[str]]:
+    """The names of all columns of a part, and its lines."""
+    some = block.part(part.places)
     if as_json:
-        lines = rows.as_json(block, answers or {}, errors)
-    elif answers is None:
-        lines = rows.unanswered(block)
-    else:
-        columns, lines = rows.answered(block, answers)
-        header = [*header, *columns]
-    first = (block.lines[min(errors)], errors[min(errors)], status) if errors else None
-    return RowsDone(header, lines, answers is not None, sorted(errors.items()), first)
+        return block.header, rows.as_json(some, part.answers or {}, part.errors)
+    if part.answers is None:
+        return block.header, rows.unanswered(some)
+    columns, lines = rows.answered(some, part.answers)
+    return [*block.header, *columns], lines
 
 
 class Spool:
-    """The blocks that are done, as pieces in a file.
+    """The blocks that are done, in a file.
 
-    In CSV, a piece may have more columns than the pieces before it; its first ones are the same.
+    In CSV, a block may have more columns than those before it; its first ones are the same.
 
     Parameters
     ----------
@@ -125,7 +161,7 @@ class Spool:
         return isinstance(self._file.name, str)
 
     def recall(self, block: Rows) -> bool:
-        """Whether a process before this one has done this block, whose pieces are then counted.
+        """Whether a process before this one has done this block, which is then counted.
 
         If it was another block, the file forgets this one and all after it.
         """
@@ -137,25 +173,23 @@ class Spool:
             self._file.seek(start)
             self._file.truncate()
             return False
-        pieces = [RowsDone(**known) for known in orjson.loads(content)]
-        self._count(start, pieces)
+        self._count(start, RowsDone(**orjson.loads(content)))
         self.earlier = self.rows
         return True
 
-    def keep(self, block: Rows, pieces: list[RowsDone]) -> None:
-        """Put the pieces of a block aside."""
+    def keep(self, block: Rows, done: RowsDone) -> None:
+        """Put a block aside."""
         start = self._file.tell()
-        _append(self._file, _of(block), orjson.dumps([vars(one) for one in pieces]))
-        self._count(start, pieces)
+        _append(self._file, _of(block), orjson.dumps(vars(done)))
+        self._count(start, done)
 
-    def _count(self, start: int, pieces: list[RowsDone]) -> None:
+    def _count(self, start: int, done: RowsDone) -> None:
         self._done.append(start)
-        for one in pieces:
-            self._header = max(self._header, one.header, key=len)
-            self.rows += len(one.lines)
-            self.errors += len(one.errors)
-            self.answered += len(one.lines) if one.answered else 0
-            self.first = self.first or one.first
+        self._header = max(self._header, done.header, key=len)
+        self.rows += len(done.lines)
+        self.errors += len(done.errors)
+        self.answered += done.answered
+        self.first = self.first or done.first
 
     def texts(self) -> Iterator[str]:
         """All rows as lines of JSON, or as CSV below a header, where narrower rows end with empty cells."""
@@ -164,8 +198,7 @@ class Spool:
         for start in self._done:
             self._file.seek(start + SIZE)
             length = int.from_bytes(self._file.read(LENGTH))
-            for known in orjson.loads(self._file.read(length)):
-                yield self._text(RowsDone(**known))
+            yield self._text(RowsDone(**orjson.loads(self._file.read(length))))
 
     def _text(self, done: RowsDone) -> str:
         if self._json:

@@ -1,5 +1,6 @@
 """States, phase, anomaly and control of a solution at given times, for one problem and for stacks."""
 
+import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
@@ -154,3 +155,31 @@ def test_the_exact_spin_down_is_handed_out_in_the_paper_s_variables():
     rate = sp.lambdify([*system.slow, system.phase, *system.control, *system.numbers], list(system.f))
     expected = np.stack(np.broadcast_arrays(*rate(*a.T, psi, *u.T, *numbers)), axis=1)[3:-3]
     assert_allclose(slope, expected, atol=1e-4)
+
+
+@pytest.mark.parametrize("phase", [1000.0, 1e10, -1e15])
+def test_a_phase_of_many_turns_is_the_one_within_a_turn(phase):
+    with mp.workdps(60):
+        within = float(mp.atan2(mp.sin(mp.mpf(phase)), mp.cos(mp.mpf(phase))))
+    solution = smooth_example(1.0, 2.0, ripple=0.5)
+    far, usual = solution.exact(0.05, phase), solution.exact(0.05, within)
+    assert_allclose([one.cost for one in far], [one.cost for one in usual], rtol=1e-12)
+    assert far[0].certificate.holds(1e-9)
+    assert_allclose(solution.correction(phase), solution.correction(within), rtol=1e-12)
+    assert_allclose(np.cos(solution.anomaly(0.5, 0.1, phase)), np.cos(solution.anomaly(0.5, 0.1, within)))
+
+
+@pytest.mark.parametrize("call", ["exact", "correction", "phase", "anomaly"])
+def test_a_phase_that_has_no_place_on_the_turn_is_refused(call):
+    solution = smooth_example(1.0, 2.0)
+    arguments = {"exact": (0.1, 1e17), "correction": (1e17,)}.get(call, (0.5, 0.1, 1e17))
+    with pytest.raises(ValueError, match=r"^phase must be a number.*, at most 9.0e\+15 rad") as caught:
+        getattr(solution, call)(*arguments)
+    assert caught.value.argument == "phase"
+
+
+@pytest.mark.parametrize("epsilon", [1e-9, 1e-300])
+def test_more_turns_than_can_be_followed_are_refused(epsilon):
+    with pytest.raises(ValueError, match=r"^epsilon must leave at most 100000 turns of the phase") as caught:
+        smooth_example(1.0, 2.0, ripple=0.5).exact(epsilon)
+    assert caught.value.argument == "epsilon"

@@ -5,8 +5,9 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.testing import assert_allclose
 from scipy.integrate import quad, solve_ivp
-from scipy.special import ellipe
+from scipy.special import ellipe, ellipkm1
 
 from pontryagin import Infeasible, NotConverged
 from pontryagin.averaging import (
@@ -437,3 +438,30 @@ def test_rates_that_have_a_corner(end):
     solution = solve_averaged(system, [0.0, 0.0])
     assert solution.cost == pytest.approx(far * np.pi / (2 * k), rel=1e-10)
     assert solution.certificate.holds(1e-10)
+
+
+@pytest.mark.parametrize("energy", [-0.35, -1e-4, pytest.param(-1e-8, marks=pytest.mark.slow)])
+def test_keplers_closed_form_holds_for_orbits_that_all_but_escape(energy):
+    """(3.8): the duration is sqrt(2/l) times the change of sqrt|E|, and E K^2 is constant."""
+    solution = kepler(-0.5, 0.95, energy, 0.1)
+    expected = np.sqrt(20) * (np.sqrt(0.5) - np.sqrt(-energy))
+    assert_allclose(solution.duration, expected, rtol=1e-13)
+    assert_allclose(solution.cost, 0.2 * expected, rtol=1e-13)
+    E, K = solution.slow(expected * np.linspace(0, 1, 9)[:-1]).T
+    assert_allclose(E * K**2, -0.5 * 0.95**2, rtol=1e-9)
+    assert solution.certificate.holds(1e-10)
+
+
+@pytest.mark.parametrize("gap", [1e-2, pytest.param(1e-5, marks=pytest.mark.slow)])
+def test_a_pendulum_is_sped_up_from_beside_its_upper_equilibrium(gap):
+    """In least time, |u| <= 1, the energy grows at the rate omega = pi sqrt((a + 1)/2) / K(2/(a + 1))."""
+
+    def slowness(log_gap):
+        above = np.exp(log_gap)
+        return above * ellipkm1(above / (2 + above)) / (np.pi * np.sqrt((2 + above) / 2))
+
+    expected, _ = quad(slowness, np.log(gap), np.log(2.0), epsabs=0, epsrel=1e-13)
+    for first, last in ((1 + gap, 3.0), (3.0, 1 + gap)):
+        solution = rotor(first, last, potential=-sp.cos(sp.Symbol("x")), peak=1.0)
+        assert_allclose(solution.duration, expected, rtol=1e-10)
+        assert solution.certificate.holds(1e-9)

@@ -1,5 +1,7 @@
 """The braking of a rigid body: averages, controls on the ellipsoid and on the cylinder."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -115,16 +117,18 @@ def test_the_cylinder_solution_is_exact_for_every_epsilon(epsilon):
     assert_allclose([np.hypot(w[0], w[1]), w[2]], [a1, c1], atol=1e-8)
 
 
-SLOW_RATES = sp.lambdify([*rigid_body.u, rigid_body.psi], list(rigid_body.slow_rates()))
+@cache
+def slow_rates():
+    return sp.lambdify([*rigid_body.u, rigid_body.psi], list(rigid_body.slow_rates()))
 
 
 @given(st.floats(0, 1), st.floats(0, 2 * np.pi), st.floats(0, 2 * np.pi), AXES, AXES)
 def test_no_control_of_the_cylinder_moves_a_or_c_faster(share, heading, phase, l, h):
     control = l * share * np.cos(heading), l * share * np.sin(heading), h * (2 * share - 1)
-    rate_a, rate_c = SLOW_RATES(*control, phase)
+    rate_a, rate_c = slow_rates()(*control, phase)
     assert abs(rate_a) <= l * (1 + 1e-12) and abs(rate_c) <= h * (1 + 1e-12)
     best = l * np.cos(phase), l * np.sin(phase), -h
-    assert_allclose(SLOW_RATES(*best, phase), [l, -h])
+    assert_allclose(slow_rates()(*best, phase), [l, -h])
 
 
 def test_a_nearly_symmetric_body_follows_the_averages_within_order_epsilon():

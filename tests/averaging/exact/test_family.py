@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from pontryagin.averaging import kepler, smooth_example
+from pontryagin.averaging import kepler, smooth_example, spin_down
 from pontryagin.averaging.exact import family as families
 from pontryagin.averaging.exact.shooting import shooting
 
@@ -76,3 +76,48 @@ def test_no_extremal_is_left_out_between_solved_turns(epsilon):
         every = RIPPLED.exact(epsilon)
     assert_allclose([one.ending_anomaly for one in found], [one.ending_anomaly for one in every], atol=1e-7)
     assert_allclose([one.cost for one in found], [one.cost for one in every], rtol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("v1", "ripple", "epsilon", "phase"),
+    [
+        (1.2, 0.7, 0.9, 0.0),
+        (1.25, 0.6, 1.5, 0.5),
+        (1.1, 0.7, 1.8, 0.0),
+        (1.3, 0.6, 0.35, -1.1),
+        (1.00086, 0.02, 1.96, -2.45),
+    ],
+)
+def test_an_extremal_that_ends_shortly_after_the_start_is_found(v1, ripple, epsilon, phase):
+    """Over so short a way the force is nearly c = ripple cos x, and the best control nearly constant.
+
+    For speeds that change at the rate w the cost is (1 + (w - c)^2)/w for each unit of speed, at least
+    2 (sqrt(1 + c^2) - c). Extremals are minima and maxima in turn, and the first one is a minimum.
+    """
+    found = smooth_example(1.0, v1, ripple=ripple).exact(epsilon, phase=phase)
+    best = found[0]
+    c = ripple * np.cos((phase + best.ending_anomaly) / 2)
+    assert best.cost == pytest.approx(2 * (v1 - 1) * (np.sqrt(1 + c**2) - c), rel=0.03)
+    assert all(one.certificate.holds(1e-9) for one in found)
+    kinds = [one.kind for one in sorted(found, key=lambda one: one.ending_anomaly)]
+    assert kinds == [("minimum", "maximum")[i % 2] for i in range(len(found))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("semiaxes", "ratio", "epsilon", "phase"),
+    [
+        ([1.0, 0.5, 0.4], 0.7, 0.2, -0.93),
+        ([0.869747933819063, 1.0635438455364925, 0.4696698728259383], 1.4, 0.3074521, 0.1266758644605961),
+        ([1.0393931956705647, 1.058671273995086, 0.6062622019365801], 0.8, 0.128058057, 2.0164537943518575),
+    ],
+)
+def test_extremals_that_end_within_the_first_turn_change_smoothly_with_epsilon(
+    semiaxes, ratio, epsilon, phase
+):
+    body = spin_down([0.3, 0.4, 1.2], semiaxes, ratio)
+    found = [body.exact(epsilon * share, phase=phase) for share in (0.985, 0.995, 1.005, 1.015)]
+    assert [one.kind for some in found for one in some] == ["minimum"] * 4
+    costs = np.array([some[0].cost for some in found])
+    assert_allclose(np.diff(costs, 3), 0, atol=1e-5)
+    assert np.abs(np.diff(costs)).min() > 1e-5

@@ -1,5 +1,7 @@
 """The averaged Hamiltonian compared with closed forms and mpmath; its derivatives with differences."""
 
+from functools import cache
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -129,18 +131,28 @@ MOVING = {
 }
 """Systems whose switching phases depend on the costates."""
 
-MODELS = {
-    **{name: (system.model, (), [0.8, 0.4, 0.9, -1.1]) for name, system in MOVING.items()},
-    **{name: (system.model, (), [1.7, 0.8]) for name, system in SYSTEMS.items()},
-    "kepler": (kepler(-0.5, 0.8, -0.3, 0.1).model, (-0.3, 0.1), [-0.4, 0.9, 0.7, -0.2]),
-    "body": (spin_down([3, 4, 2], [1, 0.7, 0.4], 0.5).model, (1, 0.7, 0.4, 0.5, -1), [0.7, 1.2, -0.5, 0.3]),
+POINTS = {
+    **dict.fromkeys(MOVING, ((), [0.8, 0.4, 0.9, -1.1])),
+    **dict.fromkeys(SYSTEMS, ((), [1.7, 0.8])),
+    "kepler": ((-0.3, 0.1), [-0.4, 0.9, 0.7, -0.2]),
+    "body": ((1, 0.7, 0.4, 0.5, -1), [0.7, 1.2, -0.5, 0.3]),
 }
+"""The numbers of each averaged model, and slow variables with costates."""
 
 
-@pytest.mark.parametrize("name", MODELS)
+@cache
+def model_of(name):
+    if name == "kepler":
+        return kepler(-0.5, 0.8, -0.3, 0.1).model
+    if name == "body":
+        return spin_down([3, 4, 2], [1, 0.7, 0.4], 0.5).model
+    return (MOVING | SYSTEMS)[name].model
+
+
+@pytest.mark.parametrize("name", POINTS)
 def test_gradients_and_hessians_belong_to_the_values(name):
     """They agree with fourth-order differences, also for a box, whose switches contribute to the Hessian."""
-    model, numbers, z = MODELS[name]
+    model, (numbers, z) = model_of(name), POINTS[name]
     numbers = tuple(np.array(float(number)) for number in numbers)
     step = 1e-3
     shifts = step * np.eye(len(z))[:, None] * np.array([-2, -1, 1, 2])[:, None]
@@ -156,7 +168,7 @@ def test_gradients_and_hessians_belong_to_the_values(name):
 @pytest.mark.parametrize("name", ["ball", "box", "body"])
 @given(st.floats(0.1, 5))
 def test_least_time_makes_h0_homogeneous_of_degree_one(name, factor):
-    model, numbers, z = MODELS[name]
+    model, (numbers, z) = model_of(name), POINTS[name]
     numbers = tuple(np.array(float(number)) for number in numbers)
     z = np.array(z)
     half = len(z) // 2
@@ -185,8 +197,8 @@ def test_a_constant_speed_needs_no_quadrature():
 
 
 def test_stacks_of_numbers_and_points_broadcast():
-    model = MODELS["kepler"][0]
-    z = np.array(MODELS["kepler"][2])
+    model = model_of("kepler")
+    z = np.array(POINTS["kepler"][1])
     price = np.array([0.1, 0.2, 0.3])
     h, omega = model.averaged(z, (np.array(-0.3), price))
     assert h.value.shape == omega.value.shape == (3,) and h.hessian.shape == (3, 4, 4)

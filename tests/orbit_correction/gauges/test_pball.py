@@ -84,3 +84,18 @@ def test_impulses_at_one_place_span_no_space():
 def test_what_cannot_be_solved_is_named(arguments, words):
     with pytest.raises(ValueError, match=words):
         power_gauge(*arguments)
+
+
+@pytest.mark.parametrize("steps", [2, 3, 4, 5])
+def test_two_steps_take_three_impulses_and_an_odd_one_two(steps):
+    count = power_gauge(Z0, steps, 2.0).impulse_count
+    assert count == 3 * (steps // 2) + 2 * (steps % 2) and isinstance(count, int)
+
+
+def test_every_power_above_one_is_taken_and_a_smaller_one_means_a_smaller_set():
+    """The p-balls grow with p, so that the gauge falls."""
+    gauges = [power_gauge(Z0, 4, p).alpha for p in (1.25, 1.5, 2.0)]
+    assert np.all(np.diff(gauges) < 0)
+    for wrong in (1.0, 0.5, np.nan):
+        with pytest.raises(ValueError, match="p must be a number greater than 1"):
+            power_gauge(Z0, 4, wrong)

@@ -180,6 +180,14 @@ def test_impulses_hold_every_instant_and_the_count_those_that_fire():
     assert int(plan.impulse_count) == np.count_nonzero(plan.impulses.any(axis=1))
 
 
+def test_two_steps_of_the_ball_have_three_instants_and_an_odd_one_two():
+    plans = [correct(factor * np.array(printed.Z0)) for factor in (0.5, 1.0, 1.5, 2.0, 3.0)]
+    assert {int(plan.steps) % 2 for plan in plans} == {0, 1}
+    for plan in plans:
+        steps = int(plan.steps)
+        assert plan.instants == 3 * (steps // 2) + 2 * (steps % 2) == len(plan.impulses)
+
+
 @pytest.mark.parametrize("thrust", ["ball", "disc", "box"])
 def test_states_and_peaks_of_any_size_have_the_same_plan_or_are_refused(thrust):
     state, peak = np.array([0.001, 0.002, -0.0015]), 0.0035
@@ -193,3 +201,8 @@ def test_states_and_peaks_of_any_size_have_the_same_plan_or_are_refused(thrust):
         with pytest.raises(ValueError, match=r"^z0 must give with interval and peak a plan within") as caught:
             correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
         assert caught.value.argument == "z0"
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc"])
+def test_an_empty_stack_has_no_impulses(thrust):
+    assert correct(np.empty((0, 3)), thrust=thrust).impulses.shape[::2] == (0, 2)

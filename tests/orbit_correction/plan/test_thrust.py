@@ -1,5 +1,6 @@
 """The gauges of ball, disc and box (Lemma 7, Lemma 9): their two bounds, and linear programmes."""
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
@@ -94,3 +95,17 @@ def test_the_selection_stops_where_the_sorted_slopes_turn(pieces, slope):
     assert before + 2 * rates[crossed[place]] >= 0
     assert (times[crossed[:place]] <= times[crossed[place]]).all()
     assert (times[crossed[place:]] >= times[crossed[place]]).all()
+
+
+def test_an_interval_is_whole_revolutions_within_a_billionth_of_a_radian():
+    """Ten million radians: neighbouring floating numbers are 1.9e-9 apart, and 2 pi is taken in 40 digits."""
+    seen = set()
+    with mp.workdps(40):
+        for count in range(1_600_000, 1_600_040):
+            nearest = float(2 * mp.pi * count)
+            for interval in (nearest, np.nextafter(nearest, 0), np.nextafter(nearest, np.inf)):
+                away = abs(mp.mpf(float(interval)) - 2 * mp.pi * count)
+                if away < 0.9e-9 or 1.1e-9 < away < 1.9e-9:
+                    seen.add(away < 1e-9)
+                    assert Thrust("ball", float(interval), 0.0035).whole_revolutions == (away < 1e-9)
+    assert seen == {True, False}

@@ -1,5 +1,7 @@
 """All forms of the equations have the same trajectories, which are those of Newton's law."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -27,16 +29,15 @@ from rendezvous_derived import (
     trajectory,
 )
 
-MEASURES = compiler.function(
-    "measures",
-    [*reduction.REDUCED, *model.attitude, model.gravity],
-    {
-        "place": model.cartesian()[0],
-        "velocity": model.cartesian()[1],
-        "primer": quaternion.rotated(principle.switching(), model.attitude),
-        "primer_rate": quaternion.rotated(primer.carried(), model.attitude),
-    },
-)
+
+@cache
+def measures():
+    """Place, velocity, primer vector and its rate in inertial axes, of the reduced variables."""
+    place, velocity = model.cartesian()
+    vectors = {"primer": principle.switching(), "primer_rate": primer.carried()}
+    turned = {name: quaternion.rotated(vector, model.attitude) for name, vector in vectors.items()}
+    variables = [*reduction.REDUCED, *model.attitude, model.gravity]
+    return compiler.function("measures", variables, {"place": place, "velocity": velocity, **turned})
 
 
 def lifted_start():
@@ -53,7 +54,7 @@ def test_the_16_equations_are_newton_s_law_with_lawden_s_primer_vector(mode):
         for q, m in zip(column(path, model.attitude), column(path, principle.mu), strict=True)
     ]
     rows = [path[x] for x in reduction.REDUCED[:7]] + list(np.array(nu).T[1:])
-    R, V, N, N_rate = (part[..., 0] for part in MEASURES(*rows, *column(path, model.attitude).T, 1.0))
+    R, V, N, N_rate = (part[..., 0] for part in measures()(*rows, *column(path, model.attitude).T, 1.0))
 
     def cartesian(_, y):
         place, primer_ = y[:3], y[6:9]

@@ -1,6 +1,7 @@
 """Planes of any inclination are met, and extremals that climb to turn their plane are found."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -18,6 +19,11 @@ def inclined(degrees, **changes):
     return Rendezvous(CRAFT, target, **weights | changes)
 
 
+@cache
+def solved(degrees):
+    return solve(inclined(degrees))
+
+
 @pytest.mark.parametrize(
     ("degrees", "costs"),
     [
@@ -32,7 +38,7 @@ def inclined(degrees, **changes):
     ],
 )
 def test_planes_of_any_inclination_are_met(degrees, costs):
-    found = solve(inclined(degrees))
+    found = solved(degrees)
     values = [each.cost for each in (found, *found.others)]
     assert found.certificate.holds(1e-9)
     assert found.cost == pytest.approx(costs[0], abs=1e-6)
@@ -41,8 +47,43 @@ def test_planes_of_any_inclination_are_met(degrees, costs):
     assert len(found.searched.revolutions) >= len(values)
 
 
+FREE = {"duration": None}
+LEAST_TIME = {"time_weight": 1, "energy_weight": 0, "peak": 0.1} | FREE
+MIXED = {"time_weight": 0.0036} | FREE
+BOUNDED = {"time_weight": 0.02, "peak": 0.15} | FREE
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kind", "degrees", "cost"),
+    [
+        (LEAST_TIME, 80, 15.386650),
+        (LEAST_TIME, 120, 15.918294),
+        (LEAST_TIME, 150, 16.770861),
+        (LEAST_TIME, 170, 16.833901),
+        (LEAST_TIME, 179, 16.839180),
+        (LEAST_TIME, 179.9, 16.839230),
+        (MIXED, 90, 0.156759),
+        (MIXED, 150, 0.179686),
+        (MIXED, 179, 0.174738),
+        (MIXED, 179.9, 0.174729),
+        (BOUNDED, 170, 0.46747),
+        (BOUNDED, 179.9, 0.46780),
+    ],
+)
+def test_free_durations_are_found_up_to_opposite_planes(kind, degrees, cost):
+    found = solve(inclined(degrees, **kind))
+    assert found.cost == pytest.approx(cost, rel=2e-5) and found.certificate.holds(1e-9)
+
+
+def test_a_path_that_moves_radially_is_told():
+    """Between planes of opposite senses the cheaper paths stay in the plane, and turn back far out."""
+    reasons = solved(180).searched.given_up
+    assert any("moves radially" in reason and "solve_in_elements" in reason for reason in reasons)
+
+
 def test_the_extremal_that_climbs_turns_its_plane_at_the_apex():
-    found = solve(inclined(120))
+    found = solved(120)
     r, v1, c = found.state(np.linspace(0.0, 10.0, 400))[:, :3].T
     apex = r.argmax()
     assert r[apex] > 1.9 and c.min() < 0.45 and abs(v1[apex]) < 0.05
@@ -52,7 +93,7 @@ def test_the_extremal_that_climbs_turns_its_plane_at_the_apex():
 
 @pytest.mark.slow
 def test_a_bound_is_met_by_an_extremal_that_climbs():
-    free = solve(inclined(120))
+    free = solved(120)
     largest = np.linalg.norm(free.control(np.linspace(0.0, 10.0, 400)), axis=1).max()
     found = solve(inclined(120, peak=0.9 * largest))
     assert found.certificate.holds(1e-8)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -138,3 +139,23 @@ def test_a_start_must_be_an_extremal():
             run(LEAP, "x")
     with pytest.raises(TypeError, match="true must be an Extremal"):
         false_meeting(LEAP, 0.1, "x")
+
+
+def test_an_anomaly_of_many_turns_is_the_one_within_a_turn():
+    with mp.workdps(60):
+        within = float(mp.atan2(mp.sin(mp.mpf(1e15)), mp.cos(mp.mpf(1e15))))
+    craft = Chaser(1.0, 0.0, 1.0, [1, 0, 0, 0])
+    targets = [Orbit(1.2, 0.05, [1, 0, 0, 0], anomaly) for anomaly in (within, 1e15)]
+    usual, far = (solve(Rendezvous(craft, target, peak=0.1)) for target in targets)
+    np.testing.assert_allclose([far.cost, far.duration], [usual.cost, usual.duration], rtol=1e-9)
+    assert far.certificate.holds(1e-9)
+    assert abs(far.arrival_anomaly - 1e15 - (usual.arrival_anomaly - within)) <= 0.2
+    assert abs(far.state([0.0])[0, 3] - 1e15) <= 0.2
+
+
+@pytest.mark.parametrize("given", ["anomaly", "node", "inclination", "pericentre"])
+def test_an_angle_that_has_no_place_on_the_turn_is_refused(given):
+    angles = {"node": 0.1, "inclination": 0.2, "pericentre": 0.3, "anomaly": 0.4} | {given: 1e17}
+    with pytest.raises(ValueError, match=rf"^{given} must be a number, at most 9.0e\+15 rad") as caught:
+        Orbit.from_angles(1.2, 0.05, **angles)
+    assert caught.value.argument == given

@@ -180,3 +180,11 @@ def test_outside_the_cone_and_on_its_boundary_there_is_none(c, reason):
 def test_the_member_of_a_stack_is_named():
     with pytest.raises(Infeasible, match=r"got c = \[1.0, 0.0, 0.0\] \(manoeuvre 1 of the stack\)"):
         maximum_entropy(Maneuver([0, 0, 0], [[0.2, 0.5, 1], [1, 0, 0]], tf=1.0))
+
+
+@given(one_signed(narrow=0.2))
+def test_the_peak_is_the_control_of_largest_modulus(m):
+    """The exponent is taken relative to it; the control is read on a grid, near enough to its peak."""
+    s = maximum_entropy(m)
+    control = s.control(m.t0 + m.duration * np.linspace(0.0, 1.0, 2001))
+    assert_allclose(control[np.argmax(np.abs(control))], s.peak, rtol=1e-3)

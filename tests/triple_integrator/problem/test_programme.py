@@ -169,3 +169,12 @@ def test_a_piece_that_reaches_an_end_is_no_switch():
     offsets = switch_offsets(duration, shares)
     assert_allclose(offsets, [[1, 3], [2, np.nan], [2, np.nan], [np.nan] * 2, [np.nan] * 2])
     assert first_sign(np.ones(5), shares).tolist() == [1, -1, 1, 1, 1]
+
+
+def test_an_error_in_a_stack_tells_which_members_it_is_about():
+    far = [1.0, 1e308, 2.0, 1e308]
+    ends = np.array([[x, 0.0, 0.0] for x in far]).reshape(2, 2, 3)
+    maneuver = Maneuver(np.zeros(3), ends, np.where(ends[..., 0] > 9, 1e-200, 1.0))
+    with pytest.raises(ValueError, match=r"at index \[0, 1\]") as error:
+        minimum_energy(maneuver)
+    assert error.value.argument == "xf" and error.value.members == (1, 3)

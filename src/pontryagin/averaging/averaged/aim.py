@@ -6,7 +6,6 @@ a turn does not depend on a component of p, the rates have a corner, and all cos
 """
 
 import numpy as np
-from scipy.optimize import linprog
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.averaged.collocation import Problem
@@ -35,6 +34,8 @@ def aimed(problem: Problem, towards: Array, normals: Array, first: Array, idle: 
     idle : float
         H0 at a zero costate, negative.
     """
+    from scipy.optimize import linprog  # few problems need it, and it takes longer to import than to solve
+
     n = len(towards)
     multipliers: Array = np.asarray(np.linalg.lstsq(normals.T, first, rcond=None)[0])
     most = FARTHEST * float(np.abs(multipliers).max())

@@ -118,15 +118,18 @@ class _Equations:
         return _matrix(self.problem[rows], self.path[rows], self.h[rows])
 
 
-def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
+def newton(problem: Problem, guess: Trajectories, enough: float = -np.inf) -> tuple[Trajectories, Array]:
     """Newton's method with damping, on every problem of the stack.
+
+    A residual of at most `enough` ends it too. Where features are narrow the equations are so badly
+    conditioned that rounding alone makes steps larger than `CLOSE`.
 
     Returns
     -------
     Trajectories
         The last iterates.
     (s) array
-        Relative sizes of the last steps: at most `CLOSE` where it converged, inf where it failed.
+        At most `CLOSE` where it converged: the relative sizes of the last steps. Inf where it failed.
     """
 
     def equations(members: NDArray[np.intp], unknowns: Array) -> _Equations:
@@ -138,7 +141,7 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
         found = newton_stack(
             equations,
             guess.unknowns,
-            tolerance=-np.inf,
+            tolerance=enough,
             step_tolerance=CLOSE,
             iterations=30,
             halvings=12,
@@ -147,7 +150,9 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
             step_size=lambda members, unknowns, step: _step_size(guess.with_unknowns(unknowns), step),
             admissible=lambda members, unknowns: guess.with_unknowns(unknowns).duration > 0,
         )
-    return guess.with_unknowns(found.unknowns), np.where(found.converged, found.correction, np.inf)
+    return guess.with_unknowns(found.unknowns), np.where(
+        found.converged, np.minimum(found.correction, CLOSE), np.inf
+    )
 
 
 def _step_size(path: Trajectories, step: Array) -> Array:
@@ -183,13 +188,15 @@ def _norm(path: Trajectories, residual: Array) -> Array:
 def _residual(problem: Problem, path: Trajectories, h: Jet) -> Array:
     """Residuals (s, unknowns): start, collocation, target, transversality (2.12), H0 = 0 at the end."""
     z, n = path.z, problem.model.slow
-    displacement = path.mesh.integrals @ _hamiltonian_flow(h.gradient, -1)
+    displacement = path.mesh.panel_integrals @ _hamiltonian_flow(h.gradient, -1)
     target, terminal = problem.model.ends(z[:, -1, :n], problem.numbers)
     normal = terminal.gradient + np.einsum("sr,sri->si", path.multipliers, target.gradient)
     return np.concatenate(
         [
             z[:, 0, :n] - problem.start,
-            (z - z[:, :1] - path.duration[:, None, None] * displacement)[:, 1:].reshape(len(z), -1),
+            (z - z[:, path.mesh.starts] - path.duration[:, None, None] * displacement)[:, 1:].reshape(
+                len(z), -1
+            ),
             target.value - problem.level,
             z[:, -1, n:] + normal,
             h.value[:, -1:],
@@ -202,7 +209,7 @@ def _matrix(problem: Problem, path: Trajectories, h: Jet) -> Array:
     """Derivatives of the residual (s, unknowns, unknowns) in z by points, the duration and alpha."""
     stack, points, width = path.z.shape
     n, r = width // 2, path.multipliers.shape[-1]
-    weights = path.mesh.integrals
+    weights, starts = path.mesh.panel_integrals, path.mesh.starts
     size = points * width
     result = np.zeros((stack, size + 1 + r, size + 1 + r))
     result[:, np.arange(n), np.arange(n)] = 1
@@ -211,7 +218,7 @@ def _matrix(problem: Problem, path: Trajectories, h: Jet) -> Array:
     index = np.arange(points)
     for i in range(width):
         block[:, index, i, index, i] += 1
-        block[:, :, i, 0, i] -= 1
+        block[:, index, i, starts, i] -= 1
     row = size - n
     result[:, n:row, :size] = block[:, 1:].reshape(stack, size - width, size)
     result[:, n:row, size] = -(weights @ _hamiltonian_flow(h.gradient, -1))[:, 1:].reshape(stack, -1)

@@ -47,11 +47,14 @@ class Guess:
     stuck: NDArray[np.bool_]
 
 
-def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Guess:
+def straight(
+    problem: Problem, mesh: Mesh, direction: Array | None = None, *, own_times: bool = False
+) -> Guess:
     """A trajectory along the straight line to the target's nearest point, at the mesh's points of slow time.
 
     The costate has the given direction (s, n), or that of the target's gradient, and the length that makes H0
-    vanish.
+    vanish. With `own_times`, for one problem, the mesh is one of distance, and the trajectory's panels are
+    those of time in which its panels are passed.
     """
     model = problem.model
     start = problem.start
@@ -68,9 +71,11 @@ def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Gu
     reach = np.einsum("si,si->s", end - start, direction)[:, None]
     pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
     clock = pace @ mesh.integrals.T
-    z = _at_even_times(mesh, clock / clock[:, -1:], z)
-    alpha = _multipliers(problem, z[:, -1])
-    return Guess(Trajectories(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+    shares = clock / clock[:, -1:]
+    times = Mesh((*shares[0, : -1 : mesh.degree], 1.0), mesh.degree) if own_times else mesh
+    z = _at_times(mesh, shares, z, times.points)
+    alpha = multipliers_at(problem, z[:, -1])
+    return Guess(Trajectories(times, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
 def towards_target(problem: Problem, mesh: Mesh) -> Trajectories | None:
@@ -86,6 +91,13 @@ def towards_target(problem: Problem, mesh: Mesh) -> Trajectories | None:
     return straight(problem, mesh, found[None] / np.linalg.norm(found)).path if found is not None else None
 
 
+def initial_costate(problem: Problem) -> Array | None:
+    """The costate (s, n) of `straight` at the start; None where no control moves along its direction."""
+    _, direction = _nearest(problem)
+    length, stuck = _level(problem, problem.start[:, None], direction)
+    return None if stuck.any() else length * direction
+
+
 def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     """The averaged extremal with the initial costate of `straight`, up to the target's level.
 
@@ -93,9 +105,8 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     target. The result is None if an extremal does not approach the target.
     """
     model, n = problem.model, problem.model.slow
-    _, direction = _nearest(problem)
-    length, stuck = _level(problem, problem.start[:, None], direction)
-    if stuck.any():
+    costate = initial_costate(problem)
+    if costate is None:
         return None
 
     def flow(z: Array) -> Array:
@@ -106,7 +117,7 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
         target, _ = model.ends(z[:, :n], problem.numbers)
         return problem.level - target.value, np.einsum("sri,si->sr", target.gradient, flow(z)[:, :n])
 
-    z = np.concatenate([problem.start, length * direction], axis=-1)
+    z = np.concatenate([problem.start, costate], axis=-1)
     far, _ = distance(z)
     states, times = [z], [np.zeros(len(z))]
     for _ in range(STEPS):
@@ -131,15 +142,15 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
         np.stack([np.interp(mesh.points * c[-1], c, column) for column in own.T], axis=-1)
         for c, own in zip(clock, values, strict=True)
     ]
-    return Trajectories(mesh, np.stack(at), duration, _multipliers(problem, values[:, -1]))
+    return Trajectories(mesh, np.stack(at), duration, multipliers_at(problem, values[:, -1]))
 
 
-def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
-    """Values (s, k, 2n) at the mesh's points of time, from values at its points of distance."""
+def _at_times(mesh: Mesh, clock: Array, z: Array, times: Array) -> Array:
+    """Values (s, k, 2n) at shares of the duration (k), from values at the mesh's points of distance."""
     edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
-    share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
+    share = np.stack([np.interp(times, np.maximum.accumulate(c), mesh.points) for c in clock])
     for _ in range(3):
-        late = evaluate(edges, series, share)[..., 0] - mesh.points
+        late = evaluate(edges, series, share)[..., 0] - times
         inside = np.clip(share, 1e-9, 1 - 1e-9)
         pace = derivative(edges, series, inside)[..., 0]
         share = np.clip(share - np.divide(late, pace, out=np.zeros_like(late), where=pace > 0), 0, 1)
@@ -196,7 +207,7 @@ def _level(
     return np.where(stuck, 1.0, length), stuck
 
 
-def _multipliers(problem: Problem, end: Array) -> Array:
+def multipliers_at(problem: Problem, end: Array) -> Array:
     """alpha from eta_1 = -(g' + alpha M'), by least squares."""
     n = problem.model.slow
     target, terminal = problem.model.ends(end[:, :n], problem.numbers)

@@ -127,16 +127,18 @@ def element_rates() -> sp.Dict:
     """E', K', e', gamma' under thrust, (3.6) and below it; p' is 2 K K'. Keys: E, K, e, gamma.
 
     Of the rate of Laplace's vector the component along the vector is e', the component across it e gamma'.
+    Both are found in the axes along and across the radius, which turn at the rate phi'.
     """
-    vector = laplace().applyfunc(on_the_orbit)
-    rate = laplace().applyfunc(along_the_motion).applyfunc(on_the_orbit)
+    motion, vector = equations_of_motion(), laplace_in_the_orbit()
+    rate = vector.jacobian(STATE) * motion + motion[1] * sp.Matrix([-vector[1], vector[0]])
+    integrals = sp.Matrix([energy_of_state(), momentum_of_state()]).jacobian(STATE) * motion
     rates = {
-        energy: on_the_orbit(along_the_motion(energy_of_state())),
-        momentum: on_the_orbit(along_the_motion(momentum_of_state())),
-        e: sp.simplify(vector.dot(rate) / e),
-        gamma: sp.simplify((vector[0] * rate[1] - vector[1] * rate[0]) / e**2),
+        energy: integrals[0],
+        momentum: integrals[1],
+        e: vector.dot(rate) / e,
+        gamma: (vector[0] * rate[1] - vector[1] * rate[0]) / e**2,
     }
-    return sp.Dict({element: affine(rate) for element, rate in rates.items()})
+    return sp.Dict({element: affine(sp.cancel(rate.subs(conic()))) for element, rate in rates.items()})
 
 
 @functools.cache

@@ -81,8 +81,8 @@ def phase_rate() -> sp.Expr:
 @cache
 def asymmetry() -> sp.ImmutableMatrix:
     """Terms that asymmetry adds to (a', c', psi'), per epsilon as epsilon -> 0, without control."""
-    free = in_polar(euler_rates().subs(NEARLY_SYMMETRIC).subs(dict.fromkeys(u, 0)))
-    return sp.ImmutableMatrix(free.diff(epsilon).subs(epsilon, 0).applyfunc(sp.simplify))
+    free = euler_rates().subs(NEARLY_SYMMETRIC).subs(dict.fromkeys(u, 0))
+    return sp.ImmutableMatrix(in_polar(free.diff(epsilon).subs(epsilon, 0)).applyfunc(sp.simplify))
 
 
 def switching() -> sp.Matrix:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.exact.beginning import broken, from_the_start
 from pontryagin.averaging.exact.members import FAR, MemberTable, chord, close_chord, march, members
 from pontryagin.averaging.exact.shooting import Shooting
 from pontryagin.averaging.exact.turns import Turn, at, excess, filled, means_at, resolved
@@ -33,8 +34,6 @@ BETWEEN = 0.06
 
 For a sine wave with eight members in a turn it is (1 - cos(pi/8))/2 = 0.04.
 """
-BROKEN = 0.25
-"""Neighbours whose dJ differs from p_x dtheta by more than this share of y1's range are not of one family."""
 QUIET_TURNS = 2
 """The search ends after this many turns without a root."""
 TURNS = 100_000
@@ -103,7 +102,10 @@ def family(problem: Shooting, theta: float, unknowns: Array) -> Family:
     above, upper = _outwards(problem, first, theta, size, 1)
     solved_turns = resolved(problem, [*reversed(below), first, *above], size)
     every = MemberTable.joined([turn.members for turn in filled(solved_turns, size)])
-    return _unbroken(_family(every, theta, (lower, upper)), float(problem.parameters[0]))
+    small = float(problem.parameters[0])
+    if lower == "start":
+        every = from_the_start(problem, every, small)
+    return _unbroken(_family(every, theta, (lower, upper)), small)
 
 
 def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn, int]:
@@ -259,19 +261,9 @@ def _vanishes(seen: Array, y: Array) -> bool:
     return bool(seen.min() <= reach and seen.max() >= -reach)
 
 
-def local_range(theta: Array, y: Array) -> Array:
-    """Range of y within a turn on either side of each member."""
-    low, high = np.searchsorted(theta, theta - 2 * np.pi), np.searchsorted(theta, theta + 2 * np.pi)
-    return np.array([np.ptp(y[i:j]) for i, j in zip(low, high, strict=True)])
-
-
 def _unbroken(traced: Family, small: float) -> Family:
     """The part about the centre along which dJ = p_x dtheta holds."""
-    step = np.diff(traced.theta)
-    expected = small * step * (traced.y[:-1] + traced.y[1:]) / 2
-    size = local_range(traced.theta, traced.y)
-    size = np.maximum(size[:-1], size[1:]) + 1e-3 * np.abs(traced.y[:-1])
-    broken = np.abs(np.diff(traced.cost) - expected) > BROKEN * small * step * size
-    below = traced.theta[1:][broken & (traced.theta[:-1] < traced.centre)]
-    above = traced.theta[:-1][broken & (traced.theta[:-1] >= traced.centre)]
+    apart = broken(traced, small)
+    below = traced.theta[1:][apart & (traced.theta[:-1] < traced.centre)]
+    above = traced.theta[:-1][apart & (traced.theta[:-1] >= traced.centre)]
     return traced.cut(below.max(initial=-np.inf), above.min(initial=np.inf))

@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.averaging.exact.family import Family, local_range
+from pontryagin.averaging.exact.beginning import local_range
+from pontryagin.averaging.exact.family import Family
 from pontryagin.averaging.exact.members import MemberTable, march, members
 from pontryagin.averaging.exact.shooting import Shooting
 from pontryagin.averaging.exact.turns import lagrange

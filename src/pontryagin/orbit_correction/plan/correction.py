@@ -11,7 +11,7 @@ from pontryagin.certificate import Certificate
 from pontryagin.errors import ArgumentValueError, Infeasible, NotConverged
 from pontryagin.orbit_correction.gauges.proof import PROVED, require_closed, unit
 from pontryagin.orbit_correction.plan.thrust import Thrust, thrust_of
-from pontryagin.validation import require_digits, vectors
+from pontryagin.validation import members_of, require_digits, vectors
 from pontryagin.value import value_class
 
 ROUNDING = 1e-12
@@ -202,9 +202,10 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
         count = guess[open_rows]
         lower, upper = thrust.bounds(rows[open_rows], count)
         reached = ~(lower > 1 + ROUNDING)
-        if (reached & ~(upper <= 1 + PROVED)).any():
+        if (unproved := reached & ~(upper <= 1 + PROVED)).any():
             reason = "the gauge could not be proved: rounding leaves a gap between its bounds"
-            raise NotConverged(reason, float((upper - lower)[reached].max()))
+            members = tuple(open_rows[unproved].tolist())
+            raise NotConverged(reason, float((upper - lower)[reached].max()), members)
         enough[open_rows] = np.where(reached, count, enough[open_rows])
         reaching[open_rows] = np.where(reached, lower, reaching[open_rows])
         too_few[open_rows] = np.where(reached, too_few[open_rows], count)
@@ -214,6 +215,7 @@ def fewest_steps(thrust: Thrust, rows: Array) -> tuple[NDArray[np.int64], Array]
             raise Infeasible(
                 f"z0 = {worst.tolist()} is not corrected in {MOST_STEPS} steps of interval {thrust.interval}",
                 "z0",
+                members_of(too_few >= MOST_STEPS),
             )
         following[open_rows] = count * np.minimum(lower, 100.0)
         between = _between(too_few, proof, enough, reaching, middle=tries > 9 and tries % 3 == 0)

@@ -15,6 +15,7 @@ from pontryagin.rendezvous.elements.flight import ElementFlight, basis, start_of
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.elements.shooting import SHOOTING, meet
 from pontryagin.rendezvous.elements.solution import ElementsExtremal
+from pontryagin.rendezvous.elements.space import in_space
 from pontryagin.rendezvous.elements.start import unbounded
 from pontryagin.rendezvous.estimate import require_solvable
 from pontryagin.rendezvous.families import bounded, loose_ratios
@@ -33,6 +34,8 @@ def solve_in_elements(
 
     The elements of the goal are moved from the craft's to the target's; then a free duration is changed until
     the terminal law holds, and the bound is lowered. Unlike `solve`, it follows one family of extremals only.
+    If that ends before, the first extremal that a path in space leads to is taken; such a path may lose its
+    angular momentum on the way, as between planes of opposite senses, where `solve` has no variables.
 
     Parameters
     ----------
@@ -112,4 +115,10 @@ def _extremal(setting: ElementsSetting, revolutions: int) -> Root[ElementFlight]
             return bounded(SHOOTING, setting, loose, unbounded(loose, revolutions))
         except NotConverged as failure:
             reason = reason or failure
+    if revolutions == 0:
+        for unknowns in in_space(setting.scaled):
+            try:
+                return meet(setting, unknowns)
+            except NotConverged:
+                continue
     raise reason or NotConverged("no extremal was found", float("inf"))

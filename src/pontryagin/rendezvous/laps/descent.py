@@ -26,8 +26,8 @@ SHORTER, SHORTEST, ENOUGH = 0.4, 0.03, 0.1
 """Factor by which a step is shortened, its least length, and the least share of the predicted decrease."""
 STEPS = 60
 """Largest number of steps of a descent."""
-MOST = 400
-"""Curves that need more intervals than this are not followed."""
+MOST = 10.0
+"""Curves along which s grows by more laps than this are not followed."""
 FINE = 8
 """Points of an interval at which the pace is measured where nodes are placed anew."""
 
@@ -83,17 +83,17 @@ def spaced(curve: Curve, per_lap: float, fewest: int) -> Curve:
     Raises
     ------
     NotConverged
-        If these are more than `MOST`, as for a curve through the centre.
+        If s grows by more laps than `MOST`, as for a curve through the centre.
     """
     inner = np.linspace(curve.times[:-1], curve.times[1:], FINE, endpoint=False)
     fine = np.append(inner.T.ravel(), curve.times[-1])
     with np.errstate(divide="ignore"):
         pace = 1 / kernels.cartesian_pace(*curve.at(fine)[:, :3].T)[0]
     passed = np.append(0.0, np.cumsum(np.diff(fine) * (pace[1:] + pace[:-1]) / 2))
-    wanted = per_lap * passed[-1] / (2 * math.pi)
-    if not wanted <= MOST:
-        raise NotConverged("a path in space passes too near the centre", wanted)
-    count = max(fewest, math.ceil(wanted))
+    laps = passed[-1] / (2 * math.pi)
+    if not laps <= MOST:
+        raise NotConverged("a path in space makes too many laps or passes too near the centre", laps)
+    count = max(fewest, math.ceil(per_lap * laps))
     times = np.interp(np.linspace(0.0, passed[-1], count + 1), passed, fine)
     times[[0, -1]] = curve.times[[0, -1]]
     nodes = curve.at(times)

@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import finite, vectors
+from pontryagin.validation import angles, finite, vectors
 
 UNIT_WITHIN = 1e-6
 """Quaternions whose length differs from 1 by at most this, as in single precision, are normalised."""
@@ -20,6 +20,12 @@ def number(name: str, value: ArrayLike, least: float | None = None, excluded: bo
         relation = "greater than" if excluded else "at least"
         raise ArgumentValueError(f"{name} must be {relation} {least:g}, got {array}", name)
     return float(array)
+
+
+def angle(name: str, value: ArrayLike) -> float:
+    """`value` as one angle in radians that double precision places on the turn."""
+    number(name, value)
+    return float(angles(name, value, "a number"))
 
 
 def unit_quaternion(name: str, value: ArrayLike) -> Array:

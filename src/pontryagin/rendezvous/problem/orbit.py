@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
 from pontryagin.numerics.rotation import product
-from pontryagin.rendezvous.problem.checks import number, unit_quaternion
+from pontryagin.rendezvous.problem.checks import angle, number, unit_quaternion
 from pontryagin.value import value_class
 
 
@@ -58,7 +58,7 @@ class Orbit:
             "parameter": number("parameter", self.parameter, 0.0, excluded=True),
             "eccentricity": number("eccentricity", self.eccentricity, 0.0),
             "attitude": unit_quaternion("attitude", self.attitude),
-            "anomaly": number("anomaly", self.anomaly),
+            "anomaly": angle("anomaly", self.anomaly),
         }
         if self.eccentricity >= 1:
             raise ArgumentValueError(
@@ -98,10 +98,10 @@ class Orbit:
         >>> Orbit.from_angles(1.5, 0.1, 0.0, 0.0, 0.0, 0.6).attitude
         array([1., 0., 0., 0.])
         """
-        angles = {"node": node, "inclination": inclination, "pericentre": pericentre}
+        given = {"node": node, "inclination": inclination, "pericentre": pericentre}
         quaternion = np.array([1.0, 0, 0, 0])
-        for axis, (name, angle) in zip((3, 1, 3), angles.items(), strict=True):
-            half = number(name, angle) / 2
+        for axis, (name, value) in zip((3, 1, 3), given.items(), strict=True):
+            half = angle(name, value) / 2
             turn = np.zeros(4)
             turn[[0, axis]] = math.cos(half), math.sin(half)
             quaternion = product(quaternion, turn)

@@ -7,7 +7,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.numerics.complex_step import derivative
-from pontryagin.numerics.rotation import conjugate, product
+from pontryagin.numerics.rotation import conjugate, product, within_a_turn
 from pontryagin.rendezvous import kernels
 from pontryagin.rendezvous.problem.chaser import Chaser
 from pontryagin.rendezvous.problem.orbit import Orbit
@@ -30,7 +30,7 @@ class Scaled:
     start : (3,) array
         r, v1, c at t0.
     anomaly, eccentricity : float
-        phi* at t0, in radians; e*.
+        phi* at t0, in radians, reduced to within a turn; e*.
     orientation : (4,) array
         lambda0~ o Lambda*, with lambda0 the attitude of the craft at t0.
     ratio : float
@@ -76,7 +76,7 @@ class Scaled:
             acceleration=acceleration,
             value=energy_cost or time_cost,
             start=np.array([chaser.r / length, chaser.v1 / speed, chaser.c / (length * speed)]),
-            anomaly=target.anomaly,
+            anomaly=float(within_a_turn(target.anomaly)),
             eccentricity=target.eccentricity,
             orientation=product(conjugate(chaser.attitude), target.attitude),
             ratio=time_cost / energy_cost if energy_cost else math.inf,

@@ -54,8 +54,10 @@ ALIKE, SIMILAR, SAME = 1e-2, 5e-2, 1e-7
 relative; in an unknown, as flown."""
 
 
-def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
+def extremals_on_laps(setting: Setting, log: SearchLog, best: float = math.inf) -> Iterator[Root[Flight]]:
     """The extremals of a problem that are found lap by lap, in no particular order.
+
+    The cost of the best extremal known is given, if there is one.
 
     Raises
     ------
@@ -67,7 +69,6 @@ def extremals_on_laps(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]
     if max(gap(setting.scaled)) < TOGETHER:  # So the duration is fixed, and no thrust is needed.
         yield meet(setting, COASTING)
         return
-    best = math.inf
     for sense in (1, -1):
         laps, last = 0 if sense > 0 else -1, False
         while abs(laps) <= FARTHEST and not last:
@@ -198,10 +199,11 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
     """
     ways = [partial(families.least_energy, lap, duration, families.FINEST)]
     by_way_of = partial(families.least_energy_by_way_of, lap, duration)
-    ways += [partial(by_way_of, share * duration) for share in DETOURS]
-    if lap.inclination > STEEP * INCLINED:
+    steep = lap.inclination > STEEP * INCLINED
+    ways += [partial(by_way_of, share * duration, round_folds=steep) for share in DETOURS]
+    if steep:
         share = INCLINED / lap.inclination
-        ways += [partial(by_way_of, factor * duration, share, CLIMBING) for factor in STEEP_DETOURS]
+        ways += [partial(by_way_of, factor * duration, share, CLIMBING, True) for factor in STEEP_DETOURS]
     known: list[Path] = []
     for way in ways:
         try:

@@ -86,7 +86,7 @@ class Extremal:
     @property
     def arrival_anomaly(self) -> float:
         """phi*_k in radians, with the revolutions since t0 counted."""
-        return float(self.flight.end[3])
+        return float(self.flight.end[3]) + self._whole_turns
 
     @property
     def initial_costate(self) -> Array:
@@ -113,6 +113,11 @@ class Extremal:
         """Every condition of the maximum principle, evaluated independently; see `RendezvousCertificate`."""
         return certify(self.root, self.problem.scaled.weights, self.problem.free)
 
+    @property
+    def _whole_turns(self) -> float:
+        """By how much phi* of the user exceeds that of the flight, which starts within a turn."""
+        return self.problem.target.anomaly - self.problem.scaled.anomaly
+
     def _sampled(self, t: ArrayLike) -> Array:
         zero, end = np.array(0.0), np.array(self.duration)
         inside = times("t", t, zero, end) / self.problem.scaled.time
@@ -125,7 +130,8 @@ class Extremal:
         speed = scaled.length / scaled.time
         attitude = product(self.problem.chaser.attitude, self.flight.attitude(states))
         units = np.array([scaled.length, speed, scaled.length * speed, 1.0])
-        return np.concatenate([states[..., :4] * units, attitude], axis=-1)
+        place = states[..., :4] * units + np.array([0.0, 0.0, 0.0, self._whole_turns])
+        return np.concatenate([place, attitude], axis=-1)
 
     def costate(self, t: ArrayLike) -> Array:
         """rho, s1, e, nu1, nu2, nu3 at the times t (..., k), as (..., k, 6)."""

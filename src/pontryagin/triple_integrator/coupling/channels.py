@@ -24,7 +24,7 @@ from pontryagin.numerics.rotation import (
 )
 from pontryagin.triple_integrator.attitude.fixed_axis import disturbance_of, impulses
 from pontryagin.triple_integrator.attitude.rigid_body import Commands, Motion, RigidBody, simulate
-from pontryagin.triple_integrator.problem.panels import chebyshev_fit
+from pontryagin.triple_integrator.problem.chebyshev_series import chebyshev_fit
 from pontryagin.triple_integrator.problem.programme import Programme
 from pontryagin.value import value_class
 

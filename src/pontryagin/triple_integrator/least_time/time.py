@@ -13,7 +13,7 @@ from pontryagin.errors import ArgumentTypeError, NotConverged
 from pontryagin.triple_integrator.least_time.arrival import solve_stack
 from pontryagin.triple_integrator.problem.bang_bang import BangBang
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
-from pontryagin.validation import beyond_range, common_shape, finite, positive, vectors
+from pontryagin.validation import beyond_range, common_shape, finite, members_of, positive, vectors
 from pontryagin.value import Packed, value_class
 
 
@@ -145,9 +145,9 @@ def minimum_time(
         result = solve_stack(*columns, force.ravel(), bound.ravel()).reshape(*shape, 6)
     lost = ~np.isfinite(result[..., 0])
     if lost.any():
-        beyond = np.argwhere(np.isnan(result[..., 0])).tolist()
-        if beyond:
-            raise beyond_range("xf", "with x0 and peak a motion and a duration", beyond[0])
+        beyond = np.isnan(result[..., 0])
+        if beyond.any():
+            raise beyond_range("xf", "with x0 and peak a motion and a duration", beyond)
         reason = f"minimum_time found no control that reaches xf for {lost.sum()} of {lost.size} transfers"
-        raise NotConverged(reason, float(result[..., 4].max()))
+        raise NotConverged(reason, float(result[..., 4].max()), members_of(lost))
     return TimeSolution(start, end, bound, force, **_answer(result))

@@ -23,7 +23,7 @@ from pontryagin.triple_integrator.norms.quadratic_programme import BLOCK, Profil
 from pontryagin.triple_integrator.norms.quadrature import Quadratic, graded_rule
 from pontryagin.triple_integrator.problem.maneuver import Maneuver
 from pontryagin.triple_integrator.problem.programme import normalise, numbers_of, over_stack
-from pontryagin.validation import vectors
+from pontryagin.validation import members_of, vectors
 from pontryagin.value import Packed, value_class
 
 solve_stack = batched(solve_norm, outputs=8, groups=(4,), packed=True, tables=1)
@@ -206,4 +206,5 @@ def _require_convergence(certificate: Certificate, q: float) -> None:
         raise NotConverged(
             f"minimum_norm did not solve {bad.sum()} of {bad.size} manoeuvres for q = {q}",
             float(left[bad].max()),
+            members_of(bad),
         )

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pontryagin.arrays import Array
-from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.io import formula
+from pontryagin.io.formula import Formula
 from pontryagin.numerics import compile as compiler
-from pontryagin.triple_integrator.problem.panels import Function, Panels
+from pontryagin.triple_integrator.problem.panels import Panels
+from pontryagin.triple_integrator.problem.samples import values
 from pontryagin.validation import finite
 from pontryagin.value import freeze
 
@@ -64,10 +66,14 @@ class OnIntervals:
         return self.panels.integrals(elapsed, self.member)
 
     @property
+    def edges(self) -> Array:
+        """Times at which the function may be not smooth, (..., j)."""
+        return np.asarray(self.panels.clock[self.member[..., 0], 1:-1])
+
+    @property
     def offsets(self) -> Array:
-        """Times since the start at which the function may be not smooth, (..., j)."""
-        clock = self.panels.clock[self.member[..., 0]]
-        return np.asarray(clock[..., 1:-1] - clock[..., :1])
+        """The edges as times since the start, (..., j)."""
+        return np.asarray(self.edges - self.panels.clock[self.member[..., 0], :1])
 
 
 def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLike = ()) -> Integrals:
@@ -85,39 +91,46 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
     Raises
     ------
     TypeError, ValueError
-        If it is of another kind, or has a wrong shape, an unknown symbol or a value that is not finite.
+        If it is of another kind, or has a wrong shape, an unknown symbol, a value that is not finite, an
+        impulse, or more kinks than can be told apart.
     pontryagin.NotConverged
         If it is not resolved to 1e-13, because of a singularity or after 4096 panels of an interval.
     """
     if disturbance is None or np.size(start) == 0:
         return lambda elapsed: np.zeros((*np.shape(elapsed), 2))
-    if hasattr(disturbance, "free_symbols"):
-        disturbance = _symbolic(disturbance, (np.ravel(start)[0] + np.ravel(end)[0]) / 2)
+    told = np.asarray(edges, dtype=float)
+    expression = expression_of(disturbance)
+    if expression is not None:
+        from pontryagin.triple_integrator.problem.expression import Analytic
+
+        analytic = Analytic.of(expression, start, end)
+        clock, member = _intervals(start, end, _with(told, _within(analytic.edges, start, end)))
+        return _tabulated(Panels(*analytic.on_stretches(clock)), member)
     if not callable(disturbance):
         takes = "None, a number, a callable f(t) or an expression in t"
-        return _constant(finite("disturbance", disturbance, takes))
+        return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
     if isinstance(disturbance, FromStart) and (start == disturbance.start).all():
-        moved = disturbance.from_start()
-        return _on_intervals(moved, np.zeros_like(start), end - start, np.asarray(moved.edges))
-    told = np.asarray(edges, dtype=float)
-    of_function = np.asarray(getattr(disturbance, "edges", ()), dtype=float).ravel()
-    if of_function.size:
-        shared = np.broadcast_to(of_function, (*told.shape[:-1], of_function.size))
-        told = np.sort(np.concatenate([told, shared], axis=-1), axis=-1)
-    return _on_intervals(disturbance, start, end, told)
+        disturbance = disturbance.from_start()
+        start, end, told = np.zeros_like(start), end - start, np.empty(0)
+    own = getattr(disturbance, "edges", ())
+    own = finite("disturbance", own, "a function of time whose edges are times").ravel()
+    clock, member = _intervals(start, end, _with(told, own))
+    return _tabulated(Panels(lambda _, time: values(disturbance, time), clock), member)
 
 
-def from_start(disturbance: Any, start: float) -> Any:
-    """A disturbance as that of the time since the start."""
+def from_start(disturbance: Any, start: float, edges: Array) -> Any:
+    """A disturbance as that of the time since the start; its edges (j,) are not crossed by rounding."""
     if isinstance(disturbance, FromStart) and start == disturbance.start:
         return disturbance.from_start()
     if callable(disturbance) or hasattr(disturbance, "free_symbols"):
-        return partial(_later, function_of(disturbance), start)
+        return partial(_later, function_of(disturbance), start, np.concatenate([[-np.inf], edges, [np.inf]]))
     return disturbance
 
 
-def _later(function: Callable[[Array], Array], start: float, elapsed: Array) -> Array:
-    return function(start + elapsed)
+def _later(function: Callable[[Array], Array], start: float, edges: Array, elapsed: Array) -> Array:
+    after = np.clip(np.searchsorted(edges - start, elapsed, side="right"), 1, edges.size - 1)
+    within = np.nextafter(edges[after - 1], np.inf), np.nextafter(edges[after], -np.inf)
+    return function(np.clip(start + elapsed, *within))
 
 
 def function_of(disturbance: Any) -> Callable[[Any], Array]:
@@ -125,91 +138,57 @@ def function_of(disturbance: Any) -> Callable[[Any], Array]:
     if hasattr(disturbance, "free_symbols"):
         symbols = sorted(disturbance.free_symbols, key=str)
         compiled = compiler.function("disturbance", symbols, {"f": disturbance})
-        return lambda t: compiled(*[t] * len(symbols))[0] * np.ones(np.shape(t))
+        return partial(values, lambda t: compiled(*[t] * len(symbols))[0] * np.ones(np.shape(t)))
     if callable(disturbance):
         return partial(values, disturbance)
     level = 0.0 if disturbance is None else float(disturbance)
     return lambda t: np.full(np.shape(t), level)
 
 
-def _on_intervals(function: Callable[[Any], Any], start: Array, end: Array, edges: Array) -> OnIntervals:
+def expression_of(disturbance: Any) -> Any:
+    """The SymPy expression that a disturbance is, or that a formula says; None for others."""
+    if not isinstance(disturbance, Formula):
+        return disturbance if hasattr(disturbance, "free_symbols") else None
+    if formula.is_broad(disturbance):
+        return None
+    try:
+        return formula.expression(disturbance.text, disturbance.variable)
+    except ValueError:  # Powers that SymPy would expand without end.
+        return None
+
+
+def _intervals(start: Array, end: Array, edges: Array) -> tuple[Array, NDArray[np.intp]]:
+    """The ends of the stretches of all intervals that differ, (m, k + 2), and which is whose, (..., 1)."""
     count = edges.shape[-1]
     cuts = np.broadcast_to(edges, (*np.shape(start), count)).reshape(np.size(start), count)
     low, high = np.reshape(start, (-1, 1)), np.reshape(end, (-1, 1))
     clock, member = np.unique(np.hstack([low, np.clip(cuts, low, high), high]), axis=0, return_inverse=True)
     member = member.reshape(*np.shape(start), 1)
     freeze((clock, member))
-    panels = Panels(_on_stretches(function, clock), clock)
+    return clock, member
+
+
+def _tabulated(panels: Panels, member: NDArray[np.intp]) -> OnIntervals:
     _ = panels.series
     return OnIntervals(panels, member)
 
 
-def _on_stretches(function: Callable[[Any], Any], clock: Array) -> Function:
-    """A function of the time as one of stretches and the time since their starts.
-
-    Where a stretch ends at an edge, the function is never called at the edge itself or beyond it, to which
-    the rounding of the time may lead.
-    """
-    origin, floor, ceiling = clock[:, :-1].ravel(), clock[:, :-1].copy(), clock[:, 1:].copy()
-    floor[:, 1:], ceiling[:, :-1] = np.nextafter(floor[:, 1:], np.inf), np.nextafter(ceiling[:, :-1], -np.inf)
-    bounds = floor.ravel(), ceiling.ravel()
-
-    def call(stretch: NDArray[np.intp], elapsed: Array) -> Array:
-        time = origin[stretch] + elapsed
-        if clock.shape[1] > 2:
-            time = np.clip(time, *(bound[stretch] for bound in bounds))
-        return values(function, time)
-
-    return call
+def _with(edges: Array, others: Array) -> Array:
+    """Edges of either kind, (j,) or (..., j), in order."""
+    if not others.size:
+        return edges
+    shape = np.broadcast_shapes(edges.shape[:-1], others.shape[:-1])
+    both = [np.broadcast_to(x, (*shape, x.shape[-1])) for x in (edges, others)]
+    return np.sort(np.concatenate(both, axis=-1), axis=-1)
 
 
-def values(function: Callable[[Any], Any], t: Array) -> Array:
-    """f at the times (k,), by one call with an array if f takes it, else by a call for each time.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If f is no function of a time, or a value is no finite number.
-    """
-    try:
-        result = _real(function(t))
-    except (TypeError, ValueError):
-        result = np.empty(())
-    if result.shape == ():
-        result = np.asarray([_at(function, float(time)) for time in t])
-    if result.shape != t.shape:
-        raise ArgumentValueError(
-            f"disturbance must return one number for each time: got shape {result.shape} "
-            f"for times of shape {t.shape}",
-            "disturbance",
-        )
-    if not np.isfinite(result).all():
-        k = int(np.argmin(np.isfinite(result)))
-        raise ArgumentValueError(f"disturbance must be finite: f({t[k]:.6g}) = {result[k]}", "disturbance")
-    return result
-
-
-def _at(function: Callable[[Any], Any], time: float) -> float:
-    try:
-        value = _real(function(time))
-    except TypeError as error:
-        raise ArgumentTypeError(
-            f"disturbance must be a function f(t) that takes a time and returns a number: {error}",
-            "disturbance",
-        ) from error
-    if value.shape != ():
-        raise ArgumentValueError(
-            f"disturbance must return one number for each time: got shape {value.shape} for one time",
-            "disturbance",
-        )
-    return float(value)
-
-
-def _real(value: object) -> Array:
-    array = np.asarray(value)
-    if array.dtype.kind in "cUS":
-        raise TypeError(f"got {value!r}")
-    return array.astype(float)
+def _within(edges: Array, start: Array, end: Array) -> Array:
+    """Those of the edges (j,), ascending, within intervals, filled up with the intervals' ends, (..., k)."""
+    low, high = np.asarray(start)[..., None], np.asarray(end)[..., None]
+    first, last = np.searchsorted(edges, low, side="right"), np.searchsorted(edges, high, side="left")
+    at = first + np.arange(max(0, int((last - first).max(initial=0))))
+    inside = edges[np.minimum(at, edges.size - 1)] if edges.size else np.empty(at.shape)
+    return np.where(at < last, inside, high)
 
 
 def _constant(value: Array) -> Integrals:
@@ -218,35 +197,3 @@ def _constant(value: Array) -> Integrals:
         return np.stack([level * elapsed * elapsed / 2, level * elapsed], axis=-1)
 
     return call
-
-
-def _symbolic(expression: Any, inside: float) -> Callable[[Any], Any]:
-    """An expression as a function of time, which is tried at one time."""
-    import sympy as sp
-    from sympy.core.function import AppliedUndef
-
-    if expression.atoms(AppliedUndef):  # The name of such a function would be run as code.
-        raise ArgumentValueError(
-            f"disturbance must be an expression that NumPy evaluates, got {expression}", "disturbance"
-        )
-    if not isinstance(expression, sp.Expr) or expression.is_real is False:
-        raise ArgumentTypeError(
-            f"disturbance must be a real expression in t, got {expression}", "disturbance"
-        )
-    foreign = {str(symbol) for symbol in expression.free_symbols} - {"t"}
-    if foreign:
-        raise ArgumentValueError(
-            f"disturbance must be an expression in t alone, got symbols {', '.join(sorted(foreign))}",
-            "disturbance",
-        )
-    t = sp.Symbol("t", real=True)
-    expression = expression.subs(dict.fromkeys(expression.free_symbols, t))
-    try:
-        expression = expression.doit()  # Integrals and derivatives that are left to be done.
-        value = compiler.function("disturbance", [t], {"f": expression})
-        value(inside)
-    except (NameError, KeyError, NotImplementedError):
-        raise ArgumentValueError(
-            f"disturbance must be an expression that NumPy evaluates, got {expression}", "disturbance"
-        ) from None
-    return lambda time: value(time)[0]

@@ -5,9 +5,8 @@ Every interval is judged by its own values, so that its panels and integrals do 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, cached_property
-from itertools import pairwise
-from typing import Any
+from functools import cached_property
+from math import inf
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -15,9 +14,15 @@ from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
-
-DEGREE = 24
-"""Degree of the Chebyshev series on each panel."""
+from pontryagin.triple_integrator.problem.chebyshev_series import (
+    DEGREE,
+    chebyshev_fit,
+    fitted,
+    panel_integrals,
+    running_integrals,
+)
+from pontryagin.triple_integrator.problem.panel_table import Table, chosen, halved, joined
+from pontryagin.value import freeze
 
 COARSEST = 9
 """An interval is cut into at least so many panels, whose nodes lie less than 0.8 % of it apart. An odd number
@@ -35,19 +40,32 @@ BLURRED = 1e-9
 STEEPEST = 100.0
 """Largest relative slope per length of a stretch at which more than that is put down to this rounding."""
 
+SHARE = 1e-15
+"""Errors of a panel up to this share of the integral of |f| over its interval are negligible."""
+
+OVERRATED = 10.0
+"""If that integral was overrated by more than this factor at first, panels are judged again."""
+
+TOO_LARGE = 1e300
+"""Values from here on are refused."""
+
+FAINT = 1e-6
+"""A panel that can hold at most this share of what another one can hold waits for that one."""
+
+LEAST = 1e-295
+"""Errors of a value smaller than this are those of tiny numbers, which enclosures round up."""
+
 PANELS = 4096
-"""Largest number of panels into which an interval is cut."""
-
-
-@cache
-def chebyshev_fit(degree: int) -> tuple[Array, Array]:
-    """Chebyshev nodes in [-1, 1], and the matrix from values there to the coefficients of the series."""
-    nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-    return nodes, np.asarray(np.linalg.inv(chebyshev.chebvander(nodes, degree)), dtype=float)
+"""Largest number of panels into which an interval is cut; with a proof four times as many."""
 
 
 Function = Callable[[NDArray[np.intp], Array], Array]
-"""A function of the numbers of stretches, and of times since the starts of these, to values, each (k,)."""
+"""A function of the numbers of stretches, and of times within these, to values, each (k,)."""
+
+
+Proof = Callable[[NDArray[np.intp], Array, Array], Array]
+"""A function of the numbers of stretches, and of both ends of panels, each (k,), to (2, k): bounds on the
+errors of series through the values at the nodes, and on the moduli; nan where the values decide."""
 
 
 @dataclass(frozen=True)
@@ -56,32 +74,64 @@ class Panels:
 
     Attributes
     ----------
-    function : callable (stretch, time since its start) -> values, each (k,)
-        The function. Stretches are numbered through all intervals.
+    function : callable (stretch, time) -> values, each (k,)
+        The function. Stretches are numbered through all intervals. Where a stretch ends at an edge, it is
+        never called at the edge itself or beyond it, to which the rounding of a time may lead.
     clock : (m, k + 2) array
         The ends of the k + 1 stretches of each interval, ascending; a stretch may be empty. The function may
         be not smooth from one stretch to the next.
+    proof : callable, optional
+        Bounds on what values at the nodes do not show. Without them the values decide.
+    rest : (m, k + 2) array, optional
+        By how much the true ends of stretches exceed those on the clock, whose digits narrow ones go beyond.
     """
 
     function: Function
     clock: Array
+    proof: Proof | None = None
+    rest: Array | None = None
 
     @property
     def _origin(self) -> Array:
         """The starts of the stretches, (n,)."""
         return self.clock[:, :-1].ravel()
 
+    @cached_property
+    def _bounds(self) -> tuple[Array, Array]:
+        """The first and the last time of the clock within each stretch, (n,)."""
+        first, last = self.clock[:, :-1].copy(), self.clock[:, 1:].copy()
+        first[:, 1:], last[:, :-1] = np.nextafter(first[:, 1:], np.inf), np.nextafter(last[:, :-1], -np.inf)
+        return first.ravel(), last.ravel()
+
+    def _sampled(self, stretch: NDArray[np.intp], low: Array, after: Array) -> tuple[Array, Array]:
+        """Values at times (k, n) after low ends (k,) in stretches, and their delay by rounding."""
+        origin, first, last = (x[stretch][:, None] for x in (self._origin, *self._bounds))
+        low = low[:, None] if self.rest is None else (low + self.rest[:, :-1].ravel()[stretch])[:, None]
+        time = np.clip(origin + (low + after), first, last)
+        values = self.function(np.repeat(stretch, after.shape[1]), time.ravel())
+        return values.reshape(after.shape), ((time - origin) - low) - after
+
+    @cached_property
+    def _widths(self) -> Array:
+        """The lengths of the stretches, (m, k + 1)."""
+        width = np.diff(self.clock, axis=1)
+        if self.rest is not None:
+            exceeding = np.maximum(width + np.diff(self.rest, axis=1), width / 4)
+            width = np.where(width > 0, exceeding, 0.0)
+        freeze((width, self.rest))
+        return width
+
     def _member(self, stretch: NDArray[np.intp]) -> NDArray[np.intp]:
         """The intervals of stretches."""
         return np.asarray(stretch // (self.clock.shape[1] - 1))
 
-    def _start(self) -> tuple[Any, ...]:
+    def _start(self) -> Table:
         """The initial panels: their stretches, (p,), and their ends as times since the start of these.
 
-        Their nodes lie so close that no feature of 1 % of the interval falls between them. Last comes which
+        Their nodes lie so close that no feature of 1 % of the interval falls between them. It is noted which
         of the ends lie inside a stretch.
         """
-        width = np.diff(self.clock, axis=1)
+        width = self._widths
         duration = self.clock[:, -1:] - self.clock[:, :1]
         count = np.ceil(COARSEST * (width / duration)).astype(np.intp)
         count = np.where(width > 0, np.maximum(count, 1), 0).ravel()
@@ -90,25 +140,60 @@ class Panels:
         whole, parts = width.ravel()[stretch], count[stretch]
         last = place + 1 == parts
         high = np.where(last, whole, whole * ((place + 1) / parts))
-        return stretch, whole * (place / parts), high, place > 0, ~last
+        ends = {"low": whole * (place / parts), "high": high}
+        return {"stretch": stretch, **ends, "low_inside": place > 0, "high_inside": ~last}
 
     def _meets_its_ends(
-        self, stretch: NDArray[np.intp], ends: tuple[Array, ...], coefficients: Array, allowed: Array
+        self, panels: Table, smooth: NDArray[np.bool_], coefficients: Array, allowed: Array
     ) -> NDArray[np.bool_]:
-        """Whether panels' series take the function's values at those of their ends that lie inside, (p,).
+        """Whether the series of smooth panels take the function's values at those ends that lie inside, (p,).
 
         Otherwise a step lies so near to a cut that no node is beyond it.
         """
-        low, high, low_inside, high_inside = ends
-        right = np.ones(len(low), dtype=bool)
-        for t, inside, x in ((low, low_inside, -1.0), (high, high_inside, 1.0)):
-            made = np.flatnonzero(inside)
+        right = np.ones(len(smooth), dtype=bool)
+        for end, x in (("low", -1.0), ("high", 1.0)):
+            made = np.flatnonzero(smooth & panels[f"{end}_inside"])
             if made.size:
-                off = np.abs(
-                    self.function(stretch[made], t[made]) - chebyshev.chebval(x, coefficients[made].T)
-                )
+                at_end = np.zeros((made.size, 1))
+                values = self._sampled(panels["stretch"][made], panels[end][made], at_end)[0][:, 0]
+                off = np.abs(values - chebyshev.chebval(x, coefficients[made].T))
                 right[made] &= off <= LOOSER * allowed[made]
         return right
+
+    def _judged(self, panels: Table, area: Array) -> tuple[Table, NDArray[np.bool_], NDArray[np.bool_]]:
+        """The panels with their series and errors, which are resolved, and which of the others wait.
+
+        Those wait that can hold but little in comparison with another one of their interval. When that one is
+        known better, they may be found to be negligible.
+        """
+        stretch, low, high = (panels[name] for name in ("stretch", "low", "high"))
+        nodes, _ = chebyshev_fit(DEGREE)
+        width, member = high - low, self._member(stretch)
+        sample, late = self._sampled(stretch, low, width[:, None] * ((nodes + 1) / 2))
+        largest = np.abs(sample).max(axis=1)
+        with np.errstate(over="ignore"):
+            mass = (np.abs(sample) / sample.shape[1]).sum(axis=1) * width
+            np.maximum.at(area, member, mass)
+            coefficients = fitted(sample, 2 * late / width[:, None])
+            tail = np.abs(coefficients[:, -3:]).max(axis=1)
+            slope = np.einsum("pc,c->p", np.abs(coefficients), np.arange(DEGREE + 1.0)) * 2 / width
+            blurred = self._blur(stretch, (low, high), (slope, largest))
+            small = SHARE * area[member] / width
+        own = np.maximum(1e-14 * largest, blurred)
+        resolved = (largest < TOO_LARGE) & (tail <= np.maximum(own, small))
+        resolved &= self._meets_its_ends(panels, resolved, coefficients, np.maximum(own, small))
+        error, waits = tail, np.zeros_like(resolved)
+        if self.proof is not None:
+            bound, size = self.proof(stretch, low, high)
+            proved = ~np.isnan(bound)
+            error, own = np.where(proved, bound, tail), np.where(proved, 1e-14 * largest, own)
+            resolved = np.where(proved, bound <= np.maximum.reduce([own, small, 0 * own + LEAST]), resolved)
+            most = np.where(resolved, 0.0, np.where(proved, size * width, np.inf))
+            peak = np.zeros(len(self.clock))
+            np.maximum.at(peak, member, most)
+            waits = ~resolved & (most < FAINT * peak[member])
+        found = {"coefficients": coefficients, "error": error, "own": own, "mass": mass, "largest": largest}
+        return panels | found, resolved, waits
 
     def _blur(
         self, stretch: NDArray[np.intp], ends: tuple[Array, Array], sizes: tuple[Array, Array]
@@ -121,7 +206,7 @@ class Panels:
         slope, largest = sizes
         origin = self._origin[stretch]
         rounding = EPSILON * np.maximum(*(np.abs(origin + end) for end in ends))
-        share = rounding / np.diff(self.clock, axis=1).ravel()[stretch]
+        share = rounding / self._widths.ravel()[stretch]
         return np.minimum(rounding * slope, np.maximum(BLURRED, STEEPEST * share) * largest)
 
     @cached_property
@@ -139,53 +224,50 @@ class Panels:
         (p, degree + 1) array
             Coefficients of the series.
         """
-        nodes, invert = chebyshev_fit(DEGREE)
-        low: Any
-        stretch, low, high, low_inside, high_inside = self._start()
-        done: list[tuple[Array, ...]] = []
-        count = np.bincount(self._member(stretch), minlength=len(self.clock))
-        area = np.zeros(len(self.clock))
-        while len(stretch):
-            width, member = high - low, self._member(stretch)
-            sample = (low[:, None] + width[:, None] * (nodes + 1) / 2).ravel()
-            sample = self.function(np.repeat(stretch, nodes.size), sample).reshape(len(low), -1)
-            largest = np.abs(sample).max(axis=1)
-            with np.errstate(over="ignore"):
-                np.maximum.at(area, member, (np.abs(sample) / sample.shape[1]).sum(axis=1) * width)
-                coefficients = sample @ invert.T
-                tail = np.abs(coefficients[:, -3:]).max(axis=1)
-                slope = np.abs(coefficients) @ np.arange(DEGREE + 1) * 2 / width
-                blurred = self._blur(stretch, (low, high), (slope, largest))
-                allowed = np.maximum.reduce([1e-14 * largest, 1e-15 * area[member] / width, blurred])
-            smooth = (largest < 1e300) & (tail <= allowed)
-            at = np.flatnonzero(smooth)
-            ends = (low[at], high[at], low_inside[at], high_inside[at])
-            smooth[at] = self._meets_its_ends(stretch[at], ends, coefficients[at], allowed[at])
-            done.append((stretch[smooth], low[smooth], width[smooth], coefficients[smooth]))
-            rough, middle = ~smooth, (low + high) / 2
-            np.add.at(count, member[rough], 1)
-            before, time, after = (self._origin[stretch] + x for x in (low, middle, high))
-            lost = rough & (
-                (largest >= 1e300) | (before == time) | (time == after) | (count[member] > PANELS)
+        open_, done = self._start(), []
+        count = np.bincount(self._member(open_["stretch"]), minlength=len(self.clock))
+        area: Array = np.zeros(len(self.clock))
+        while True:
+            while len(open_["stretch"]):
+                judged, resolved, waits = self._judged(open_, area)
+                done.append(chosen(judged, resolved))
+                rough = ~(resolved | waits)
+                np.add.at(count, self._member(open_["stretch"][rough]), 1)
+                self._require_hope(chosen(judged, rough), count)
+                open_ = joined([halved(chosen(open_, rough)), chosen(open_, waits)])
+            table = joined(done)
+            area = np.bincount(self._member(table["stretch"]), table["mass"], len(self.clock)).astype(float)
+            width = table["high"] - table["low"]
+            small = SHARE * area[self._member(table["stretch"])] / width
+            poor = table["error"] > np.maximum.reduce([table["own"], OVERRATED * small, 0 * small + LEAST])
+            if not poor.any():
+                break
+            done, open_ = [chosen(table, ~poor)], chosen(table, poor)
+        return self._in_order(table)
+
+    def _require_hope(self, rough: Table, count: NDArray[np.intp]) -> None:
+        """Raise NotConverged if one of the panels to be halved is lost."""
+        stretch, low, high, largest = (rough[name] for name in ("stretch", "low", "high", "largest"))
+        before, time, after = (self._origin[stretch] + x for x in (low, (low + high) / 2, high))
+        most = PANELS if self.proof is None else 4 * PANELS
+        many = count[self._member(stretch)] > most
+        lost = (largest >= TOO_LARGE) | (before == time) | (time == after) | many
+        if lost.any():
+            i = int(np.argmax(lost))
+            raise NotConverged(
+                f"disturbance is not integrable to 1e-13 near t = {time[i]:.6g}",
+                float(rough["error"][i] / largest[i]) if largest[i] else inf,
             )
-            if lost.any():
-                i = int(np.argmax(lost))
-                raise NotConverged(
-                    f"disturbance is not integrable to 1e-13 near t = {time[i]:.6g}",
-                    float(tail[i] / largest[i]),
-                )
-            stretch, low, middle, high, low_inside, high_inside = (
-                np.repeat(x[rough], 2) for x in (stretch, low, middle, high, low_inside, high_inside)
-            )
-            low[1::2], high[::2] = middle[1::2], middle[::2]
-            low_inside[1::2], high_inside[::2] = True, True
-        parts: list[Any] = [np.concatenate(column) for column in zip(*done, strict=True)]
-        order = np.lexsort((parts[1], parts[0]))
-        stretch, low, width, coefficients = (part[order] for part in parts)
-        owner = self._member(stretch)
+
+    def _in_order(self, table: Table) -> tuple[NDArray[np.intp], Array, Array, Array, Array]:
+        """The panels by intervals and times, as in `series`."""
+        order = np.lexsort((table["low"], table["stretch"]))
+        names = ("stretch", "low", "high", "coefficients")
+        stretch, low, high, coefficients = (table[name][order] for name in names)
+        owner, width = self._member(stretch), np.asarray(high - low)
         left = low + (self.clock[:, :-1] - self.clock[:, :1]).ravel()[stretch]
         first = np.searchsorted(owner, np.arange(len(self.clock) + 1))
-        return first, left, width, _running(first, owner, width, coefficients), coefficients
+        return first, left, width, running_integrals(first, owner, width, coefficients), coefficients
 
     def integrals(self, elapsed: Array, member: NDArray[np.intp]) -> Array:
         """g1 and g2 from the starts of the intervals with these numbers, both broadcast, (..., 2)."""
@@ -198,31 +280,7 @@ class Panels:
             beyond = left[middle] <= flat
             low, high = np.where(beyond, middle, low), np.where(beyond, high, middle - 1)
         past = flat - left[low]
-        inside = _panel_integrals(coefficients[low], 2 * past / width[low] - 1, width[low])
+        inside = panel_integrals(coefficients[low], 2 * past / width[low] - 1, width[low])
         inside += running[low]
         inside[:, 0] += running[low, 1] * past
         return inside.reshape(*times.shape, 2)
-
-
-def _running(first: NDArray[np.intp], owner: NDArray[np.intp], width: Array, coefficients: Array) -> Array:
-    """g1 and g2 from the start of each interval to the left ends of its panels, (p, 2)."""
-    over = _panel_integrals(coefficients, np.ones(len(width)), width)
-    place = np.arange(len(width)) - first[owner]
-    order = np.argsort(place, kind="stable")
-    bounds = np.searchsorted(place[order], np.arange(1, place.max(initial=0) + 2))
-    found = np.zeros_like(over)
-    for begin, end in pairwise(bounds):
-        here = order[begin:end]
-        before = here - 1
-        found[here] = found[before] + over[before]
-        found[here, 0] += found[before, 1] * width[before]
-    return found
-
-
-def _panel_integrals(coefficients: Array, x: Array, width: Array) -> Array:
-    """g1 and g2 from the left edge of panels (p, degree+1) to the positions x in [-1, 1], (p, 2)."""
-    first = chebyshev.chebint(coefficients, 1, lbnd=-1, axis=1)
-    second = chebyshev.chebint(coefficients, 2, lbnd=-1, axis=1)
-    g2 = chebyshev.chebval(x, first.T, tensor=False) * width / 2
-    g1 = chebyshev.chebval(x, second.T, tensor=False) * (width / 2) ** 2
-    return np.stack([g1, g2], axis=-1)

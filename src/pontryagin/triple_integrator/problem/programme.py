@@ -181,5 +181,5 @@ def over_stack(solver: Batched, maneuver: Maneuver, *tables: bytes) -> Array:
 
 def _within_range(numbers: NDArray[Any]) -> Array:
     if not (all(map(isfinite, numbers.tolist())) if numbers.ndim == 1 else np.isfinite(numbers).all()):
-        raise beyond_range("xf", ANSWER, np.argwhere(~np.isfinite(numbers))[0, :-1].tolist())
+        raise beyond_range("xf", ANSWER, ~np.isfinite(numbers).all(axis=-1))
     return numbers
