@@ -124,10 +124,11 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn,
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
-    """Anomalies after the start for the members of a turn; turn 0 is the one about theta."""
+    """Anomalies after the start for the members of a turn; turn 0 is about theta and has it."""
     step = 2 * np.pi / size
     angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
-    return angles[angles > problem.anomaly + step / 2]
+    own = (angles == theta) & (theta > problem.anomaly)
+    return angles[(angles > problem.anomaly + step / 2) | own]
 
 
 def _turn_about(problem: Shooting, theta: float, unknowns: Array, angles: Array, below: str) -> Turn:
