@@ -156,3 +156,10 @@ def test_steps_are_halved_down_to_the_least_one_itself():
 
     points = list(march(never, Point(np.ones(1), 0.0, None), 4.0, first=1.0, least=0.25))
     assert seen == [1.0, 0.5, 0.25] and len(points) == 1
+
+
+def test_what_a_curve_misses_is_the_distance_of_its_nearest_point():
+    points = list(itertools.islice(follow(circle, np.array([1.0]), 0.0, 1.0, largest=0.3), 40))
+    with pytest.raises(NotConverged, match="not reached") as held:
+        reach(points, 2.0, polish(circle, 2.0), "not reached")
+    assert held.value.residual == 2.0 - max(point.parameter for point in points)

@@ -120,3 +120,23 @@ def test_two_switches_however_close_are_found(depth, sign):
     np.testing.assert_allclose(find_switches(switching, 1), [[1 - d, 1 + d]], atol=1e-7)
     shallower = lambda x, i: switching(x, i) + sign * np.array([2 * depth, 0])  # noqa: E731
     assert find_switches(shallower, 1).shape == (1, 0)
+
+
+def test_rules_heed_narrow_cells_of_a_turn():
+    eighths = tuple(2 * np.pi * np.arange(9) / 8)
+    halved = tuple(sorted({*eighths, np.pi / 8}))
+    narrow = tuple(sorted({*halved, *(np.pi / 2.0**k for k in range(4, 9))}))
+    assert CHECKING.on(()) == CHECKING.on(eighths) == CHECKING
+    assert CHECKING.on(halved).trapezoid == 2 * CHECKING.trapezoid and not CHECKING.on(halved).edges
+    assert CHECKING.on(narrow).edges == narrow
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_a_peak_between_all_nodes_is_seen_on_the_cells_that_hold_it(rule):
+    """exp(-k (1 - cos(x - p))) has the mean exp(-k) I0(k); a step at a switch is added to it."""
+    k, place = 1e6, 1.03
+    cells = tuple(sorted({*np.linspace(0, 2 * np.pi, 9), *(place + 0.002 * np.arange(-8, 9))}))
+    peak = density(lambda x, h: h * np.exp(-k * (1 - np.cos(x - place))) + (np.mod(x, 2 * np.pi) < 2))
+    height = np.array([1.0, 50.0])
+    found = mean(peak(height), np.full((2, 2), [0.0, 2.0]), rule.on(cells))[:, 0]
+    assert found == pytest.approx(height * float(mp.besseli(0, k) * mp.exp(-k)) + 1 / np.pi, rel=1e-12)

@@ -7,7 +7,7 @@ import numpy as np
 
 Report = dict[str, dict[str, Any]]
 
-PROOF = ("boundary", "transversality", "hamiltonian", "maximality")
+PROOF = ("boundary", "transversality", "hamiltonian", "maximality", "unresolved")
 SHOWN = 6
 """Number of extremals that a table lists; JSON lists all of them."""
 

@@ -70,6 +70,17 @@ def sqrt(disc: Disc) -> Disc:
     return _within(np.sqrt, disc, 0.0, np.inf) if is_real(disc) else real_power(disc, 0.5)
 
 
+def quotient_power(above: Disc, below: Disc, exponent: float) -> Disc:
+    """(y / z) to a power that is not whole; closer than the power of the quotient where both are positive."""
+    apart = real_power(above, exponent) / real_power(below, exponent)
+    positive = (above.lower > 0) & (below.lower > 0)
+    if positive.all():
+        return apart
+    quotient = above / below
+    joint = sqrt(quotient) if exponent == 0.5 else real_power(quotient, exponent)
+    return chosen(positive, apart, joint)
+
+
 def log(disc: Disc) -> Disc:
     """The principal logarithm."""
     base, share, defined = _shares(disc)

@@ -193,14 +193,11 @@ class _Program:
         if exponent.is_Integer and 0 < abs(exponent) <= LARGEST_POWER:
             whole = int(exponent)
             return self._do(lambda disc: discs.whole_power(disc, whole), base)
-        if exponent == sp.S.Half:
-            return self._do(functions.sqrt, base)
-        if exponent == -sp.S.Half:
-            return self._do(lambda disc: discs.inverse(functions.sqrt(disc)), base)
-        if exponent.is_number and exponent.is_real:
-            real = _float(exponent)
-            if real is not None and not exponent.is_Integer:
-                return self._do(lambda disc: functions.real_power(disc, real), base)
+        real = _float(exponent) if exponent.is_number else None
+        if real is not None and not exponent.is_Integer:
+            if base.is_Mul and base.as_numer_denom()[1].free_symbols:
+                return self._do(lambda a, b: functions.quotient_power(a, b, real), *base.as_numer_denom())
+            return self._do(functions.sqrt if real == 0.5 else lambda d: functions.real_power(d, real), base)
         return self._do(lambda b, x: functions.exp(functions.log(b) * x), base, exponent)
 
     def _extreme(self, e: Any) -> Step:

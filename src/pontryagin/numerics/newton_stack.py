@@ -123,7 +123,8 @@ def newton_stack(
         finished[close], open_[close] = True, False
         open_[members[~np.isfinite(correction[members])]] = False
 
-    aim(np.flatnonzero(open_), here, np.flatnonzero(open_))
+    if open_.any():
+        aim(np.flatnonzero(open_), here, np.flatnonzero(open_))
     while open_.any():
         members = np.flatnonzero(open_)
         trial = x[members] + share[members, None] * step[members]

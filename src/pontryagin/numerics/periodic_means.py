@@ -1,6 +1,8 @@
 """Means of 2 pi-periodic functions: trapezoidal rule for smooth ones, Gauss's rule between switches."""
 
 import functools
+import itertools
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -14,11 +16,37 @@ Selection = NDArray[np.intp] | slice
 
 
 class MeanRule(NamedTuple):
-    """Initial numbers of nodes of the trapezoidal rule and of Gauss's rule; first node of the former."""
+    """How means are taken.
+
+    Attributes
+    ----------
+    trapezoid, gauss : int
+        Initial numbers of nodes of the trapezoidal rule and of Gauss's rule.
+    start : float
+        First node of the trapezoidal rule.
+    edges : tuple of float
+        Ends of panels of a turn, from 0 to 2 pi, that Gauss's rule is used on in place of both; or none.
+    """
 
     trapezoid: int
     gauss: int
     start: float
+    edges: tuple[float, ...] = ()
+
+    def on(self, cells: tuple[float, ...]) -> "MeanRule":
+        """The rule for functions that are bounded on complex neighbourhoods of so many cells of a turn.
+
+        A cell's neighbourhood is the disc about its middle whose radius is 1.3 times half its length. The
+        trapezoidal rule begins with more nodes where cells are shorter than an eighth of a turn; where it
+        would need too many, Gauss's rule is used on the cells.
+        """
+        if not cells:
+            return self
+        least = min(b - a for a, b in itertools.pairwise(cells))
+        finer = math.ceil(2 * math.pi / PARTS / least - 1e-9)
+        if finer > FINEST:
+            return self._replace(edges=cells)
+        return self._replace(trapezoid=finer * self.trapezoid, gauss=finer * self.gauss)
 
 
 SOLVING = MeanRule(16, 6, 0.0)
@@ -30,6 +58,8 @@ HALF_DIGITS, FALL = 1e-8, 1e-2
 """Largest relative change by the last doubling, and ratio of successive changes that shows convergence."""
 PARTS = 8
 """Number of panels of a turn before any is halved."""
+FINEST = 4
+"""The trapezoidal rule is used for cells down to an eighth of a turn over this."""
 HALVING = Halving(nodes=16)
 ROUNDING = 1e-14
 """Accuracy of a column that cancels to zero, as a share of the largest column."""
@@ -42,6 +72,8 @@ def mean(density: Density, switches: Array, rule: MeanRule, judged: Selection = 
 
     Only the `judged` columns decide when a rule is fine enough; the others are their derivatives.
     """
+    if rule.edges:
+        return panelled_mean(density, switches, rule.edges, judged)
     plain = np.isnan(switches).all(axis=1)
     if plain.all():
         return smooth_mean(density, len(switches), rule, judged)
@@ -94,9 +126,19 @@ def _nested(size: int) -> Array:
 
 def halved_mean(density: Density, points: int, judged: Selection = EVERY) -> Array:
     """Means by `integrals` on halved panels, as (points, columns); nan where they do not converge."""
-    member = np.repeat(np.arange(points), PARTS)
     edges = 2 * np.pi * np.arange(PARTS + 1) / PARTS
-    low, high = np.tile(edges[:-1], points), np.tile(edges[1:], points)
+    return panelled_mean(density, np.full((points, 0), np.nan), tuple(edges), judged)
+
+
+def panelled_mean(
+    density: Density, switches: Array, edges: tuple[float, ...], judged: Selection = EVERY
+) -> Array:
+    """`halved_mean` of functions that are smooth between switches (points, s), on panels with given ends."""
+    points = len(switches)
+    within = np.where(np.isnan(switches), 2 * np.pi, switches % (2 * np.pi))
+    ends = np.sort(np.concatenate([np.broadcast_to(edges, (points, len(edges))), within], axis=1), axis=1)
+    member, panel = np.nonzero(np.diff(ends) > 0)
+    low, high = ends[member, panel], ends[member, panel + 1]
     values, finished = integrals(density, member, low, high, judged, HALVING)
     return np.where(finished[:, None], values / (2 * np.pi), np.nan)
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from pontryagin.averaging import smooth_example
-from pontryagin.averaging.averaged import extremals
+from pontryagin.averaging.averaged import certified as solver
 
 FAULT = 1e-6
 
@@ -18,14 +18,14 @@ FAULT = 1e-6
 @pytest.fixture
 def certified(monkeypatch):
     """The certificate of the known solution with faults in the problem or in the path."""
-    plain, kept = extremals.certify, []
-    monkeypatch.setattr(extremals, "certify", lambda *given: kept.append(given) or plain(*given))
+    plain, kept = solver.certify, []
+    monkeypatch.setattr(solver, "certify", lambda *given: kept.append(given) or plain(*given))
     smooth_example(1.0, 2.0)
-    ((problem, path, names, members),) = kept
+    ((problem, path, names, members, edges),) = kept
 
     def again(problem_faults=lambda problem: {}, path_faults=lambda path: {}):
         wrong = replace(problem, **problem_faults(problem)), replace(path, **path_faults(path))
-        return plain(*wrong, names, members)
+        return plain(*wrong, names, members, edges)[0]
 
     return again
 

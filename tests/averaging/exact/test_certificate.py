@@ -66,3 +66,12 @@ def test_an_extremal_that_does_not_arrive_with_the_phase_at_rest_is_refused(ripp
     """p_x is not zero at the end of an extremal that stops earlier, where the phase matters."""
     _, transversality, hamiltonian, maximality = residuals(rippled, duration=0.9)
     assert transversality > 1e-3 and max(hamiltonian, maximality) < 1e-9
+
+
+def test_the_hamiltonian_is_measured_in_units_of_the_running_cost(monkeypatch):
+    """A price of 4 gives u = 2 for a time of 1/2: a cost of 4, that is of 8 in a unit of time."""
+    known = smooth_example(1.0, 2.0, k=4.0).exact(0.1)[0].certify
+    place = "pontryagin.averaging.exact.certificate._along"
+    monkeypatch.setattr(place, lambda equations: lambda *given: (np.array([0.5, -2.0]), np.array([4.0, 1.0])))
+    _, _, hamiltonian, maximality = residuals(known)
+    assert (hamiltonian, maximality) == (pytest.approx(2 / 8), pytest.approx(4 / 8))

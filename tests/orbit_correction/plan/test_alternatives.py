@@ -103,3 +103,15 @@ def test_no_deviation_needs_no_plan():
 def test_a_stack_is_refused(solve):
     with pytest.raises(ValueError, match="plan must be that of one state"):
         solve(correct([Z0, Z0]))
+
+
+def test_an_odd_step_of_the_ball_ends_with_a_radial_impulse_alone():
+    """Three components a step, two of an impulse: the last one is filled up with a zero."""
+    plans = [correct(factor * np.array(Z0)) for factor in (0.5, 1.0, 1.5, 2.0)]
+    assert {int(plan.steps) % 2 for plan in plans} == {0, 1}
+    for plan in plans:
+        found = least_energy(plan)
+        steps, flat = int(plan.steps), found.impulses.ravel()
+        assert found.impulses.shape == (3 * (steps // 2) + 2 * (steps % 2), 2)
+        assert_allclose(flat[: 3 * steps], found.step_controls.ravel(), rtol=0)
+        assert not flat[3 * steps :].any()

@@ -201,3 +201,8 @@ def test_states_and_peaks_of_any_size_have_the_same_plan_or_are_refused(thrust):
         with pytest.raises(ValueError, match=r"^z0 must give with interval and peak a plan within") as caught:
             correct(state * 2.0**power, peak=peak * 2.0**power, thrust=thrust)
         assert caught.value.argument == "z0"
+
+
+@pytest.mark.parametrize("thrust", ["ball", "disc"])
+def test_an_empty_stack_has_no_impulses(thrust):
+    assert correct(np.empty((0, 3)), thrust=thrust).impulses.shape[::2] == (0, 2)

@@ -10,10 +10,16 @@ from pontryagin.numerics.rotation import product
 from pontryagin.rendezvous import (
     solve_in_elements,
 )
-from pontryagin.rendezvous.elements.certificate import certify, maximality, off_level, turn_momentum
+from pontryagin.rendezvous.elements.certificate import (
+    certify,
+    fly_cartesian,
+    maximality,
+    off_level,
+    turn_momentum,
+)
 from pontryagin.rendezvous.elements.conditions import ElementsSetting, equations
 from pontryagin.rendezvous.elements.elements import I1
-from pontryagin.rendezvous.elements.flight import COSTATES
+from pontryagin.rendezvous.elements.flight import COSTATES, switching
 from pontryagin.rendezvous.elements.law import Law
 from pontryagin.rendezvous.root import Root
 from rendezvous_problems import problem
@@ -83,3 +89,25 @@ def test_the_worst_moment_counts(monkeypatch):
     place = "pontryagin.rendezvous.elements.certificate.maximality"
     monkeypatch.setattr(place, lambda *given: 1e-5 * running * np.eye(201)[77])
     assert_allclose(certify(root, free=False).maximality, 1e-5, rtol=1e-9)
+
+
+def test_a_flight_with_coasts_agrees_with_newton_s_law_arc_by_arc(fuel):
+    again = certify(fuel.root, free=False)
+    assert len(fuel.flight.pieces) > 1 and again.agreement < 1e-9 and again.holds(1e-8)
+
+
+@pytest.mark.parametrize("column", [2, 10])
+def test_places_and_costates_that_newton_s_law_does_not_confirm_are_seen_alone(fuel, monkeypatch, column):
+    """A place of the witness, or a component of n, is wrong in the middle of the flight by a millionth."""
+    root, place = fuel.root, "pontryagin.rendezvous.elements.certificate.fly_cartesian"
+    grid = np.linspace(0.0, root.flight.phi, 201)
+    n = switching(root.flight.sample(grid), grid)
+    unit = 1.0 if column == 2 else np.linalg.norm(n, axis=1).max()
+
+    def wrong(flight, times):
+        rows = fly_cartesian(flight, times)
+        rows[100, column] += 1e-6 * unit
+        return rows
+
+    monkeypatch.setattr(place, wrong)
+    assert_allclose(certify(root, free=False).agreement, 1e-6, rtol=1e-3)

@@ -135,3 +135,18 @@ class TestFaultsOfAKnownFlight:
         place = "pontryagin.rendezvous.reduced.certificate.maximality"
         monkeypatch.setattr(place, lambda *given: FAULT * running * np.eye(201)[77])
         assert float(certify(root, (0.0, 1.0), free=False).maximality) == pytest.approx(FAULT, rel=1e-9)
+
+    @pytest.mark.parametrize("witness", ["fly_full", "fly_cartesian"])
+    def test_a_witness_that_disagrees_is_seen_alone(self, leap, monkeypatch, witness):
+        """A costate of the 16 equations, or a place by Newton's law, is wrong at one moment."""
+        plain = {"fly_full": fly_full, "fly_cartesian": fly_cartesian}[witness]
+
+        def wrong(flight, times):
+            rows = plain(flight, times)
+            rows[77, 2 if witness == "fly_cartesian" else 8] += FAULT
+            return rows
+
+        monkeypatch.setattr(f"pontryagin.rendezvous.reduced.certificate.{witness}", wrong)
+        found = certify(leap.root, (0.0, 1.0), free=False)
+        unit = np.abs(leap.root.flight.sample(np.linspace(0, leap.root.flight.duration, 201))[:, 4:10]).max()
+        assert found.agreement == pytest.approx(FAULT / (1 if witness == "fly_cartesian" else unit), rel=1e-3)

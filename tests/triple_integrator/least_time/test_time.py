@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from independent import exact_bang_bang_times, propagate
 from pontryagin.triple_integrator import Maneuver, minimum_peak, minimum_time
-from pontryagin.triple_integrator.least_time.quartic import sign_changes
+from pontryagin.triple_integrator.least_time.quartic import sign_changes, stationary_points
 from strategies import angles, places, signs, states, wide
 
 peaks = st.floats(0.2, 5.0)
@@ -327,3 +327,18 @@ def test_changes_of_sign_are_counted_as_one_counts_them():
     for rising in itertools.product((-1.0, 0.0, 2.0), repeat=4):
         row = [1.0, *(q for q in reversed(rising) if q)]
         assert sign_changes(*rising) == sum(a * b < 0 for a, b in itertools.pairwise(row))
+
+
+def test_stationary_points_are_the_roots_of_the_derivative():
+    """Of quartics with the leading coefficient 3 and up to three stationary points; NumPy finds the roots."""
+    rng, counts = np.random.default_rng(8), set()
+    for _ in range(300):
+        q1, q2, q3 = rng.normal(size=3) * 10.0 ** rng.uniform(-1, 1, 3)
+        roots = np.roots([12.0, 3 * q3, 2 * q2, q1])
+        real = np.sort(roots[np.abs(roots.imag) < 1e-9].real)
+        inside = real[(real > 0) & (real < 20.0)]
+        found = np.array(stationary_points(20.0, q1, q2, q3))
+        assert_allclose(found[: len(inside)], inside, rtol=1e-9)
+        assert np.all(found[len(inside) :] == 20.0)
+        counts.add(len(inside))
+    assert counts == {0, 1, 2, 3}

@@ -118,15 +118,18 @@ class _Equations:
         return _matrix(self.problem[rows], self.path[rows], self.h[rows])
 
 
-def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
+def newton(problem: Problem, guess: Trajectories, enough: float = -np.inf) -> tuple[Trajectories, Array]:
     """Newton's method with damping, on every problem of the stack.
+
+    A residual of at most `enough` ends it too. Where features are narrow the equations are so badly
+    conditioned that rounding alone makes steps larger than `CLOSE`.
 
     Returns
     -------
     Trajectories
         The last iterates.
     (s) array
-        Relative sizes of the last steps: at most `CLOSE` where it converged, inf where it failed.
+        At most `CLOSE` where it converged: the relative sizes of the last steps. Inf where it failed.
     """
 
     def equations(members: NDArray[np.intp], unknowns: Array) -> _Equations:
@@ -138,7 +141,7 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
         found = newton_stack(
             equations,
             guess.unknowns,
-            tolerance=-np.inf,
+            tolerance=enough,
             step_tolerance=CLOSE,
             iterations=30,
             halvings=12,
@@ -147,7 +150,9 @@ def newton(problem: Problem, guess: Trajectories) -> tuple[Trajectories, Array]:
             step_size=lambda members, unknowns, step: _step_size(guess.with_unknowns(unknowns), step),
             admissible=lambda members, unknowns: guess.with_unknowns(unknowns).duration > 0,
         )
-    return guess.with_unknowns(found.unknowns), np.where(found.converged, found.correction, np.inf)
+    return guess.with_unknowns(found.unknowns), np.where(
+        found.converged, np.minimum(found.correction, CLOSE), np.inf
+    )
 
 
 def _step_size(path: Trajectories, step: Array) -> Array:

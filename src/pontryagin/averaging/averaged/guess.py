@@ -47,11 +47,14 @@ class Guess:
     stuck: NDArray[np.bool_]
 
 
-def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Guess:
+def straight(
+    problem: Problem, mesh: Mesh, direction: Array | None = None, *, own_times: bool = False
+) -> Guess:
     """A trajectory along the straight line to the target's nearest point, at the mesh's points of slow time.
 
     The costate has the given direction (s, n), or that of the target's gradient, and the length that makes H0
-    vanish.
+    vanish. With `own_times`, for one problem, the mesh is one of distance, and the trajectory's panels are
+    those of time in which its panels are passed.
     """
     model = problem.model
     start = problem.start
@@ -68,9 +71,11 @@ def straight(problem: Problem, mesh: Mesh, direction: Array | None = None) -> Gu
     reach = np.einsum("si,si->s", end - start, direction)[:, None]
     pace = np.divide(reach, along, out=np.ones_like(along), where=(along > 0) & (reach > 0))
     clock = pace @ mesh.integrals.T
-    z = _at_even_times(mesh, clock / clock[:, -1:], z)
+    shares = clock / clock[:, -1:]
+    times = Mesh((*shares[0, : -1 : mesh.degree], 1.0), mesh.degree) if own_times else mesh
+    z = _at_times(mesh, shares, z, times.points)
     alpha = multipliers_at(problem, z[:, -1])
-    return Guess(Trajectories(mesh, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
+    return Guess(Trajectories(times, z, clock[:, -1], alpha), slow, omega.value, idle, stuck)
 
 
 def towards_target(problem: Problem, mesh: Mesh) -> Trajectories | None:
@@ -140,12 +145,12 @@ def shot(problem: Problem, mesh: Mesh) -> Trajectories | None:
     return Trajectories(mesh, np.stack(at), duration, multipliers_at(problem, values[:, -1]))
 
 
-def _at_even_times(mesh: Mesh, clock: Array, z: Array) -> Array:
-    """Values (s, k, 2n) at the mesh's points of time, from values at its points of distance."""
+def _at_times(mesh: Mesh, clock: Array, z: Array, times: Array) -> Array:
+    """Values (s, k, 2n) at shares of the duration (k), from values at the mesh's points of distance."""
     edges, series = np.array(mesh.edges), mesh.series(clock[..., None])
-    share = np.stack([np.interp(mesh.points, np.maximum.accumulate(c), mesh.points) for c in clock])
+    share = np.stack([np.interp(times, np.maximum.accumulate(c), mesh.points) for c in clock])
     for _ in range(3):
-        late = evaluate(edges, series, share)[..., 0] - mesh.points
+        late = evaluate(edges, series, share)[..., 0] - times
         inside = np.clip(share, 1e-9, 1 - 1e-9)
         pace = derivative(edges, series, inside)[..., 0]
         share = np.clip(share - np.divide(late, pace, out=np.zeros_like(late), where=pace > 0), 0, 1)

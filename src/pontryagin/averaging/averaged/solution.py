@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.certificate import AveragedCertificate
 from pontryagin.averaging.system.anomaly import anomaly_at, phase_at
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
-from pontryagin.certificate import MaximumPrinciple
-from pontryagin.errors import ArgumentValueError
+from pontryagin.certificate import ACCEPTED
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.collocation import evaluate as evaluate_series
+from pontryagin.numerics.periodic_means import SOLVING
 from pontryagin.numerics.rotation import within_a_turn
 from pontryagin.validation import angles, finite, times
 from pontryagin.value import value_class
@@ -45,8 +47,9 @@ class AveragedSolution:
         alpha, the multipliers of the target's r conditions.
     kappa : (...) array
         Minus the mean of the phase's costate over epsilon; zero at the optimum.
-    certificate : MaximumPrinciple
-        Residuals of the maximum principle between the collocation points, by other quadratures.
+    certificate : AveragedCertificate
+        Residuals of the maximum principle between the collocation points, by other quadratures, and whether
+        the system can have features between them.
     names : tuple of str
         The slow variables, in the order of `slow` and `costate`. They are the system's own: the cost, which
         the paper counts among them, has the costate -1 and is left out.
@@ -72,7 +75,7 @@ class AveragedSolution:
     start: Array
     multipliers: Array
     kappa: Array
-    certificate: MaximumPrinciple
+    certificate: AveragedCertificate
     names: tuple[str, ...]
     initial_phase: Array
     numbers: tuple[Array, ...]
@@ -86,6 +89,11 @@ class AveragedSolution:
     def system(self) -> "PhaseSystem":
         """The `PhaseSystem` that was averaged."""
         return self.make_system()
+
+    @property
+    def turn(self) -> tuple[float, ...]:
+        """Ends of cells of a turn that hold narrow features of the system; empty if there are none."""
+        return SOLVING.on(self.model.turn).edges
 
     def slow(self, tau: ArrayLike) -> Array:
         """xi at slow times tau (k,) or (..., k), as (..., k, n)."""
@@ -188,6 +196,8 @@ class AveragedSolution:
         ------
         ValueError
             If epsilon is not positive, or leaves more turns than can be followed, or the solution is a stack.
+        NotConverged
+            If no extremal is found, or one passes over features of the phase narrower than its steps.
         """
         small = _positive_epsilon(epsilon)
         if self.duration.shape:
@@ -211,7 +221,7 @@ class AveragedSolution:
         begin = within_a_turn(begin)
         from pontryagin.averaging.exact.roots import extremals
 
-        return extremals(
+        found = extremals(
             self._regular,
             small,
             float(begin),
@@ -219,6 +229,9 @@ class AveragedSolution:
             end=float(self.anomaly(self.duration, small, begin)[0]),
             to_phase=partial(phase_at, self.model, numbers=self.numbers),
         )
+        if self.turn:
+            _require_certified(found)
+        return found
 
     @property
     def _regular(self) -> "ReferenceExtremal":
@@ -237,6 +250,15 @@ class AveragedSolution:
         duration = self.duration[..., None]
         share = np.divide(inside, duration, out=np.zeros(inside.shape), where=duration > 0)
         return evaluate_series(self.edges, self.series, share)
+
+
+def _require_certified(found: "Extremals") -> None:
+    """Raise if an extremal, found with steps of any length, passes over narrow features of the phase."""
+    worst = max((float(extremal.certificate.residual) for extremal in found), default=0.0)
+    if not worst <= ACCEPTED:
+        raise NotConverged(
+            "exact extremals were found only with steps that pass over narrow features of the phase", worst
+        )
 
 
 def _positive_epsilon(epsilon: float) -> float:

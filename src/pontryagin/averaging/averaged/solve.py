@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
+from pontryagin.averaging.averaged.certificate import ENTRIES, AveragedCertificate
 from pontryagin.averaging.averaged.extremals import extremals
 from pontryagin.averaging.averaged.solution import AveragedSolution
 from pontryagin.averaging.system.model import Model
-from pontryagin.certificate import MaximumPrinciple
 from pontryagin.errors import ArgumentTypeError
 from pontryagin.validation import angles, common_shape, finite, vectors
 
@@ -29,6 +29,11 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
     At kappa = 0 it is the first approximation to the optimum, (2.17). Controls may switch within a turn;
     extremals whose controls switch in slow time, or are singular, are not found.
 
+    Features of the system that are narrower than the spacing of points are looked for: its functions are
+    enclosed in disc arithmetic along the whole extremal and over the whole turn. This shows the frequency and
+    the weight to be positive, and where a function has a narrow feature the problem is solved again with it.
+    What could not be decided is told by ``certificate.unresolved``, a share of the way or of a turn.
+
     Parameters
     ----------
     system : PhaseSystem
@@ -41,8 +46,8 @@ def solve_averaged(system: "PhaseSystem", start: ArrayLike, *, kappa: ArrayLike 
     Raises
     ------
     ValueError
-        If the frequency is not positive along the whole way, the running cost is not positive on average, or
-        an input is not finite or wrongly shaped.
+        If the frequency or the weight is not positive along the whole way, the running cost is not positive
+        on average, or an input is not finite or wrongly shaped.
     Infeasible
         If the target cannot be reached: the mean drift leads away from it, and no control outweighs it.
     NotConverged
@@ -104,23 +109,18 @@ def solved(
     begin = np.broadcast_to(start, (*shape, n))
     *flat_numbers, flat_kappa = (number.reshape(-1) for number in each)
     found = extremals(model, names, begin.reshape(-1, n), tuple(flat_numbers), flat_kappa)
-    residuals = (
-        found.certificate.boundary,
-        found.certificate.transversality,
-        found.certificate.hamiltonian,
-        found.certificate.maximality,
-    )
+    residuals = (getattr(found.certificate, entry) for entry in ENTRIES)
     return AveragedSolution(
         duration=found.duration.reshape(shape),
         cost=found.cost.reshape(shape),
         start=begin,
         multipliers=found.multipliers.reshape(*shape, model.target),
         kappa=each[-1],
-        certificate=MaximumPrinciple(*(residual.reshape(shape) for residual in residuals)),
+        certificate=AveragedCertificate(*(residual.reshape(shape) for residual in residuals)),
         names=names,
         initial_phase=np.broadcast_to(phase, shape),
         numbers=tuple(each[:-1]),
-        model=model,
+        model=model.with_turn(found.turn),
         edges=found.edges.reshape(*shape, -1),
         series=found.series.reshape(*shape, *found.series.shape[1:]),
         make_system=make_system,

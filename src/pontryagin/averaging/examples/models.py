@@ -1,7 +1,7 @@
 """The generated examples: averages that load without SymPy, and phase systems that need it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,9 @@ def example_model(name: str) -> Model:
     slow, target = kernels.SIZES[name]
     given: dict[str, Any] = {"slow": slow, "target": target, "origin": partial(example_model, name)}
     functions = {
-        f.name: getattr(kernels, f"{name}_{f.name}", None) for f in fields(Model) if f.name not in given
+        f.name: getattr(kernels, f"{name}_{f.name}", None)
+        for f in fields(Model)
+        if f.name not in given and f.default is MISSING
     }
     return Model(**given | functions)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import sympy as sp
 
+from pontryagin.averaging.system.bounds import bounds
 from pontryagin.averaging.system.jets import expressions
 from pontryagin.averaging.system.model import Model
 from pontryagin.averaging.system.standard_form import StandardForm
@@ -29,14 +30,16 @@ def closed_mean(integrand: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     if integrand.count_ops() > EFFORT:
         return None
     c, s = sp.Dummy("c"), sp.Dummy("s")
-    expanded = sp.expand_trig(integrand).subs({sp.cos(x): c, sp.sin(x): s})
+    constant = {e: sp.Dummy() for e in integrand.atoms(sp.exp) if not e.has(x)}
+    expanded = sp.expand_trig(integrand.xreplace(constant)).subs({sp.cos(x): c, sp.sin(x): s})
     if expanded.has(x):
         return None
+    back = {dummy: e for e, dummy in constant.items()}
     try:
         terms = sp.Poly(expanded, c, s).terms()
     except sp.PolynomialError:
         return None
-    return sp.Add(*(coefficient * _moment(*powers) for powers, coefficient in terms))
+    return sp.Add(*(coefficient.xreplace(back) * _moment(*powers) for powers, coefficient in terms))
 
 
 def _moment(i: int, j: int) -> sp.Rational:
@@ -65,12 +68,19 @@ def compiled_model(system: StandardForm) -> Model:
         *(system.hamiltonian, system.maximiser.as_immutable()),
     )
     if key not in _MODELS:
+        known = averages(system)
         kernels: dict[str, Any] = {
             name: None if columns is None else compiler.columns(name, arguments, columns)
-            for name, (arguments, columns) in kernel_expressions(system).items()
+            for name, (arguments, columns) in _kernel_expressions(system, known).items()
         }
         origin = partial(compiled_model, system)
-        _MODELS[key] = Model(slow=len(system.slow), target=len(system.target), origin=origin, **kernels)
+        _MODELS[key] = Model(
+            slow=len(system.slow),
+            target=len(system.target),
+            origin=origin,
+            bounds=bounds(system, known),
+            **kernels,
+        )
     return _MODELS[key]
 
 
@@ -85,9 +95,14 @@ def kernel_expressions(
     averaged : sympy.Expr, optional
         h0, where a derivation has found it already.
     """
+    return _kernel_expressions(system, averages(system) if averaged is None else (averaged, system.omega))
+
+
+def _kernel_expressions(
+    system: StandardForm, known: tuple[sp.Expr, sp.Expr] | None
+) -> dict[str, tuple[tuple[sp.Symbol, ...], Sequence[sp.Expr] | None]]:
     a, p, x, numbers = system.slow, system.costates, system.phase, tuple(system.numbers)
     z = (*a, *p)
-    known = averages(system) if averaged is None else (averaged, system.omega)
     integral = known is None and system.omega is None
     density: list[sp.Expr] | None = None
     switching: list[sp.Expr] | None = None

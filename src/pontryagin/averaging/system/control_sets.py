@@ -1,6 +1,6 @@
 """Convex sets of controls, each given by sigma(s) = max over its controls u of (s'u - cost of u)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
@@ -10,6 +10,7 @@ import sympy as sp
 from pontryagin.averaging.system.control_checks import Numbers, numeric, refusal, require_positive
 from pontryagin.averaging.system.expressions import expression, matrix, vector
 from pontryagin.errors import ArgumentTypeError
+from pontryagin.validation import require_bare
 from pontryagin.value import value_class
 
 Number: TypeAlias = "float | sp.Expr"
@@ -64,7 +65,7 @@ class Quadratic:
     def support(self, s: Sequence[sp.Expr]) -> sp.Expr:
         """s' R^-1 s / 4."""
         row = sp.Matrix(vector("s", s))
-        return sp.expand((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
+        return _expanded((row.T * self._matrix(len(s)).inv() * row)[0]) / 4
 
     def maximiser(self, s: Sequence[sp.Expr]) -> sp.Matrix:
         """R^-1 s / 2."""
@@ -73,7 +74,7 @@ class Quadratic:
     def cost(self, u: Sequence[sp.Expr]) -> sp.Expr:
         """u'Ru."""
         row = sp.Matrix(vector("u", u))
-        return sp.expand((row.T * self._matrix(len(u)) * row)[0])
+        return _expanded((row.T * self._matrix(len(u)) * row)[0])
 
     def require_convex(self, dimension: int, numbers: Numbers) -> None:
         """R must be symmetric positive definite."""
@@ -267,8 +268,9 @@ class BoundedQuadratic:
 def _entries(name: str, values: Any) -> tuple[Number, ...]:
     """The numbers and expressions of a sequence, as they are given but checked."""
     argument = name.partition(": ")[2]
+    require_bare(argument, values, "a sequence such as a list")
     try:
-        entries = None if isinstance(values, str | bytes) else tuple(values)
+        entries = None if isinstance(values, str | bytes | Set | Mapping) else tuple(values)
     except TypeError:
         entries = None
     if entries is None:
@@ -276,6 +278,11 @@ def _entries(name: str, values: Any) -> tuple[Number, ...]:
     for i, value in enumerate(entries):
         expression(f"{name}[{i}]", value, argument)
     return entries
+
+
+def _expanded(square: sp.Expr) -> sp.Expr:
+    """Products multiplied out, but no exponential divided into factors, which may overflow by themselves."""
+    return sp.expand(square, power_exp=False)
 
 
 def _norm(s: Sequence[sp.Expr]) -> sp.Expr:

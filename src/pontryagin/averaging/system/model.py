@@ -1,9 +1,9 @@
 """The averaged Hamiltonian h0 of a phase system, (2.3), as compiled kernels and their quadrature."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.system.jets import Jet, Kernel, evaluate, jet, width
 from pontryagin.numerics.periodic_means import SOLVING, MeanRule, find_switches, mean
 from pontryagin.numerics.quadrature import Density
+
+if TYPE_CHECKING:
+    from pontryagin.averaging.system.bounds import Bounds
 
 BESIDE = 1e-9
 """Distance from a switch at which one-sided derivatives are taken; they enter Newton's matrix only."""
@@ -47,6 +50,10 @@ class Model:
         1 / r, proportional to dpsi/dx.
     origin : functools.partial
         Call that makes the same model again; pickles hold it instead of the kernels.
+    bounds : Bounds, optional
+        What is enclosed of the system; None for those that are known to have no narrow features.
+    turn : tuple of float
+        Ends of the cells of a turn on which the density was found to be bounded, where some are narrow.
     """
 
     slow: int
@@ -60,10 +67,16 @@ class Model:
     rates: Kernel
     pace: Kernel
     origin: "partial[Model]"
+    bounds: "Bounds | None" = None
+    turn: tuple[float, ...] = ()
 
     def __reduce__(self) -> tuple[Callable[..., "Model"], tuple[Any, ...]]:
         """Pickles and copies hold what the model is made from, since compiled kernels do not pickle."""
-        return self.origin.func, self.origin.args
+        return _made, (self.origin, self.turn)
+
+    def with_turn(self, turn: tuple[float, ...]) -> "Model":
+        """The same model, whose means heed other cells of a turn."""
+        return self if turn == self.turn else replace(self, turn=turn)
 
     def averaged(self, z: Array, numbers: tuple[Array, ...], rule: MeanRule = SOLVING) -> tuple[Jet, Jet]:
         """Jets of h0 and of omega in z = (a, p) at points z (..., 2n)."""
@@ -92,7 +105,7 @@ class Model:
         own, judged = width(2 * n), np.arange(1 + 2 * n)
         if self.frequency is None:
             judged = np.append(judged, own + 1 + np.arange(1 + n))
-        columns = mean(density, switches, rule, judged)
+        columns = mean(density, switches, rule.on(self.turn), judged)
         h = jet(columns[:, :own], 2 * n)
         if not np.isnan(switches).all():
             h = Jet(h.value, h.gradient, h.hessian + self._jumps(density, switches))
@@ -110,7 +123,7 @@ class Model:
             pace = evaluate(self.pace, *here, x, *values)
             return np.concatenate([pace * evaluate(self.rates, *here, x, *u, *values), pace], axis=-1)
 
-        means = mean(density, self.switches(z, numbers), rule)
+        means = mean(density, self.switches(z, numbers), rule.on(self.turn))
         means = means[:, :-1] / means[:, -1:]
         return means[:, :-1], means[:, -1]
 
@@ -156,6 +169,10 @@ class Model:
         columns = evaluate(self.boundary, *np.moveaxis(a, -1, 0), *numbers)
         each = columns.reshape(*columns.shape[:-1], self.target + 1, -1)
         return jet(each[..., :-1, :], self.slow), jet(each[..., -1, :], self.slow)
+
+
+def _made(origin: "partial[Model]", turn: tuple[float, ...]) -> Model:
+    return origin().with_turn(turn)
 
 
 def _over(kernel: Kernel, point: tuple[Array, ...], numbers: tuple[Array, ...]) -> Density:

@@ -47,8 +47,8 @@ DISCS = (3.0, 5.0, 2.2)
 NEAR = 1e-4
 """Within this share of a stretch, panels beside a singularity at its end are judged by their values."""
 
-SLIVER = 1e-6
-"""Stretches between two singularities that are narrower than this share of the interval are so as well."""
+SLIVER = 1e-7
+"""Stretches that end at a singularity and are narrower than this share of the interval are so as well."""
 
 NARROW = 1e-2
 """Ends of stretches up to this share of their interval are known better than the clock tells."""
@@ -215,11 +215,8 @@ class Analytic:
         piece = np.searchsorted(self.starts, low / 2 + high / 2, side="right") - 1
         at_start = self.singular[piece, 0] & (low == self.starts[piece])
         at_end = self.singular[piece, 1] & (high == self.ends[piece])
-        sliver = (
-            at_start
-            & at_end
-            & (high - low <= SLIVER * np.repeat(clock[:, -1] - clock[:, 0], clock.shape[1] - 1))
-        )
+        interval = np.repeat(clock[:, -1] - clock[:, 0], clock.shape[1] - 1)
+        sliver = (at_start | at_end) & (high - low <= SLIVER * interval)
 
         def value(stretch: NDArray[np.intp], time: Array) -> Array:
             result = self._each(piece[stretch], lambda form, *given: form.value(*given), time)
