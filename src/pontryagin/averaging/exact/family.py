@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.beginning import broken, from_the_start
@@ -127,7 +128,7 @@ def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
     """Anomalies after the start for the members of a turn; turn 0 is about theta and has it."""
     step = 2 * np.pi / size
     angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
-    own = (angles == theta) & (theta > problem.anomaly)
+    own: NDArray[np.bool_] = (angles == theta) & (theta > problem.anomaly)
     return angles[(angles > problem.anomaly + step / 2) | own]
 
 
