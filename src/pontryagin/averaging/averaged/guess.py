@@ -12,8 +12,8 @@ from pontryagin.numerics.collocation import Mesh, derivative, evaluate
 
 GROWTHS, FAR = 40, 10
 """Largest number of Newton steps for a costate's length. Each of the first may multiply it by eight, each one
-after ten by eight times more than the one before. Then the root is also sought in the logarithms of length and
-H0, which are all but linear far from it."""
+after ten by eight times more than the one before. Then the root is also sought in the logarithms of length
+and H0, which are all but linear far from it."""
 KNOWN = 1e-6
 """Growth of H0, relative to its value at a zero costate, that rounding leaves digits of."""
 FARTHEST = 1e280
@@ -189,14 +189,12 @@ def _nearest(problem: Problem) -> tuple[Array, Array]:
     return end, direction / np.where(size > 0, size, 1)
 
 
-def _level(
-    problem: Problem, slow: Array, direction: Array, first: Array | float = 1.0
-) -> tuple[Array, NDArray[np.bool_]]:
+def _level(problem: Problem, slow: Array, direction: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Lengths (s, k) of the costate along `direction` at which H0 = 0; H0 is convex along it.
 
-    Newton's method with bounded steps from the first length. Where it does not settle, the length is 1 and marked as stuck, (s, k).
+    Newton's method with bounded steps. Where it does not settle, the length is 1 and marked as stuck, (s, k).
     """
-    length: Array = np.broadcast_to(first, slow.shape[:-1])
+    length = np.ones(slow.shape[:-1])
     idle, _ = _along(problem, slow, direction, np.full(slow.shape[:-1], 1 / FARTHEST))
     for k in range(GROWTHS):
         value, slope = _along(problem, slow, direction, length)

@@ -104,10 +104,13 @@ class Rendezvous:
         """Refuse numbers that overflow or vanish in units of the target's orbit."""
         try:
             scaled = self.scaled
-            units = [scaled.time, scaled.acceleration, scaled.value, *scaled.start, scaled.duration or 1.0]
+            r, v1, c = scaled.start.tolist()
+            units = [scaled.time, scaled.acceleration, scaled.value, r, c]
+            units += [v1] if self.chaser.v1 else []
+            units += [] if scaled.duration is None else [scaled.duration]
             units += [] if self.peak == math.inf else [scaled.peak]
             units += [scaled.ratio] if self.time_weight and self.energy_weight else []
-            sound = all(TINY <= abs(x) < math.inf or x == self.chaser.v1 == 0 for x in units)
+            sound = all(TINY <= abs(x) < math.inf for x in units)
         except (OverflowError, ZeroDivisionError):
             sound = False
         if not sound:
