@@ -118,7 +118,7 @@ class Sample:
 
 
 def _source(path: Path, test: str) -> bytes:
-    """The text of a test in its file, by its name without parameters; of the whole file, if it is not there."""
+    """The text of a test, by its name without parameters; of the whole file, where there is no such test."""
     text = path.read_text(encoding="utf-8")
     name = test.partition("[")[0].rpartition("::")[2]
     for node in ast.walk(ast.parse(text)):
