@@ -131,6 +131,15 @@ class TestAnswers:
         assert re.search(r"^ +first durations +6 *$", shown, re.MULTILINE)
         assert "it is not claimed that no other control costs less" in " ".join(shown.split())
 
+    def test_the_table_says_what_was_given_up_and_why(self):
+        reasons = [
+            f"lap {lap}: the walk broke off (residual {lap}.5e-01)" for lap in (1, 1, 2, 3, 4, 5, 6, 7)
+        ]
+        lines = transcript._most_frequent(reasons)
+        assert lines[0] == "lap 1: the walk broke off (2 times)" and lines[1] == "lap 2: the walk broke off"
+        assert len(lines) == 7 and lines[-1] == "and 1 others"
+        assert len(transcript._most_frequent(reasons[:3])) == 2
+
     def test_up_to_six_other_extremals_are_listed_and_the_rest_is_counted(self):
         output = {
             "problem": {"duration": None},

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentValueError
-from pontryagin.validation import positive, require_bare, vectors
+from pontryagin.validation import angles, positive, require_bare, vectors
 
 
 def state(z0: ArrayLike) -> Array:
@@ -20,6 +20,14 @@ def state(z0: ArrayLike) -> Array:
 def positive_number(name: str, value: ArrayLike) -> float:
     """One finite number greater than 0."""
     array = positive(name, value)
+    if array.ndim:
+        raise ArgumentValueError(f"{name} must be a single number, got shape {array.shape}", name)
+    return float(array)
+
+
+def angle(name: str, value: ArrayLike) -> float:
+    """One angle in radians."""
+    array = angles(name, value, "a number")
     if array.ndim:
         raise ArgumentValueError(f"{name} must be a single number, got shape {array.shape}", name)
     return float(array)

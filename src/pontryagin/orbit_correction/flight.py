@@ -115,7 +115,7 @@ def fly(z0: ArrayLike, impulses: ArrayLike, interval: float, angle: float = 0.0)
     if kicks.ndim != 2:
         raise ArgumentValueError(f"impulses must be an array (M, 2), got shape {kicks.shape}", "impulses")
     step = arguments.positive_number("interval", interval)
-    states, angles = [start], [float(angle)]
+    states, angles = [start], [arguments.angle("angle", angle)]
     for kick in kicks:
         kicked = np.append(states[-1] + CIRCLE + np.array([0.0, *kick]), angles[-1])
         reached = motion()(kicked, [0.0, step])[-1]

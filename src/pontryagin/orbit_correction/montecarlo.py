@@ -70,7 +70,7 @@ def injection_errors(covariance: ArrayLike, samples: int, seed: int = 0) -> Arra
         raise ArgumentValueError(
             f"covariance must have no negative eigenvalue, got {values[0]:.3g}", "covariance"
         )
-    normal = np.random.default_rng(seed).standard_normal((number, 3))
+    normal = np.random.default_rng(arguments.count("seed", seed, least=0)).standard_normal((number, 3))
     return np.asarray(normal * np.sqrt(np.maximum(values, 0.0)) @ axes.T)
 
 

@@ -72,4 +72,4 @@ def random_states(count: int, size: float = 0.01, seed: int = 2017) -> Array:
     (500, 3)
     """
     number, spread = arguments.count("count", count), arguments.positive_number("size", size)
-    return spread * np.random.default_rng(seed).standard_normal((number, 3))
+    return spread * np.random.default_rng(arguments.count("seed", seed, least=0)).standard_normal((number, 3))

@@ -1,5 +1,7 @@
 """A solved rendezvous as the command line prints it: a table or JSON."""
 
+import re
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -26,7 +28,9 @@ CERTIFICATE = (
 )
 """The residuals of the certificate that are printed."""
 LISTED = 6
-"""Number of extremals besides the best one that a table lists; JSON holds all."""
+"""Number of extremals besides the best one, and of reasons, that a table lists; JSON holds all."""
+RESIDUAL = re.compile(r" \(residual [^)]*\)")
+"""The end of a reason that tells a residual."""
 
 
 def transcript(extremal: Extremal) -> Report:
@@ -125,8 +129,17 @@ def table(report: Report) -> Report:
             "search ended": searched["ends"],
             "attempts given up": len(searched["given_up"]),
         }
+        if searched["given_up"]:
+            rows["searched"]["given up"] = _most_frequent(searched["given_up"])
     order = ("problem", "solution", "certificate", "others found", "searched")
     return {heading: rows[heading] for heading in order if heading in rows}
+
+
+def _most_frequent(reasons: list[str]) -> list[str]:
+    """What was given up and why, without residuals, the most frequent first, and how often if repeatedly."""
+    counts = Counter(RESIDUAL.sub("", reason) for reason in reasons).most_common()
+    lines = [f"{reason} ({count} times)" if count > 1 else reason for reason, count in counts[:LISTED]]
+    return [*lines, f"and {len(counts) - LISTED} others"] if len(counts) > LISTED else lines
 
 
 def _short(value: Any) -> str:

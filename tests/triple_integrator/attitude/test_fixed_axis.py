@@ -157,3 +157,20 @@ def test_a_stack_is_refused():
     stack = minimum_energy(Maneuver(np.zeros((2, 3)), np.ones((2, 3)), tf=1.0))
     with pytest.raises(ValueError, match=r"programme must be .* got a stack of shape \(2,\)"):
         turn(BODY, AXIS, stack)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("origin", [0.0, 1e6])
+def test_a_pulse_that_is_told_or_known_pushes_the_body(origin):
+    """A torque impulse of J e over a millionth of the turn: the programme, which knows it, still arrives."""
+    low, high = origin + 0.7, origin + 0.7 + 2e-6
+
+    def pulse(t):
+        return np.where((t >= low) & (t < high), 1 / (high - low), 0.0)
+
+    t = sp.Symbol("t")
+    known = sp.Piecewise((1 / (high - low), (t >= low) & (t < high)), (0, True))
+    for force, edges in ((pulse, [low, high]), (known, ())):
+        m = Maneuver([0, 0, 0], [1.5, 0, 0], origin + 2, origin, disturbance=force, edges=edges)
+        assert_allclose(m.moments[1], -1.0, rtol=1e-9)
+        assert turn(BODY, [1, 2, 2], minimum_peak(m)).attitude_miss < 1e-9

@@ -1,9 +1,12 @@
 """Disturbances given as expressions: kinks and narrow features are found wherever they are, or refused."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import sympy as sp
 from numpy.testing import assert_allclose, assert_array_equal
+from scipy.integrate import quad
 
 from pontryagin import NotConverged
 from pontryagin.io import formula
@@ -95,6 +98,14 @@ def test_steps_between_the_times_of_the_clock_keep_their_digits():
     assert_allclose(moment(pulse), 1e-9, rtol=1e-13)
 
 
+@pytest.mark.parametrize(("start", "atol"), [(0, 1e-14), (10**3, 1e-14), (10**6, 1e-13), (10**9, 1e-9)])
+def test_a_kink_and_a_bump_far_from_zero(start, atol):
+    """Values are those at the times of the clock, but the kink's time is known exactly."""
+    bump = sp.exp(-(((t - start - R(2657, 2500)) * 1000) ** 2))
+    m = of(bump + sp.Heaviside(t - start - R(1, 3)), start + 2.0, float(start))
+    assert_allclose(-m.moments[1], 5 / 3 + 1e-3 * np.sqrt(np.pi), rtol=0, atol=atol)
+
+
 @pytest.mark.parametrize(
     ("force", "error", "message"),
     [
@@ -152,3 +163,23 @@ def test_the_control_meets_the_target_under_a_pulse():
     assert_allclose(minimum_peak(m).state(2.0)[0], [1, 0, 0], atol=1e-12)
     before, after = m.drift([2 / 3, 2 / 3 + 1e-5])[:, 1]
     assert_allclose([before, after], [0, 1], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        sp.sqrt(sp.Abs((t - R(26, 25)) * sp.frac(3 * t))),
+        sp.Max(1 / (sp.Abs(sp.cos(3 * t)) + 1), sp.sin(12 * t + R(19, 25))),
+        sp.Max(sp.sqrt(sp.Abs(sp.sin(10 * t + R(177, 100)))) * sp.frac(3 * t), sp.sin(7 * t + R(199, 100))),
+        sp.sqrt(1 - sp.cos(t - 1)),
+        1 / (1 + sp.exp(-50 * sp.sin(20 * t))),
+    ],
+)
+def test_kinks_that_meet_singularities(force):
+    """QUADPACK, between the kinks that were found."""
+    m, f = of(force), sp.lambdify(t, force, "numpy")
+    cuts = [0.0, *np.unique(m.edge_offsets), 2.0]
+    parts = [
+        quad(f, a, b, epsabs=1e-13, epsrel=1e-12, limit=200)[0] for a, b in pairwise(cuts) if b > a + 1e-7
+    ]
+    assert_allclose(-m.moments[1], sum(parts), rtol=1e-9)

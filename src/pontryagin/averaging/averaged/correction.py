@@ -5,8 +5,10 @@ ends, and of the integral along the extremal of the mean of
 k2 - (dk1/dp minus its mean) d(primitive of k1)/da.
 """
 
+import math
 from collections.abc import Callable
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,6 +21,8 @@ from pontryagin.numerics import compile as compiler
 
 POINTS = (64, 128, 256, 512, 1024, 2048, 4096)
 """Numbers of points on a turn, tried in this order."""
+NODES_OF_A_CELL = 70
+"""Number of points over a length for which a Fourier series is exact to rounding; see `MeanRule.on`."""
 NODES = (12, 24, 48, 96)
 """Numbers of Gauss points along the averaged solution, tried in this order."""
 SETTLED, ROUGH = 1e-11, 1e-6
@@ -60,7 +64,8 @@ def terms(reference: ReferenceExtremal, start: Array, ending: Array | None = Non
             "ending",
         )
     first, last = _ends(reference, equations, start, ending)
-    way = _settled(lambda size: _integral(reference, equations, size), "the mean Hamiltonian")
+    sizes = _sizes(reference)
+    way = _settled(lambda size: _integral(reference, equations, size), "the mean Hamiltonian", sizes)
     return {"start": first, "end": -last, "way": -way}
 
 
@@ -76,7 +81,7 @@ def _ends(
         there = _largest(series[..., 1, :]) if ending is None else _sum(series[..., 1, :], ending)
         return np.stack(np.broadcast_arrays(first, there))
 
-    first, there = _settled(values, "the primitive of the Hamiltonian")
+    first, there = _settled(values, "the primitive of the Hamiltonian", _sizes(reference))
     return first, there
 
 
@@ -97,6 +102,19 @@ def _integral(reference: ReferenceExtremal, equations: Canonical, size: int) -> 
         return np.asarray((weight * frequency * second).sum(axis=-1) * reference.duration / 2)
 
     return _settled(values, "the integral along the averaged solution", NODES)
+
+
+def _sizes(reference: ReferenceExtremal) -> tuple[int, ...]:
+    """Numbers of points on a turn that do not miss narrow features of the system."""
+    least = NODES_OF_A_CELL / min((b - a for a, b in pairwise(reference.turn)), default=math.inf)
+    sizes = tuple(size for size in POINTS if size >= least)
+    if len(sizes) < 2:
+        raise NotConverged(
+            f"the correction takes at most {POINTS[-1]} points on a turn, and features of the phase are too "
+            "narrow for them",
+            least,
+        )
+    return sizes
 
 
 def _settled(values: Callable[[int], Array], what: str, sizes: tuple[int, ...] = POINTS) -> Array:

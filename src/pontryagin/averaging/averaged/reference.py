@@ -37,6 +37,10 @@ class ReferenceExtremal(Protocol):
     def multipliers(self) -> Array:
         """alpha of the target's conditions, (..., r)."""
 
+    @property
+    def turn(self) -> tuple[float, ...]:
+        """Ends of cells of a turn that hold narrow features of the system; empty if there are none."""
+
     def slow(self, tau: ArrayLike) -> Array:
         """xi at slow times (k,) or (..., k), as (..., k, n)."""
 

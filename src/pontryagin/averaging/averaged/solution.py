@@ -13,8 +13,10 @@ from pontryagin.averaging.averaged.certificate import AveragedCertificate
 from pontryagin.averaging.system.anomaly import anomaly_at, phase_at
 from pontryagin.averaging.system.jets import evaluate
 from pontryagin.averaging.system.model import Model
-from pontryagin.errors import ArgumentValueError
+from pontryagin.certificate import ACCEPTED
+from pontryagin.errors import ArgumentValueError, NotConverged
 from pontryagin.numerics.collocation import evaluate as evaluate_series
+from pontryagin.numerics.periodic_means import SOLVING
 from pontryagin.numerics.rotation import within_a_turn
 from pontryagin.validation import angles, finite, times
 from pontryagin.value import value_class
@@ -87,6 +89,11 @@ class AveragedSolution:
     def system(self) -> "PhaseSystem":
         """The `PhaseSystem` that was averaged."""
         return self.make_system()
+
+    @property
+    def turn(self) -> tuple[float, ...]:
+        """Ends of cells of a turn that hold narrow features of the system; empty if there are none."""
+        return SOLVING.on(self.model.turn).edges
 
     def slow(self, tau: ArrayLike) -> Array:
         """xi at slow times tau (k,) or (..., k), as (..., k, n)."""
@@ -189,6 +196,8 @@ class AveragedSolution:
         ------
         ValueError
             If epsilon is not positive, or leaves more turns than can be followed, or the solution is a stack.
+        NotConverged
+            If no extremal is found, or one passes over features of the phase narrower than its steps.
         """
         small = _positive_epsilon(epsilon)
         if self.duration.shape:
@@ -212,7 +221,7 @@ class AveragedSolution:
         begin = within_a_turn(begin)
         from pontryagin.averaging.exact.roots import extremals
 
-        return extremals(
+        found = extremals(
             self._regular,
             small,
             float(begin),
@@ -220,6 +229,9 @@ class AveragedSolution:
             end=float(self.anomaly(self.duration, small, begin)[0]),
             to_phase=partial(phase_at, self.model, numbers=self.numbers),
         )
+        if self.turn:
+            _require_certified(found)
+        return found
 
     @property
     def _regular(self) -> "ReferenceExtremal":
@@ -238,6 +250,15 @@ class AveragedSolution:
         duration = self.duration[..., None]
         share = np.divide(inside, duration, out=np.zeros(inside.shape), where=duration > 0)
         return evaluate_series(self.edges, self.series, share)
+
+
+def _require_certified(found: "Extremals") -> None:
+    """Raise if an extremal, found with steps of any length, passes over narrow features of the phase."""
+    worst = max((float(extremal.certificate.residual) for extremal in found), default=0.0)
+    if not worst <= ACCEPTED:
+        raise NotConverged(
+            "exact extremals were found only with steps that pass over narrow features of the phase", worst
+        )
 
 
 def _positive_epsilon(epsilon: float) -> float:

@@ -3,6 +3,7 @@
 A mode is a parameter, 1 or -1, that is constant on an arc and changes where its function vanishes.
 """
 
+import math
 from collections.abc import Hashable, Sequence
 from functools import lru_cache
 
@@ -75,10 +76,12 @@ def switched_flow(
     """`pontryagin.numerics.flow.flow` for rates that contain modes."""
     along = _integrator(modes, tuple(states), tuple(rates), tuple(parameters), clock, ())
 
-    def sample(start: ArrayLike, times: ArrayLike, values: ArrayLike = ()) -> Array:
+    def sample(
+        start: ArrayLike, times: ArrayLike, values: ArrayLike = (), longest: float = math.inf
+    ) -> Array:
         state, grid, constants = (np.asarray(value, dtype=float) for value in (start, times, values))
         signs = signs_at(along, float(grid[0]), state, constants)
-        return follow_on_grid(_flow(along, constants), state, signs, grid)
+        return follow_on_grid(_flow(along, constants, longest), state, signs, grid)
 
     return sample
 
@@ -98,9 +101,9 @@ def _integrator(
     return integrator(Symbolic(states, rates, (*parameters, *symbols), clock, wrt, events))
 
 
-def _flow(along: Integrator, constants: Array) -> SwitchedFlow[Signs]:
+def _flow(along: Integrator, constants: Array, longest: float = math.inf) -> SwitchedFlow[Signs]:
     return SwitchedFlow(
-        arc=lambda signs: Arc(along, np.append(constants, signs)),
+        arc=lambda signs: Arc(along, np.append(constants, signs), longest),
         following=lambda signs, i: (*signs[:i], -signs[i], *signs[i + 1 :]),
         jumps=True,
         most=STEPS,

@@ -14,13 +14,15 @@ from pontryagin.arrays import Array
 from pontryagin.averaging.exact.arcs import switched_flow
 from pontryagin.averaging.exact.canonical import Canonical, y
 from pontryagin.averaging.exact.shooting import TOLERANCE, Shooting, Shot
-from pontryagin.certificate import MaximumPrinciple
+from pontryagin.certificate import TINY, MaximumPrinciple
 from pontryagin.numerics import compile as compiler
 from pontryagin.numerics.flow import Flow, integrator
 from pontryagin.numerics.symbolic import Symbolic
 
 SAMPLES = 200
 """The Hamiltonian and its maximum are evaluated at this many points of the trajectory."""
+SWIFT = 4.0
+"""How many times its mean rate the anomaly may have where steps must not pass over features."""
 
 
 def certificate(problem: Shooting, shot: Shot) -> MaximumPrinciple:
@@ -43,7 +45,8 @@ def certificate(problem: Shooting, shot: Shot) -> MaximumPrinciple:
     n, r = len(problem.start), len(problem.scale_m)
     start = np.append(problem.starts(shot.unknowns)[0], problem.anomaly)
     times = np.linspace(0.0, 1.0, SAMPLES + 1) * shot.duration
-    path = _follow(problem.equations)(start, times, problem.parameters)
+    longest = problem.longest * shot.duration[0] / max(abs(shot.theta[0] - problem.anomaly), TINY)
+    path = _follow(problem.equations)(start, times, problem.parameters, longest / SWIFT)
     price = float(np.abs(shot.cost[0]) / shot.duration[0])
     values = _along(problem.equations)(*path[:, : 2 * n + 1].T, path[:, -1], *problem.parameters)
     hamiltonian, gap = (np.abs(value).max() / price for value in values)
@@ -67,4 +70,4 @@ def _follow(equations: Canonical) -> Flow:
     if equations.modes:
         return switched_flow(equations.modes, states, rates, equations.parameters)
     along = integrator(Symbolic(states, rates, equations.parameters), TOLERANCE)
-    return lambda start, times, parameters: along.sample(start, times, parameters)[0]
+    return lambda start, times, parameters, longest: along.sample(start, times, parameters, longest)[0]

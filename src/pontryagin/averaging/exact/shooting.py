@@ -5,6 +5,7 @@ residual there is M(a1) and p1 + g' + alpha M', in units of the problem's own si
 its roots are sought along the family of solutions over theta.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
@@ -129,6 +130,8 @@ class Shooting:
         Sizes of slow variables, costates and target.
     price : float
         Mean running cost J0/tau1, the size of h*.
+    longest : float
+        Longest step of the anomaly by which the certificate may follow an extremal.
     """
 
     equations: Canonical
@@ -139,6 +142,7 @@ class Shooting:
     scale_p: Array
     scale_m: Array
     price: float
+    longest: float = math.inf
 
     def shoot(self, theta: Array, w: Array, tolerance: float = TOLERANCE) -> Shot:
         """Follow the extremals with the initial costates p0 to the anomalies theta.
@@ -240,6 +244,7 @@ def shooting(reference: ReferenceExtremal, epsilon: float, anomaly: float) -> Sh
         scale_p,
         np.abs(jacobian) @ scale_a,
         abs(float(reference.cost / reference.duration)),
+        2 * float(min(np.diff(reference.turn), default=math.inf)),
     )
 
 

@@ -54,6 +54,11 @@ class RotatingFrame:
         """Multipliers of z = 0: minus the costates of z."""
         return -self.costate(np.zeros(1))[..., 0, :2]
 
+    @property
+    def turn(self) -> tuple[float, ...]:
+        """No cells of a turn: the body has no narrow features."""
+        return ()
+
     def slow(self, tau: ArrayLike) -> Array:
         """(z_1, z_2, c), (..., k, 3): z keeps its direction."""
         return _inserted(self.averaged.slow(tau))

@@ -1,6 +1,6 @@
 """Convex sets of controls, each given by sigma(s) = max over its controls u of (s'u - cost of u)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
@@ -10,6 +10,7 @@ import sympy as sp
 from pontryagin.averaging.system.control_checks import Numbers, numeric, refusal, require_positive
 from pontryagin.averaging.system.expressions import expression, matrix, vector
 from pontryagin.errors import ArgumentTypeError
+from pontryagin.validation import require_bare
 from pontryagin.value import value_class
 
 Number: TypeAlias = "float | sp.Expr"
@@ -267,8 +268,9 @@ class BoundedQuadratic:
 def _entries(name: str, values: Any) -> tuple[Number, ...]:
     """The numbers and expressions of a sequence, as they are given but checked."""
     argument = name.partition(": ")[2]
+    require_bare(argument, values, "a sequence such as a list")
     try:
-        entries = None if isinstance(values, str | bytes) else tuple(values)
+        entries = None if isinstance(values, str | bytes | Set | Mapping) else tuple(values)
     except TypeError:
         entries = None
     if entries is None:

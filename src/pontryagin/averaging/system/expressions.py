@@ -15,6 +15,7 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.validation import require_bare
 
 KINKED = (sp.Abs, sp.sign, sp.Piecewise, sp.Heaviside)
 """Functions with kinks or jumps, between which they are differentiated."""
@@ -47,12 +48,15 @@ def expression(name: str, value: Any, argument: str | None = None) -> sp.Expr:
     pontryagin.errors.ArgumentTypeError: mass must be a SymPy expression or a number, got the text '2'
     """
     argument = argument or name.partition("[")[0]
+    require_bare(argument, value, "a SymPy expression or a number")
     read = _read(value[()] if isinstance(value, np.ndarray) and not value.ndim else value)
     if read is None:
         given = "the text " if isinstance(value, str) else ""
         raise ArgumentTypeError(
             f"{name} must be a SymPy expression or a number, got {given}{value!r}", argument
         )
+    if read.has(sp.nan):
+        raise ArgumentValueError(f"{name} must be finite, got {read}", argument)
     for call in sorted(read.atoms(sp.Function, sp.Derivative, sp.Subs, ExprWithLimits), key=str):
         if isinstance(call, AppliedUndef):
             raise ArgumentValueError(f"{name} holds the function {call.func}, which is not defined", argument)
@@ -85,6 +89,8 @@ def _read(value: Any) -> sp.Expr | None:
     if isinstance(value, sp.Basic):
         return value if isinstance(value, sp.Expr) else None
     if isinstance(value, str | bytes) or not hasattr(value, "__float__") or hasattr(value, "__iter__"):
+        return None
+    if isinstance(value, np.generic) and value.dtype.kind not in "fiu":
         return None
     try:
         read = sp.sympify(value, strict=True)
@@ -122,6 +128,7 @@ def matrix(name: str, value: Any, argument: str) -> sp.ImmutableMatrix:
     [2, 0],
     [0, r]])
     """
+    require_bare(argument, value, "a number or a matrix")
     rows = value.tolist() if hasattr(value, "tolist") else value
     if isinstance(rows, list | tuple) and all(isinstance(row, list | tuple) for row in rows):
         if len({len(row) for row in rows}) > 1:
@@ -142,6 +149,7 @@ def vector(name: str, values: Sequence[Any]) -> list[sp.Expr]:
     >>> vector("s", [1, sp.Symbol("p")])
     [1, p]
     """
+    require_bare(name, values, "a sequence of numbers or expressions")
     entries = values if isinstance(values, list | tuple) else getattr(values, "tolist", lambda: None)()
     if entries is None:
         raise ArgumentTypeError(f"{name} must be a sequence of numbers or expressions, got {values!r}", name)

@@ -7,6 +7,7 @@ guesses for the next and, at its end, for Newton's method on flights, so that a 
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from pontryagin.arrays import Array
 from pontryagin.errors import NotConverged
 from pontryagin.numerics.continuation import Point, march
 from pontryagin.rendezvous import kernels
+from pontryagin.rendezvous.laps import folds
 from pontryagin.rendezvous.laps.ends import Ends
 from pontryagin.rendezvous.laps.equinoctial import Lap
 from pontryagin.rendezvous.laps.hamiltonian import Cost, RunningCost
@@ -56,7 +58,9 @@ def points(
 
     def at(parameter: float, guess: Array) -> Point[None]:
         near = Path.of(guess)
-        return Point(extremal(*posed(parameter, near), near, ROUGH).unknowns, parameter, None)
+        with np.errstate(invalid="ignore"):  # A guess by the secant may leave the ellipses.
+            ends, cost, duration = posed(parameter, near)
+        return Point(extremal(ends, cost, duration, near, ROUGH).unknowns, parameter, None)
 
     return march(
         at,
@@ -70,8 +74,8 @@ def points(
     )
 
 
-def continued(posed: Posed, path: Path, begin: float, end: float, least: float = LEAST) -> Path:
-    """The extremal at the last value of the parameter, from that at the first.
+def continued(posed: Posed, path: Path, begin: float, end: float, name: str, least: float = LEAST) -> Path:
+    """The extremal at the last value of a parameter with a name, from that at the first.
 
     The continuation ends at steps below ``least``, in units of its length.
 
@@ -83,8 +87,39 @@ def continued(posed: Posed, path: Path, begin: float, end: float, least: float =
     way = abs(end - begin)
     *_, last = points(posed, path, begin, end, (FIRST * way, LARGEST * way, least * way))
     if last.parameter != end:
-        raise NotConverged("the continuation on this lap ended", abs(end - last.parameter) / way)
+        left = abs(end - last.parameter) / way
+        raise NotConverged(f"the walk over {name} broke off at {1 - left:.0%} of its length", left)
     return Path.of(last.unknowns)
+
+
+def stretched(ends: Ends, path: Path, duration: float, round_folds: bool) -> Path:
+    """The extremal of least energy of another duration; if wanted, the walk goes on round folds.
+
+    Raises
+    ------
+    NotConverged
+        If the walk breaks off, or has taken too many steps.
+    """
+    begin, end = math.log(path.duration), math.log(duration)
+    way = abs(end - begin)
+    steps = FIRST * way, LARGEST * way, LEAST * way
+    walk = [*points(lambda x, _: (ends, LEAST_ENERGY, math.exp(x)), path, begin, end, steps)]
+    passed = [Path.of(point.unknowns) for point in walk]
+    if walk[-1].parameter == end:
+        return passed[-1]
+    onward = round_folds and len(passed) > 1
+    beyond = folds.along(ends, LEAST_ENERGY, *passed[-2:]) if onward else iter(())
+    for one, other in pairwise(chain(passed[-1:], beyond)):
+        if (one.duration - duration) * (other.duration - duration) <= 0:
+            share = (duration - one.duration) / (other.duration - one.duration)
+            guess = Path.of(one.unknowns + share * (other.unknowns - one.unknowns))
+            return extremal(ends, LEAST_ENERGY, duration, guess, ROUGH)
+        passed.append(other)
+    farthest = passed[-1].duration
+    raise NotConverged(
+        f"the walk over the duration broke off at {farthest:.4g}, before {duration:.4g}",
+        abs(math.log(farthest / duration)),
+    )
 
 
 def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
@@ -116,14 +151,19 @@ def least_energy(lap: Lap, duration: float, least: float = LEAST) -> Path:
                 start = extremal(*nearer(share), guesses.path(0), ROUGH)
                 if share == 1:
                     return start
-                return continued(lambda x, _: nearer(x), start, share, 1.0, least)
+                return continued(lambda x, _: nearer(x), start, share, 1.0, "the way to the target", least)
             except NotConverged as failure:
                 reason = failure
     raise reason
 
 
 def least_energy_by_way_of(
-    lap: Lap, duration: float, other: float, share: float = 1.0, per_lap: int = NODES_PER_LAP
+    lap: Lap,
+    duration: float,
+    other: float,
+    share: float = 1.0,
+    per_lap: int = NODES_PER_LAP,
+    round_folds: bool = False,
 ) -> Path:
     """The extremal of least energy, without a bound, of a fixed duration, continued from another duration.
 
@@ -140,11 +180,11 @@ def least_energy_by_way_of(
     if not guesses.durations.size:
         raise NotConverged("the meeting is not ahead of the craft", math.inf)
     path = extremal(lower, LEAST_ENERGY, other, guesses.path(0), ROUGH)
-    ends = math.log(other), math.log(duration)
-    path = continued(lambda x, _: (lower, LEAST_ENERGY, math.exp(x)), path, *ends)
+    path = stretched(lower, path, duration, round_folds)
     if share == 1.0:
         return path
-    return continued(lambda x, _: (tilted(lap, x), LEAST_ENERGY, duration), path, share, 1.0)
+    way = "the inclination"
+    return continued(lambda x, _: (tilted(lap, x), LEAST_ENERGY, duration), path, share, 1.0, way)
 
 
 def tilted(lap: Lap, share: float) -> Lap:
@@ -208,23 +248,29 @@ def least_time(ends: Ends, path: Path, peak: float, least: float = LEAST, doubli
         mean, slope = cost.mean_thrust(ends, guess)
         return ends, cost, guess.duration * math.exp(float(np.clip(-mean / slope, -FASTEST, FASTEST)))
 
-    path = _of_mean_thrust(ends, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)))
-    path = continued(posed, path, 0.5, LATE, least)
+    path = _of_mean_thrust(ends, PowerCost(0.5, peak), _scaled(path, 1 / (2 * peak**2)), doublings > 0)
+    name = "the exponent of the thrust"
+    path = continued(posed, path, 0.5, LATE, name, least)
     end = float(switching(ends, path)[-1])
-    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0, least)
+    path = continued(lambda theta, _: (ends, PowerCost(theta, peak, end), None), path, LATE, 0.0, name, least)
     path = refined(ends, PowerCost(0.0, peak, end), None, path, doublings)
     return _scaled(path, 1 / (peak * end))
 
 
-def _of_mean_thrust(ends: Ends, cost: PowerCost, path: Path) -> Path:
+def _of_mean_thrust(ends: Ends, cost: PowerCost, path: Path, round_folds: bool) -> Path:
     """The extremal whose mean thrust is the bound, from one of another duration."""
     begin, (mean, _) = math.log(path.duration), cost.mean_thrust(ends, path)
     end = begin + math.copysign(1.0, mean)
+    passed: list[Path] = []
     for point in points(lambda logarithm, _: (ends, cost, math.exp(logarithm)), path, begin, end, PACE):
-        here = Path.of(point.unknowns)
-        if cost.mean_thrust(ends, here)[0] * math.copysign(1.0, mean) < CLOSE:
-            return here
-    raise NotConverged("the mean thrust does not reach the bound", abs(mean))
+        passed.append(Path.of(point.unknowns))
+        if cost.mean_thrust(ends, passed[-1])[0] * math.copysign(1.0, mean) < CLOSE:
+            return passed[-1]
+    if round_folds and len(passed) > 1:
+        for here in folds.along(ends, cost, *passed[-2:]):
+            if abs(cost.mean_thrust(ends, here)[0]) < CLOSE:
+                return here
+    raise NotConverged("the mean thrust does not reach the bound along the duration", abs(mean))
 
 
 def _scaled(path: Path, factor: float) -> Path:

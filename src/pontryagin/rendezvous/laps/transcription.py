@@ -65,6 +65,26 @@ def switching(ends: Ends, path: Path) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
+class Plane:
+    """A plane in the space of the unknowns, in which an extremal of any duration is sought.
+
+    Attributes
+    ----------
+    normal : (n,) array
+        Its normal, as long as `Path.unknowns`.
+    offset : float
+        The scalar product of the normal and the unknowns in the plane.
+    """
+
+    normal: Array
+    offset: float
+
+
+Closing = float | Plane | None
+"""What determines the duration: its value, a plane through the unknowns, or None for the terminal law."""
+
+
+@dataclass(frozen=True, eq=False)
 class Transcription:
     """The equations of a transfer at given unknowns, and the step that solves them when linearised.
 
@@ -80,8 +100,8 @@ class Transcription:
     step: Array | None
 
 
-def transcribed(ends: Ends, cost: Cost, duration: float | None, path: Path) -> Transcription:
-    """The equations of the transfer between two ends, for a fixed duration or a free one, at a path."""
+def transcribed(ends: Ends, cost: Cost, closing: Closing, path: Path) -> Transcription:
+    """The equations of the transfer between two ends at a path; the last one determines the duration."""
     nodes, count = path.nodes, path.nodes.shape[1] - 1
     h = path.span / count
     middles = (nodes[:, 1:] + nodes[:, :-1]) / 2
@@ -90,13 +110,13 @@ def transcribed(ends: Ends, cost: Cost, duration: float | None, path: Path) -> T
     defects = nodes[:, 1:] - nodes[:, :-1] - h * changes
     met, moving = ends.meeting(path.duration)
     off_start = nodes[:6, 0] - ends.start
-    time, free = here.weight[:-2].sum() / count, duration is None
+    time = here.weight[:-2].sum() / count
     off = np.array(
         [
             *(nodes[:6, -1] - met),
             time * path.span - path.duration,
             here.value[-2],
-            here.gain[-1] - cost.time_weight if duration is None else path.duration - duration,
+            _closed(closing, cost, here, path),
         ]
     )
     residual = np.concatenate([defects.ravel(), off_start, off])
@@ -112,13 +132,27 @@ def transcribed(ends: Ends, cost: Cost, duration: float | None, path: Path) -> T
         matrix[6, 8] = -1.0
         matrix[7, kept] = here.slopes[-2] @ transfers[0]
         matrix[7, 6] += here.weight[-2]
-        matrix[8, kept] = here.gain_slopes[-1] @ final if free else 0.0
-        matrix[8, 8] = 0.0 if free else 1.0
+        if closing is None:
+            matrix[8, kept] = here.gain_slopes[-1] @ final
+        elif isinstance(closing, Plane):
+            matrix[8, kept] = np.tensordot(closing.normal[:-3].reshape(12, -1).T, transfers, 2)
+            matrix[8, 6:9] += closing.normal[-3:]
+        else:
+            matrix[8, 8] = 1.0
         found = np.linalg.solve(matrix[:, :9], -off - matrix[:, 9])
     except np.linalg.LinAlgError:
         return Transcription(residual, None)
     moved = (transfers @ np.append(found[:8], 1.0)).T
     return Transcription(residual, np.append(moved.ravel(), found[6:]))
+
+
+def _closed(closing: Closing, cost: Cost, here: Hamiltonian, path: Path) -> float:
+    """The residual of the last equation."""
+    if closing is None:
+        return float(here.gain[-1]) - cost.time_weight
+    if isinstance(closing, Plane):
+        return float(closing.normal @ path.unknowns) - closing.offset
+    return path.duration - closing
 
 
 def canonical(slopes: Array) -> Array:
@@ -155,7 +189,7 @@ def _transfers(h: float, here: Hamiltonian, changes: Array, defects: Array, off_
     return found[:, :12]
 
 
-def extremal(ends: Ends, cost: Cost, duration: float | None, guess: Path, accuracy: float = ACCURACY) -> Path:
+def extremal(ends: Ends, cost: Cost, closing: Closing, guess: Path, accuracy: float = ACCURACY) -> Path:
     """The transcribed extremal that Newton's method reaches, with full steps that become shorter.
 
     Raises
@@ -166,17 +200,17 @@ def extremal(ends: Ends, cost: Cost, duration: float | None, guess: Path, accura
     path, last = guess, math.inf
     for _ in range(ITERATIONS):
         with np.errstate(all="ignore"):
-            step = transcribed(ends, cost, duration, path).step
+            step = transcribed(ends, cost, closing, path).step
         if step is None or not np.isfinite(step).all():
-            raise NotConverged("the equations of a transfer on this lap are singular", math.inf)
+            raise NotConverged("the equations of a transfer are singular", math.inf)
         before, path = path, Path.of(path.unknowns + step)
         correction = distance(before, path)
         if correction > min(LARGEST, CONTRACTION * last) or not _admissible(ends, path):
-            raise NotConverged("no extremal was reached on this lap", correction)
+            raise NotConverged("no transcribed extremal was reached from a guess", correction)
         if (correction**2 if last == math.inf else expected(correction, last)) < accuracy:
             return path
         last = correction
-    raise NotConverged("no extremal was reached on this lap", last)
+    raise NotConverged("no transcribed extremal was reached from a guess", last)
 
 
 def refined(ends: Ends, cost: Cost, duration: float | None, path: Path, doublings: int) -> Path:

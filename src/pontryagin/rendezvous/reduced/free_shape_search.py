@@ -18,6 +18,7 @@ from pontryagin.rendezvous.laps.descent import Curve, Thrust
 from pontryagin.rendezvous.laps.hamiltonian import RunningCost
 from pontryagin.rendezvous.laps.shapes import Shape
 from pontryagin.rendezvous.laps.transcription import Path, refined
+from pontryagin.rendezvous.problem.scaled import Scaled
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.lap_search import ALIKE, LONGER, SHORT
 from pontryagin.rendezvous.reduced.search_log import SearchLog
@@ -46,6 +47,12 @@ def paths_of_free_duration(setting: Setting, log: SearchLog, best: float) -> Ite
     """
     paths = _of_least_time if setting.bang else _of_mixed_cost
     yield from paths(setting, Transfer(setting.scaled), best, log)
+
+
+def least_energy_in_space(scaled: Scaled, duration: float) -> float:
+    """The least energy of a duration that descents from a few shapes lead to; inf if none ends."""
+    found = minima(scaled, duration, shapes(scaled, duration, RISES[:1]), math.inf, [], COARSE, ROUGHLY)
+    return min((Thrust.of(curve).energy for curve in found), default=math.inf)
 
 
 def _curves(setting: Setting, thrust: float, lost: list[Shape]) -> Iterator[tuple[float, list[Curve]]]:

@@ -199,10 +199,11 @@ def _of_fixed_duration(lap: Lap, cost: RunningCost, duration: float, log: Search
     """
     ways = [partial(families.least_energy, lap, duration, families.FINEST)]
     by_way_of = partial(families.least_energy_by_way_of, lap, duration)
-    ways += [partial(by_way_of, share * duration) for share in DETOURS]
-    if lap.inclination > STEEP * INCLINED:
+    steep = lap.inclination > STEEP * INCLINED
+    ways += [partial(by_way_of, share * duration, round_folds=steep) for share in DETOURS]
+    if steep:
         share = INCLINED / lap.inclination
-        ways += [partial(by_way_of, factor * duration, share, CLIMBING) for factor in STEEP_DETOURS]
+        ways += [partial(by_way_of, factor * duration, share, CLIMBING, True) for factor in STEEP_DETOURS]
     known: list[Path] = []
     for way in ways:
         try:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -12,23 +13,25 @@ from pontryagin.rendezvous.laps.equinoctial import laps_of
 from pontryagin.rendezvous.laps.transcription import Path
 from pontryagin.rendezvous.reduced.conditions import Setting
 from pontryagin.rendezvous.reduced.flight import Flight
-from pontryagin.rendezvous.reduced.free_shape_search import paths_of_free_duration
+from pontryagin.rendezvous.reduced.free_shape_search import least_energy_in_space, paths_of_free_duration
 from pontryagin.rendezvous.reduced.lap_search import SAME, cost, extremals_on_laps
 from pontryagin.rendezvous.reduced.search_log import SearchLog
 from pontryagin.rendezvous.reduced.shape_search import paths_of_fixed_duration
 from pontryagin.rendezvous.reduced.shooting import meet
 from pontryagin.rendezvous.root import Root
 
-INCLINED, ECCENTRIC = math.radians(30), 0.3
-"""Inclination and eccentricity from which on extremals of a fixed duration are also sought from shapes."""
+INCLINED, STEEP, ECCENTRIC = math.radians(35), math.radians(66), 0.3
+"""Inclination from which on a few paths in space show whether more are worth while; inclination from which on
+they are always sought, as from this eccentricity on if the duration is fixed."""
 Means = Callable[[Setting, SearchLog, float], Iterator[Root[Flight]]]
 """A search, given the cost of the best extremal known."""
 SAMPLES = 200
 """Times at which the longitude of a flight is evaluated."""
 RADIAL = 0.1
 """Angular momentum, in units of the target's, below which a path between nodes may lose all of it."""
-FREE_INCLINED = math.radians(66)
-"""Inclination from which on extremals of free duration are also sought from shapes, which takes longer."""
+IDLE, LESS = 0.85, 0.97
+"""Root mean square of the thrust of a path in space, in units of p_max, and its cost, in units of that of the
+best extremal of the same duration, below which a better one is likely."""
 
 
 def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
@@ -45,7 +48,7 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
     failure: Infeasible | NotConverged | None = None
     demanding = _demanding(setting)
     for means in _in_order(setting, demanding):
-        if means is not extremals_on_laps and known and not demanding:
+        if known and not demanding and not _improvable(setting, min(known, key=partial(cost, setting))):
             break
         best = min((cost(setting, root) for root in known), default=math.inf)
         try:
@@ -57,6 +60,17 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
             failure = reason
     if failure is not None and not known:
         raise failure
+
+
+def _improvable(setting: Setting, best: Root[Flight]) -> bool:
+    """Whether paths in space of the best extremal's duration need much less thrust, or cost less."""
+    if Transfer(setting.scaled).inclination <= INCLINED:
+        return False
+    duration = best.flight.duration
+    least = least_energy_in_space(setting.scaled, duration)
+    if setting.bang:
+        return least < (IDLE * setting.peak) ** 2 * duration
+    return setting.scaled.weights[0] * duration + least < LESS * cost(setting, best)
 
 
 def _in_order(setting: Setting, demanding: bool) -> tuple[Means, Means]:
@@ -98,7 +112,6 @@ def _lap(setting: Setting, flight: Flight) -> int:
 def _demanding(setting: Setting) -> bool:
     """Whether the search lap by lap may miss good extremals."""
     scaled = setting.scaled
-    inclination = Transfer(scaled).inclination
-    if setting.free:
-        return inclination > FREE_INCLINED
-    return inclination > INCLINED or max(eccentricity(scaled.start), scaled.eccentricity) > ECCENTRIC
+    if Transfer(scaled).inclination > STEEP:
+        return True
+    return not setting.free and max(eccentricity(scaled.start), scaled.eccentricity) > ECCENTRIC

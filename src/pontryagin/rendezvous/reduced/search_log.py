@@ -22,7 +22,8 @@ class Search:
     ends : tuple of str
         Up to which lap extremals were sought in each direction.
     given_up : tuple of str
-        Extremals that could not be reached, and why.
+        Extremals that could not be reached, and why: which walk broke off and where, or what Newton's method
+        met.
     """
 
     durations: tuple[float, ...] = ()

@@ -20,8 +20,10 @@ def solve(problem: Rendezvous, start: Extremal | None = None) -> Extremal:
     The equations solved are (5), (6), (8)-(14), (16) and (17), with the angle about nu* in the place of (15).
     On each lap, which is a number of turns that the craft makes more or fewer than the target, extremals are
     transcribed in equinoctial elements and continued to the bound or to least time; they are the guesses of
-    Newton's method for exact flights. The maximum principle is necessary, not sufficient: the cheapest of the
-    extremals found is returned, and `searched` states where they were sought.
+    Newton's method for exact flights. Where planes are steep, orbits eccentric or no lap has an extremal,
+    paths in space are brought to their least energy, and continued likewise. The maximum principle is
+    necessary, not sufficient: the cheapest of the extremals found is returned, and `searched` states where
+    they were sought.
 
     Parameters
     ----------

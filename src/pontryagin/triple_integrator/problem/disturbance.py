@@ -66,10 +66,14 @@ class OnIntervals:
         return self.panels.integrals(elapsed, self.member)
 
     @property
+    def edges(self) -> Array:
+        """Times at which the function may be not smooth, (..., j)."""
+        return np.asarray(self.panels.clock[self.member[..., 0], 1:-1])
+
+    @property
     def offsets(self) -> Array:
-        """Times since the start at which the function may be not smooth, (..., j)."""
-        clock = self.panels.clock[self.member[..., 0]]
-        return np.asarray(clock[..., 1:-1] - clock[..., :1])
+        """The edges as times since the start, (..., j)."""
+        return np.asarray(self.edges - self.panels.clock[self.member[..., 0], :1])
 
 
 def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLike = ()) -> Integrals:
@@ -107,23 +111,27 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
         return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
     if isinstance(disturbance, FromStart) and (start == disturbance.start).all():
         disturbance = disturbance.from_start()
-        start, end, told = np.zeros_like(start), end - start, np.empty(0)
-    own = np.asarray(getattr(disturbance, "edges", ()), dtype=float).ravel()
+        told = told - np.asarray(start)[..., None]
+        start, end = np.zeros_like(start), end - start
+    own = getattr(disturbance, "edges", ())
+    own = finite("disturbance", own, "a function of time whose edges are times").ravel()
     clock, member = _intervals(start, end, _with(told, own))
     return _tabulated(Panels(lambda _, time: values(disturbance, time), clock), member)
 
 
-def from_start(disturbance: Any, start: float) -> Any:
-    """A disturbance as that of the time since the start."""
+def from_start(disturbance: Any, start: float, edges: Array) -> Any:
+    """A disturbance as that of the time since the start; its edges (j,) are not crossed by rounding."""
     if isinstance(disturbance, FromStart) and start == disturbance.start:
         return disturbance.from_start()
     if callable(disturbance) or hasattr(disturbance, "free_symbols"):
-        return partial(_later, function_of(disturbance), start)
+        return partial(_later, function_of(disturbance), start, np.concatenate([[-np.inf], edges, [np.inf]]))
     return disturbance
 
 
-def _later(function: Callable[[Array], Array], start: float, elapsed: Array) -> Array:
-    return function(start + elapsed)
+def _later(function: Callable[[Array], Array], start: float, edges: Array, elapsed: Array) -> Array:
+    after = np.clip(np.searchsorted(edges - start, elapsed, side="right"), 1, edges.size - 1)
+    within = np.nextafter(edges[after - 1], np.inf), np.nextafter(edges[after], -np.inf)
+    return function(np.clip(start + elapsed, *within))
 
 
 def function_of(disturbance: Any) -> Callable[[Any], Array]:

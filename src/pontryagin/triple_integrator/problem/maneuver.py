@@ -208,7 +208,9 @@ class Maneuver(Packed):
         moved.__dict__.update(
             t0=np.zeros(()),
             tf=self.duration,
-            disturbance=from_start(self.disturbance, float(self.t0)),
+            disturbance=from_start(
+                self.disturbance, float(self.t0), getattr(self._integrals, "edges", np.empty(0))
+            ),
             edges=self.edges - self.t0,
             _integrals=self._integrals,
             moments=self.moments,

@@ -2,12 +2,16 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import ulp
 from typing import Any
 
 import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.triple_integrator.problem.zeros import numeric
+
+ULPS = 4
+"""Zeros so near to an end are at it."""
 
 INSIDE = 0.43301270189
 """Share of a piece at which it is tried: an irrational one, where no user puts a zero."""
@@ -45,8 +49,22 @@ class AnalyticPiece:
         arguments = (np.array([x]) for x in (time, *(self.values[name] for name in names)))
         return float(numeric(expression, *names)(*arguments)[0])
 
+    @property
+    def reach(self) -> tuple[float, float]:
+        """The ends, moved outwards by their rounding."""
+        return self.low - ULPS * ulp(self.low), self.high + ULPS * ulp(self.high)
+
+    def begins_at(self, times: Array) -> bool:
+        """Whether one of the times (k,) is the start, but for rounding."""
+        return bool((np.abs(times - self.low) <= ULPS * ulp(self.low)).any())
+
+    def ends_at(self, times: Array) -> bool:
+        """Whether one of the times (k,) is the end, but for rounding."""
+        return bool((np.abs(times - self.high) <= ULPS * ulp(self.high)).any())
+
     def parts(self, cuts: Array) -> Iterator["AnalyticPiece"]:
         """The piece cut at those of the times (k,), ascending, that lie inside."""
-        inner = cuts[(cuts > self.low) & (cuts < self.high)].tolist()
+        first, last = self.low + ULPS * ulp(self.low), self.high - ULPS * ulp(self.high)
+        inner = cuts[(cuts > first) & (cuts < last)].tolist()
         for low, high in zip([self.low, *inner], [*inner, self.high], strict=True):
             yield replace(self, low=low, high=high)

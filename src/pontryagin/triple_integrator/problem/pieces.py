@@ -38,18 +38,25 @@ def pieces(
             raise ArgumentValueError(
                 f"disturbance must be a function of time without impulses, got {expression}", "disturbance"
             )
-    known: dict[Any, Array] = {}
+    known: dict[Any, Any] = {}
     rests: dict[float, float] = {}
     symbols: dict[Any, Any] = {}
 
     def zeros_of(g: Any, piece: AnalyticPiece) -> Array:
-        """The zeros of g in a piece, its ends included."""
+        """The zeros of g in a piece and at its ends."""
+        first, last = piece.reach
+        ends = (np.array([first]), np.array([last]))
         if piece.values.keys() & g.free_symbols:
-            ends = (np.array([piece.low]), np.array([piece.high]))
             return zeros(g.xreplace({s: sp.Rational(v) for s, v in piece.values.items()}), *ends, rests)
         if g not in known:
-            known[g] = zeros(g, low, high, rests)
-        return known[g][slice(*np.searchsorted(known[g], [piece.low, np.nextafter(piece.high, np.inf)]))]
+            try:
+                known[g] = zeros(g, low, high, rests)
+            except ArgumentValueError:  # Beyond the piece it may have zeros without end.
+                known[g] = None
+        if known[g] is None:
+            return zeros(g, *ends, rests)
+        found: Array = known[g]
+        return found[slice(*np.searchsorted(found, [first, np.nextafter(last, np.inf)]))]
 
     def cuts_of(deciding: list[Any], piece: AnalyticPiece) -> Array:
         return np.unique(np.concatenate([np.empty(0), *(zeros_of(g, piece) for g in deciding)]))
@@ -89,7 +96,7 @@ def _between_singularities(
         value = piece.at(place, piece.expression)
         if np.isinf(value):
             raise ArgumentValueError(f"disturbance must be finite: f({place:.6g}) = {value}", "disturbance")
-    return [replace(x, singular=(x.low in cuts, x.high in cuts)) for x in piece.parts(cuts)]
+    return [replace(x, singular=(x.begins_at(cuts), x.ends_at(cuts))) for x in piece.parts(cuts)]
 
 
 def _bases(node: Any) -> list[tuple[Any, bool]]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from pontryagin.arrays import Array
 from pontryagin.errors import ArgumentTypeError, ArgumentValueError
+from pontryagin.validation import require_bare
 
 
 def values(function: Callable[[Any], Any], t: Array) -> Array:
@@ -57,7 +58,8 @@ def _at(function: Callable[[Any], Any], time: float) -> float:
 
 
 def _real(value: object) -> Array:
+    require_bare("disturbance", value, "a function of time that returns numbers")
     array = np.asarray(value)
-    if array.dtype.kind in "cUS":
+    if array.dtype.kind not in "fiubO":
         raise TypeError(f"got {value!r}")
     return array.astype(float)
