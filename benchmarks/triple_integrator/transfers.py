@@ -48,7 +48,7 @@ def by_pontryagin(work: Transfers) -> Answers:
     """Our answers, computed one by one; nan where the solver did not converge."""
     columns = [x[:, i] for x in (work.x0, work.xf) for i in range(3)]
     result = least_time.solve_stack(*columns, work.force, work.peak)
-    returned = result[:, 0] < least_time.NEVER
+    returned = np.isfinite(result[:, 0])
     duration = np.where(returned, result[:, 0], np.nan)
     pieces = propagation.bang_bang_pieces(duration, result[:, 2:4], result[:, 1])
     return Answers(returned, duration, propagation.miss(work.x0, work.xf, *pieces, force=work.force))

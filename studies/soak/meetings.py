@@ -22,7 +22,7 @@ WANTED = 150
 """Meetings of each kind; a chunk is one of them."""
 PATIENCE = 300.0
 """Seconds of processor time after which a search counts as one that does not end."""
-ALLOWED = 1e-6
+ALLOWED = cartesian.ENOUGH
 """Largest disagreement that is no failure: the spline of the thrust has such errors."""
 DIRECTLY = 15
 """Every so many meetings are sought by the direct method too."""

@@ -50,7 +50,9 @@ def _worst(found: Sequence[Found], name: str) -> dict[str, Any] | None:
 
 
 def _digit(case: dict[str, Any] | None) -> str:
-    return f"{case['value']:.0e}" if case else ""
+    if case is None or case["value"] == 0:
+        return "" if case is None else "0"
+    return f"{case['value']:.0e}"
 
 
 STUDY = Study(

@@ -95,7 +95,7 @@ def test_without_the_peer_nothing_is_compared_and_the_table_says_so(monkeypatch)
 
 
 @pytest.mark.slow
-def test_a_wrong_averaged_extremal_and_a_wrong_meeting_are_found():
+def test_a_wrong_averaged_extremal_and_a_wrong_meeting_are_found(monkeypatch):
     problem = systems.drawn(np.random.default_rng([5, 1]))
     solution = solve_averaged(problem.system(), problem.start)
     assert averaged.disagreement(problem, solution) < 1e-9
@@ -109,6 +109,9 @@ def test_a_wrong_averaged_extremal_and_a_wrong_meeting_are_found():
         given = meetings.drawn(np.random.default_rng([7, 23]), 23, free)
         best = solve(meetings.problem_of(given))
         assert cartesian.disagreement(best) < 1e-9
+        if free:
+            monkeypatch.setattr(cartesian, "SAMPLES", (40, *cartesian.SAMPLES))
+            assert cartesian.disagreement_at(best, 40) > meetings.ALLOWED > cartesian.disagreement(best)
         turned = Forged(best, control=lambda t, best=best: best.control(t) * [1, 1 + 1e-4, 1])
         assert cartesian.disagreement(turned) > meetings.ALLOWED
 

@@ -103,6 +103,21 @@ def test_an_extremal_that_ends_shortly_after_the_start_is_found(v1, ripple, epsi
     assert kinds == [("minimum", "maximum")[i % 2] for i in range(len(found))]
 
 
+@pytest.mark.parametrize(
+    ("v1", "k", "ripple", "epsilon", "phase"),
+    [
+        (0.869, 2.99, 0.571, 1.0368, 0.0384),
+        (0.709, 1.85, 0.489, 0.649, -2.459),
+        (0.9667, 0.477, 0.268, 1.125, -0.253),
+    ],
+)
+def test_a_family_may_begin_closer_to_the_start_than_its_members_are_apart(v1, k, ripple, epsilon, phase):
+    found = smooth_example(1.0, v1, k, ripple).exact(epsilon, phase=phase)
+    kinds = [one.kind for one in sorted(found, key=lambda one: one.ending_anomaly)]
+    assert kinds == [("minimum", "maximum")[i % 2] for i in range(len(found))]
+    assert all(one.certificate.holds(1e-9) for one in found)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("semiaxes", "ratio", "epsilon", "phase"),

@@ -98,6 +98,14 @@ def test_steps_between_the_times_of_the_clock_keep_their_digits():
     assert_allclose(moment(pulse), 1e-9, rtol=1e-13)
 
 
+@pytest.mark.parametrize(("start", "atol"), [(0, 1e-14), (10**3, 1e-14), (10**6, 1e-13), (10**9, 1e-9)])
+def test_a_kink_and_a_bump_far_from_zero(start, atol):
+    """Values are those at the times of the clock, but the kink's time is known exactly."""
+    bump = sp.exp(-(((t - start - R(2657, 2500)) * 1000) ** 2))
+    m = of(bump + sp.Heaviside(t - start - R(1, 3)), start + 2.0, float(start))
+    assert_allclose(-m.moments[1], 5 / 3 + 1e-3 * np.sqrt(np.pi), rtol=0, atol=atol)
+
+
 @pytest.mark.parametrize(
     ("force", "error", "message"),
     [

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pontryagin.arrays import Array
 from pontryagin.averaging.exact.beginning import broken, from_the_start
@@ -124,10 +125,11 @@ def _first_turn(problem: Shooting, theta: float, unknowns: Array) -> tuple[Turn,
 
 
 def _angles(problem: Shooting, theta: float, size: int, turn: int) -> Array:
-    """Anomalies after the start for the members of a turn; turn 0 is the one about theta."""
+    """Anomalies after the start for the members of a turn; turn 0 is about theta and has it."""
     step = 2 * np.pi / size
     angles: Array = theta + 2 * np.pi * turn + step * np.arange(-size // 2, size // 2, dtype=float)
-    return angles[angles > problem.anomaly + step / 2]
+    own: NDArray[np.bool_] = (angles == theta) & (theta > problem.anomaly)
+    return angles[(angles > problem.anomaly + step / 2) | own]
 
 
 def _turn_about(problem: Shooting, theta: float, unknowns: Array, angles: Array, below: str) -> Turn:

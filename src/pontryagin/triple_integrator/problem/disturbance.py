@@ -111,7 +111,8 @@ def integrals(disturbance: Disturbance, start: Array, end: Array, edges: ArrayLi
         return _constant(finite("disturbance", disturbance, takes))  # type: ignore[arg-type]
     if isinstance(disturbance, FromStart) and (start == disturbance.start).all():
         disturbance = disturbance.from_start()
-        start, end, told = np.zeros_like(start), end - start, np.empty(0)
+        told = told - np.asarray(start)[..., None]
+        start, end = np.zeros_like(start), end - start
     own = getattr(disturbance, "edges", ())
     own = finite("disturbance", own, "a function of time whose edges are times").ravel()
     clock, member = _intervals(start, end, _with(told, own))

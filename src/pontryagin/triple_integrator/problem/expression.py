@@ -53,6 +53,9 @@ SLIVER = 1e-7
 NARROW = 1e-2
 """Ends of stretches up to this share of their interval are known better than the clock tells."""
 
+RESOLVED = 2e-15
+"""So are those that exceed the time of the clock by more than this share of the stretches."""
+
 APART = 10.0
 """Intervals whose gap is more than so many times the length of those before it are treated apart."""
 
@@ -240,17 +243,22 @@ class Analytic:
         return value, clock, proof, self._rests(clock)
 
     def _rests(self, clock: Array) -> Array:
-        """By how much the true ends of narrow stretches exceed those of the clock, (m, k + 2)."""
+        """By how much the true ends of stretches exceed those of the clock, (m, k + 2).
+
+        That is left out where it is lost in the rounding of times within both stretches that meet there.
+        """
         if not self.edges.size:
             return np.zeros(clock.shape)
         at = np.minimum(np.searchsorted(self.edges, clock), self.edges.size - 1) + 1
         width = np.diff(clock, axis=1)
-        narrow = (width > 0) & (width <= NARROW * (clock[:, -1:] - clock[:, :1]))
-        beside = np.zeros(clock.shape, dtype=bool)
-        beside[:, :-1] |= narrow
-        beside[:, 1:] |= narrow
+        share = np.where(width > 0, width, np.inf) / (clock[:, -1:] - clock[:, :1])
+        least, most = np.full(clock.shape, np.inf), np.zeros(clock.shape)
+        for side in (slice(None, -1), slice(1, None)):
+            least[:, side] = np.minimum(least[:, side], share)
+            most[:, side] = np.maximum(most[:, side], width)
         inside = (clock > clock[:, :1]) & (clock < clock[:, -1:])
-        return np.where(beside & inside & (self.starts[at] == clock), self.rests[at], 0.0)
+        kept = inside & ((least <= NARROW) | (np.abs(self.rests[at]) > RESOLVED * most))
+        return np.where(kept & (self.starts[at] == clock), self.rests[at], 0.0)
 
     def _each(self, piece: NDArray[np.intp], function: Callable[..., Array], *given: Array) -> Array:
         """A function of forms, arrays (k,) and parameters for pieces (k,)."""

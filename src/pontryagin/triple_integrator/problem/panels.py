@@ -265,7 +265,8 @@ class Panels:
         names = ("stretch", "low", "high", "coefficients")
         stretch, low, high, coefficients = (table[name][order] for name in names)
         owner, width = self._member(stretch), np.asarray(high - low)
-        left = low + (self.clock[:, :-1] - self.clock[:, :1]).ravel()[stretch]
+        begin = self.clock[:, :-1] - self.clock[:, :1]
+        left = low + (begin if self.rest is None else begin + self.rest[:, :-1]).ravel()[stretch]
         first = np.searchsorted(owner, np.arange(len(self.clock) + 1))
         return first, left, width, running_integrals(first, owner, width, coefficients), coefficients
 
