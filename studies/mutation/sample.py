@@ -1,5 +1,6 @@
 """The mutants of a checkout's modules in the order of a sample, and what the tests say of each."""
 
+import ast
 import atexit
 import hashlib
 from collections.abc import Sequence
@@ -84,7 +85,7 @@ class Sample:
         -------
         mapping
             The mutant, the ``outcome``, the test ``by`` which it was killed, and a hash of the ``tests`` that
-            the outcome depends on: of the file of that test, or of all tests that may reach the module.
+            the outcome depends on: of that test, or of all files of tests that may reach the module.
         """
         mutant = self.order(module)[number]
         if module not in self._tests:
@@ -109,11 +110,22 @@ class Sample:
     def _hash_of_tests(self, module: str, outcome: str, by: str) -> str:
         if outcome in {SURVIVED, UNREACHED}:
             if module not in self._hashes:
-                self._hashes[module] = _hash(*self.reach.candidates(module))
+                self._hashes[module] = _digest(*(path.read_bytes() for path in self.reach.candidates(module)))
             return self._hashes[module]
-        path = self.root / by.partition("::")[0]
-        return _hash(path) if path.is_file() else ""
+        place, _, test = by.partition("::")
+        path = self.root / place
+        return _digest(_source(path, test)) if path.is_file() else ""
 
 
-def _hash(*paths: Path) -> str:
-    return hashlib.sha256(b"\0".join(path.read_bytes() for path in paths)).hexdigest()[:12]
+def _source(path: Path, test: str) -> bytes:
+    """The text of a test, by its name without parameters; of the whole file, where there is no such test."""
+    text = path.read_text(encoding="utf-8")
+    name = test.partition("[")[0].rpartition("::")[2]
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            return ast.unparse(node).encode()
+    return text.encode()
+
+
+def _digest(*texts: bytes) -> str:
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()[:12]

@@ -36,7 +36,7 @@ MEMORY = 8 << 30
 """Bytes that a fork may ask for; more is a `MemoryError` in its tests."""
 WALL = 10
 """A fork that sleeps ends after so many times its processor time."""
-SLOW = 30
+SLOW = 10
 """Seconds after which a test is left out: its kernels need their native code."""
 ALL = "*"
 """Stands for every test of a file: what a fixture of the file does is done for all of them."""

@@ -126,4 +126,5 @@ def _progress(verbose: bool) -> "Progress":
     from rich.console import Console
     from rich.progress import Progress
 
-    return Progress(console=Console(stderr=True), disable=not verbose)
+    console = Console(stderr=True, quiet=not verbose)  # Rich before 15 ends a disabled bar by a line.
+    return Progress(console=console, disable=not verbose)

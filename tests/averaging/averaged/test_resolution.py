@@ -157,6 +157,12 @@ def test_narrow_features_of_a_rotor_are_averaged(quantity):
     push = (sp.lambdify(x, 1 + force + 0 * x, "numpy")(angle) * np.ones(angle.shape)) @ share
     expected = sum(w * (pace(4 + s, angle) @ share) / push for s, w in zip(node, weight, strict=True))
     assert float(solution.duration) == pytest.approx(expected, rel=1e-11)
+    assert solution.certificate.unresolved == 0
+
+
+def test_a_speed_that_is_least_at_an_end_of_the_way_is_shown_to_be_positive():
+    bumpy = rotor(2.0, 5.0, mass=1, potential=sp.cos(x) + peak(10**5), force=0, k=1.0)
+    assert bumpy.certificate.unresolved == 0
 
 
 def test_the_correction_of_a_narrow_feature_of_the_phase_is_refused():

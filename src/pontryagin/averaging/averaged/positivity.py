@@ -43,7 +43,8 @@ def undecided(problem: Problem, path: Trajectories, names: Sequence[str], member
         _require_not_negative(problem, path, bounds, boxes, names, members)
         by_turn = np.zeros(len(boxes.left), bool)
         if bounds.turning_signs:
-            by_turn = ~_positive(problem, path, bounds, boxes, 0.0)
+            wide = (boxes.right - boxes.left) / (2 * np.pi) > boxes.cells.lengths
+            by_turn = wide | ~_positive(problem, path, bounds, boxes, 0.0)
         member = boxes.cells.member
         length = np.where(by_turn, (boxes.right - boxes.left) / (2 * np.pi), boxes.cells.lengths)
         used += np.bincount(member, minlength=len(used))

@@ -39,6 +39,11 @@ Derivatives across the trajectory are bounded with it, also where a variable doe
 """
 MOST_BOXES = 400
 """Number of boxes of one trajectory at which the division ends."""
+LONGISH = 8.0
+"""A box so many times longer in the anomaly than in slow time, as shares, is halved in the anomaly.
+
+What is bounded in the middle of a cell need not be at its end, however short the cell is.
+"""
 SHORTEST = 2.0**-20
 """Shortest cell, as a share of the way or of a turn."""
 IDLE = 1e-9
@@ -111,7 +116,8 @@ def resolution(problem: Problem, path: Trajectories) -> Resolution:
         boxes, member = boxes[bad], member[bad]
         by_turn = np.zeros(len(member), bool)
         if bounds.turning:
-            by_turn = ~search.bounded(cells, boxes, 0.0)
+            wide = (boxes.right - boxes.left) / (2 * np.pi) > LONGISH * cells.lengths[boxes.cell]
+            by_turn = wide | ~search.bounded(cells, boxes, 0.0)
         length = np.where(by_turn, (boxes.right - boxes.left) / (2 * np.pi), cells.lengths[boxes.cell])
         used += np.bincount(member, minlength=stack)
         lost = (length <= SHORTEST) | (used[member] > MOST_BOXES)

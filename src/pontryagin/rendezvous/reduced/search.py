@@ -48,7 +48,7 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
     failure: Infeasible | NotConverged | None = None
     demanding = _demanding(setting)
     for means in _in_order(setting, demanding):
-        if known and not demanding and not _improvable(setting, min(known, key=partial(cost, setting))):
+        if known and not demanding and not _improvable(setting, known):
             break
         best = min((cost(setting, root) for root in known), default=math.inf)
         try:
@@ -62,10 +62,11 @@ def extremals(setting: Setting, log: SearchLog) -> Iterator[Root[Flight]]:
         raise failure
 
 
-def _improvable(setting: Setting, best: Root[Flight]) -> bool:
+def _improvable(setting: Setting, known: list[Root[Flight]]) -> bool:
     """Whether paths in space of the best extremal's duration need much less thrust, or cost less."""
     if Transfer(setting.scaled).inclination <= INCLINED:
         return False
+    best = min(known, key=partial(cost, setting))
     duration = best.flight.duration
     least = least_energy_in_space(setting.scaled, duration)
     if setting.bang:
