@@ -48,7 +48,7 @@ reveal_type(av.solve_averaged(system, [1.5]))  # AveragedSolution
 a = av.smooth_example(1.0, 0.5)
 reveal_type(a.exact(0.1))  # Extremals
 reveal_type(a.exact(0.1)[0].kind)  # str
-reveal_type(a.certificate)  # MaximumPrinciple
+reveal_type(a.certificate)  # AveragedCertificate
 
 target = rv.Orbit(1.5, 0.1, [1, 0, 0, 0], 0.6)
 reveal_type(target)  # Orbit

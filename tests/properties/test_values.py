@@ -111,6 +111,7 @@ MADE = {
     "AveragedSolution of a system": lambda: averaging.solve_averaged(
         pushed(averaging.Custom(diamond)), [0.5]
     ),
+    "AveragedCertificate": lambda: solved("AveragedSolution").certificate,
     "Extremals of averaging": lambda: averaging.smooth_example(1.0, 0.5).exact(0.1),
     "Extremal of averaging": lambda: solved("Extremals of averaging")[0],
     "Orbit": lambda: TARGET,

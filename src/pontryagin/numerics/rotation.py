@@ -86,7 +86,7 @@ def within_a_turn(angle: ArrayLike) -> Array:
     Examples
     --------
     >>> within_a_turn([3.0, 1e15]).round(9).tolist()
-    [3.0, 2.107981379]
+    [3.0, 2.109698117]
     """
     given = np.asarray(angle, dtype=float)
     reduced = np.arctan2(np.sin(given), np.cos(given))

@@ -61,6 +61,13 @@ def certify(
 
     Parameters
     ----------
+    problem : Problem
+    path : Trajectories
+        The extremals (s).
+    names : sequence of str
+        Names of the slow variables, for errors.
+    members : (s) array of int
+        Places of the problems in the whole stack, for errors.
     edges : tuple of float
         Ends of the cells of tau / duration on each of which the residuals are taken.
 

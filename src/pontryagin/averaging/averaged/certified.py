@@ -85,6 +85,11 @@ def certified(
 
     Parameters
     ----------
+    problem : Problem
+    path : Trajectories
+        The trajectories (s).
+    names : sequence of str
+        Names of the slow variables, for errors.
     members : (s) array of int
         Places of the problems in the whole stack, for errors.
     rounds : int

@@ -83,12 +83,17 @@ def heeding(
 
     Parameters
     ----------
+    problem : Problem
     path : Trajectories
         The extremal that misses them.
     edges : tuple of float
         Ends of the cells of tau / duration on which the residuals were taken.
     rough : (cells) array
         These residuals.
+    names : sequence of str
+        Names of the slow variables, for errors.
+    member : int
+        Place of the problem in the whole stack, for errors.
 
     Raises
     ------

@@ -106,11 +106,11 @@ class Rendezvous:
             scaled = self.scaled
             r, v1, c = scaled.start.tolist()
             units = [scaled.time, scaled.acceleration, scaled.value, r, c]
-            units += [v1] if self.chaser.v1 else []
             units += [] if scaled.duration is None else [scaled.duration]
             units += [] if self.peak == math.inf else [scaled.peak]
             units += [scaled.ratio] if self.time_weight and self.energy_weight else []
-            sound = all(TINY <= abs(x) < math.inf for x in units)
+            # A radial speed that underflows is nothing beside c/r, which is at least 1e-154.
+            sound = all(TINY <= abs(x) < math.inf for x in units) and abs(v1) < math.inf
         except (OverflowError, ZeroDivisionError):
             sound = False
         if not sound:
