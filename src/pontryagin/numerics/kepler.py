@@ -18,6 +18,9 @@ FULL_TURN = 2 * np.pi
 ITERATIONS = 100
 """Largest number of Newton steps; a few are needed, or some dozens as e comes close to 1."""
 
+ROUND = 0.9
+"""Eccentricity up to which E - e sin E loses at most a digit and is computed as it stands."""
+
 
 def eccentric_anomaly(mean: ArrayLike, eccentricity: ArrayLike) -> Array:
     """E that solves M = E - e sin E, by Newton's method from the side on which it converges monotonically.
@@ -46,6 +49,8 @@ def eccentric_anomaly(mean: ArrayLike, eccentricity: ArrayLike) -> Array:
 def mean_anomaly(eccentric: ArrayLike, eccentricity: ArrayLike) -> Array:
     """M = E - e sin E."""
     E, e = np.asarray(eccentric, dtype=float), np.asarray(eccentricity, dtype=float)
+    if np.all(e <= ROUND):
+        return np.asarray(E - e * np.sin(E))
     return np.asarray((1 - e) * E + e * _less_its_sine(E))
 
 
