@@ -128,3 +128,13 @@ def test_problems_without_an_extremal_on_any_lap_are_solved(seed):
 def test_descents_find_what_the_laps_miss(seed, cost):
     found = solve(random_problem(seed))
     assert found.cost == pytest.approx(cost, abs=1e-5) and found.certificate.holds(1e-9)
+
+
+@pytest.mark.slow
+def test_least_time_is_found_where_a_lap_opens():
+    """A longer duration needs much less thrust than the ones before; 4.21775 is also met in the elements."""
+    craft = Chaser(1.0, 0.0, 1.0, [-0.5943884660190438, 0, 0, 0.8041780595511967])
+    attitude = [-0.7638871971162817, -0.038797672240023354, 0.09327543603639739, 0.6373937430998259]
+    target = Orbit(1.721008309359351, 0.02766577934282216, attitude, 3.700902534648717)
+    found = solve(Rendezvous(craft, target, peak=0.3932559370226493))
+    assert found.cost == pytest.approx(4.21775104, abs=1e-7) and found.certificate.holds(1e-9)

@@ -68,13 +68,20 @@ def _curves(setting: Setting, thrust: float, lost: list[Shape]) -> Iterator[tupl
 
 
 def _of_least_time(setting: Setting, transfer: Transfer, best: float, log: SearchLog) -> Iterator[Path]:
-    """Transcribed extremals of least time."""
+    """Transcribed extremals of least time.
+
+    A longer duration may suddenly need little thrust, where a lap opens. From the first one that needs no
+    more than the bound, least time is therefore sought even if its thrust is far below the bound.
+    """
     known: list[float] = []
+    reached = False
     lost: list[Shape] = []
     for duration, curves in _curves(setting, setting.peak, lost):
         means = [math.sqrt(Thrust.of(curve).energy / duration) / setting.peak for curve in curves]
+        slowest = SLOWEST if reached else 0.0
+        reached = reached or min(means, default=math.inf) < 1
         for mean, curve in zip(means[:EACH], curves, strict=False):
-            if not SLOWEST < mean < 1:
+            if not slowest < mean < 1:
                 continue
             log.durations.append(duration)
             try:
